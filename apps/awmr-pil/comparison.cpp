@@ -111,7 +111,8 @@ std::vector<Sample> samples_of(const std::vector<Row>& rows, Of of) {
 double Difference::largest() const {
   double largest = 0.0;
   for (const auto& [name, value] : signals) {
-    // One bound holds for all signals, in SI units. heading_deg is psi_rad in degrees.
+    // Skips heading_deg, which repeats psi_rad in degrees: the result is compared with one bound in
+    // SI units.
     if (name != "heading_deg") largest = std::max(largest, value);
   }
   return largest;

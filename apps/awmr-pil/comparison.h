@@ -16,8 +16,10 @@ struct Difference {
   std::vector<std::pair<std::string, double>> signals;
   bool same_length = true;  ///< both runs have the same number of rows
 
-  double largest() const;  ///< over all signals in SI units, that is, without heading_deg
-  double of(const std::string& signal) const;  ///< infinite for an unknown signal
+  double largest() const;  ///< largest difference of all signals in SI units, that is, without
+                           ///< heading_deg
+  double of(const std::string& signal) const;  ///< difference of one signal; infinite for an
+                                               ///< unknown signal
 };
 
 /// Compares two runs of run_loop(): the vehicle's state, and the outputs of the control step as the
@@ -29,7 +31,8 @@ Difference difference(const std::vector<LoopRow>& a, const Run& b);
 
 /// Largest distance of a heading in `a` from the range of the headings in `b` at the previous, the
 /// same and the next sample, deg, >= 0; infinite if a heading is not finite. The neighbouring
-/// samples count because rounding may let one run turn to its next leg one sample earlier.
+/// samples are included because, by rounding, one run may start to turn one sample before the
+/// other.
 double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b);
 
 /// Clock cycles of a control step: least, mean and most of a run.
@@ -38,7 +41,8 @@ struct Cycles {
   double mean = 0.0;
   unsigned max = 0;
 };
-/// Rows without a number of cycles (on the host) do not count.
+/// Returns the least, mean and largest cycles of the rows. Rows without cycles (steps on the host)
+/// are ignored.
 Cycles cycles_of(const std::vector<LoopRow>& rows);
 
 }  // namespace awmr::pil

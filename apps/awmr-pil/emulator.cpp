@@ -34,7 +34,9 @@ Result<std::unique_ptr<Emulator>> Emulator::load(const std::filesystem::path& el
   avr_global_logger_set(no_log);
   elf_firmware_t firmware{};
   if (elf_read_firmware(elf.c_str(), &firmware) != 0) {
-    return input_error(ErrorCode::kWrongFile, elf.string(), "is not a firmware for an AVR");
+    return input_error(
+        ErrorCode::kWrongFile, elf.string(),
+        "is not AVR firmware in ELF format; give pil_uart.elf of awmr pil --build-dir");
   }
   std::unique_ptr<Emulator> emulator(new Emulator);
   emulator->avr_ = avr_make_mcu_by_name("atmega2560");
@@ -105,7 +107,8 @@ Status Emulator::run_once() {
   if (state == cpu_Done || state == cpu_Crashed) {
     return program_fault(fmt::format("the emulated chip stopped at address {:#x}", avr_->pc));
   }
-  // Woken by an interrupt: the program counter is at its vector. Vector 0 is the reset.
+  // If an interrupt woke the chip, the program counter is at the vector of the interrupt: one of 57
+  // vectors of 4 bytes, except 0, the reset.
   const bool at_vector = avr_->pc > 0 && avr_->pc < 57 * 4 && avr_->pc % 4 == 0;
   if (was_asleep && at_vector && state == cpu_Running && !asleep_) entered_at_ = avr_->cycle;
   if (asleep_ && at_vector && avr_->state == cpu_Running) entered_at_ = avr_->cycle;

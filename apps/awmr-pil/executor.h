@@ -24,11 +24,11 @@ struct Step {
 class Executor {
  public:
   virtual ~Executor() = default;
-  /// Starts the controller and returns the fault of its start-up check. Errors: the link or the
-  /// chip fails.
+  /// Starts the controller and returns the fault bits of its start-up check; 0 if it found none.
+  /// Errors: the link or the chip fails.
   virtual Result<std::uint8_t> start() = 0;
-  /// Resets the chip during the run. Its guidance then starts again from the first of the same
-  /// points. Errors (input): a real board cannot be reset.
+  /// Resets the chip during the run. After the reset its guidance begins again at the first point
+  /// of its path. Errors (input): the chip is a real board, which the program cannot reset.
   virtual Status reset() = 0;
   /// Follows these points from the next step on, as waypoints or as a line, depending on the
   /// mission. Errors (input): more points than the firmware has room for.
@@ -40,7 +40,7 @@ class Executor {
 struct ChipFigures {
   unsigned flash_bytes = 0;
   unsigned ram_bytes = 0;
-  std::optional<unsigned> stack_bytes = {};  ///< unknown for a real board
+  std::optional<unsigned> stack_bytes = {};  ///< largest use of the stack; unknown for a real board
   std::optional<std::size_t> repeats = {};   ///< requests sent again; absent without a serial line
 };
 

@@ -109,7 +109,7 @@ Result<fs::path> build_firmware(const fs::path& directory, const std::vector<Emi
   AWMR_ASSIGN_OR_RETURN(const ProgramEnd built, run_program(call));
   if (built.timed_out) {
     return program_fault(
-        fmt::format("{} did not end within {} s", compiler->string(), kTimeLimit_s));
+        fmt::format("the compiler {} did not end within {} s", compiler->string(), kTimeLimit_s));
   }
   if (built.exit_code != 0) {
     return program_fault(fmt::format("the firmware does not compile:\n{}", built.output));
@@ -120,7 +120,8 @@ Result<fs::path> build_firmware(const fs::path& directory, const std::vector<Emi
 Status prepare_to_keep(const fs::path& kept) {
   const std::string name = kept.string();
   if (name.empty()) {
-    return input_error(ErrorCode::kBadName, "--build-dir", "the folder's name is empty: give one");
+    return input_error(ErrorCode::kBadName, "--build-dir",
+                       "the name of the folder is empty: give the folder for the firmware");
   }
   if (name.starts_with('-')) {
     return input_error(

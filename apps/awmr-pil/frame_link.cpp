@@ -8,11 +8,11 @@
 namespace awmr::pil {
 namespace {
 
-/// How often one request is sent at most. If one bit in a thousand is damaged, 40 % of the attempts
-/// succeed, and 40 attempts in a row fail with a probability of 1e-9.
+/// Maximum number of times that one request is sent. If one bit in a thousand is damaged, 40 % of
+/// the attempts succeed, and 40 attempts in a row fail with a probability of 1e-9.
 constexpr int kAttempts = 40;
-/// The same for the start request. Fewer attempts are enough because it is short, and waiting is in
-/// vain if no board is connected.
+/// Maximum number of times that the start request is sent. It is short, so fewer attempts suffice,
+/// and a missing board is reported sooner.
 constexpr int kStartAttempts = 10;
 
 /// Encodes a request as a frame.
@@ -46,7 +46,8 @@ class FrameLink : public Chip {
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     if (writer.bytes().size() > 4 + 16 * 8) {
       return input_error(ErrorCode::kTooLarge, "",
-                         fmt::format("the firmware has room for 16 waypoints, found {}; use fewer",
+                         fmt::format("the firmware stores at most 16 waypoints, found {}; use "
+                                     "fewer",
                                      points.points_m.size()));
     }
     return ask(::pil::kFollow, writer.bytes(), 0);
@@ -98,7 +99,7 @@ class FrameLink : public Chip {
     return type == ::pil::kHello ? kStartAttempts : kAttempts;
   }
 
-  /// As exchange(), but no answer is an error (refused).
+  /// As exchange(), but returns an error (refused) if no attempt is answered.
   Status ask(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
     if (answered) return {};
@@ -135,8 +136,8 @@ class FrameLink : public Chip {
       if (reader_.type() != type || reader_.sequence() != sequence_) continue;
       if (reader_.length() == length) return true;
       return program_fault(
-          fmt::format("the chip answered with {} bytes, a wrong length, to a "
-                      "request of type '{}'",
+          fmt::format("the chip answered with {} bytes, which is a wrong length for a request of "
+                      "type '{}'",
                       reader_.length(), static_cast<char>(type)));
     }
   }

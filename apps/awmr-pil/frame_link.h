@@ -19,7 +19,8 @@ class Line {
  public:
   virtual ~Line() = default;
   virtual Status open() = 0;
-  /// Resets the chip at the other end. Errors (input): this line cannot (a real board).
+  /// Resets the chip at the other end. Errors (input): the chip is a real board, which the program
+  /// cannot reset.
   virtual Status reset() = 0;
   virtual Status send(std::span<const std::uint8_t> bytes) = 0;
   /// Returns the next byte; none if the line stays silent. Errors: the chip or the line is gone.

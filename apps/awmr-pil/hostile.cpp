@@ -150,7 +150,8 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
     Attack best;
     best.input.mode = mode;
     if (!mission.points.points_m.empty()) {
-      // Without optional parts the firmware has room for more points than the mission has.
+      // Firmware without optional parts stores up to kMaxPoints points; with optional parts, only
+      // as many as the mission has.
       best.points.points_m.resize(parts_of(mission).empty() ? kMaxPoints
                                                             : mission.points.points_m.size());
       if (!mission.line) best.points.acceptance_m = kAcceptance_m;

@@ -9,9 +9,9 @@ namespace {
 
 using cli::Injection;
 
-// Faults of the autopilot after the sketches' checks reject a heading (or speed) sensor. The
-// reading becomes stale. The vehicle is also disarmed, so its commands time out. Either fault may
-// come first.
+// Fault bits of the autopilot after the checks of the sketches have rejected a heading (or speed)
+// sensor. The last accepted reading becomes too old. The vehicle is also disarmed, so its commands
+// time out. Either fault may come first.
 constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
 constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
 
@@ -52,8 +52,8 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kGpsRepeated, Duration::kFromTheMiddle, kSpeed, kGpsRepeated, kSensorGood, 1.5},
     {Injection::kGpsLate, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
     {Injection::kGpsJump, Duration::kFromTheMiddle, kSpeed, kGpsJump, kSensorGood, 1.5},
-    // The checks of the motion detect the next three after 2 to 6 m, which take long if the vehicle
-    // creeps.
+    // The next three are detected only after the vehicle has driven 2 to 6 m, which takes long at
+    // low speed.
     {Injection::kGpsSpeedZero, Duration::kFromTheMiddle, kFaultCommandTimeout, kGpsInconsistent,
      kSensorGood, 40.0},
     {Injection::kGpsPositionFrozen, Duration::kFromTheMiddle, kFaultCommandTimeout,

@@ -96,8 +96,8 @@ void command(const LoopSetup& setup, LoopRow& row) {
   }
 }
 
-/// Motors mounted the wrong way round on exchanged sides: each side gets the negated force of the
-/// other. The vehicle turns as commanded, but drives in the opposite direction.
+/// Injects motors that are reversed and whose sides are exchanged: each side gets the negated force
+/// of the other. The vehicle turns as commanded, but drives in the opposite direction.
 void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
 
 void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }
@@ -116,8 +116,9 @@ Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) 
   if (physics.resolved()) return {};
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}'", scenario),
-      fmt::format("the simulation cannot continue after {:g} s: resistance is too stiff for any "
-                  "integration step, or a number is not finite; check the model and the gains",
+      fmt::format("the simulation cannot continue after {:g} s: the resistance is too stiff for "
+                  "the shortest integration step, or a value is not finite. Check the model and "
+                  "the gains",
                   row.t_s));
 }
 
@@ -136,26 +137,29 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   std::vector<Fault> faults;
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/guidance",
-                      "is open loop, in which no controller runs; give a guidance of type heading, "
-                      "waypoints, line or lissajous"});
+                      "is open loop, but the firmware always runs its controller; give a guidance "
+                      "of type heading, waypoints, line or lissajous"});
   }
   if (scenario.held_tau_speed()) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/guidance/tau_speed",
-                      "the firmware controls a speed, not a thrust: give speed_mps instead"});
+                      "tau_speed sets a constant thrust, but the firmware controls the speed: "
+                      "give speed_mps instead"});
   }
   if (scenario.control.allocation.value_or(AllocationForm::kExact) != AllocationForm::kExact) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/control/allocation",
-                      "the firmware's allocation is exact: remove this key"});
+                      "the firmware supports only the exact allocation of forces and steering "
+                      "angle: remove this key"});
   }
   if (scenario.control.lqi) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/control/heading_law",
-                      "the firmware's heading law is the sliding mode: remove this key, or set its "
-                      "type to sliding_mode"});
+                      "the firmware supports only the sliding-mode heading law: remove this key, "
+                      "or set its type to sliding_mode"});
   }
   const std::size_t points = mission_of(scenario).points.points_m.size();
   if (points > kMaxPoints) {
     faults.push_back({ErrorCode::kTooLarge, file + ":/guidance/points_m",
-                      fmt::format("the firmware has room for {} points, found {}; use fewer",
+                      fmt::format("the firmware stores at most {} points of a path, found {}; use "
+                                  "fewer",
                                   kMaxPoints, points)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));

@@ -1,5 +1,5 @@
-// Closed loop of the vehicle, simulated in double as by simulate/, and the control step, computed
-// in float by an Executor.
+// Closed loop of the vehicle and the control step. The vehicle is simulated in double, as in
+// simulate/; the control step is computed in float by an Executor.
 #pragma once
 
 #include <vector>

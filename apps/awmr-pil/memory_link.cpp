@@ -38,13 +38,14 @@ class MemoryLink : public Chip {
   Status follow(const Points& points) override {
     if (points.points_m.size() > kMaxPoints) {
       return input_error(ErrorCode::kTooLarge, "",
-                         fmt::format("the firmware has room for {} waypoints, found {}; use fewer",
+                         fmt::format("the firmware stores at most {} waypoints, found {}; use "
+                                     "fewer",
                                      kMaxPoints, points.points_m.size()));
     }
     Writer writer;
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     put("pil_points", writer);
-    // A firmware that follows a line has no acceptance radius.
+    // Firmware that follows a line has no acceptance radius, and so no symbol pil_acceptance_m.
     if (points.acceptance_m > 0.0F) put("pil_acceptance_m", Writer().put(points.acceptance_m));
     put("pil_point_count", Writer().put(static_cast<std::int16_t>(points.points_m.size())));
     points_ = points;

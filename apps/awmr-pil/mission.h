@@ -38,7 +38,7 @@ struct PathMission {
 
 /// All guidance features of a mission. An absent feature is disabled.
 struct Mission {
-  Points points;  ///< empty: neither waypoints nor a line
+  Points points;  ///< waypoints or corners of the line; empty if the mission has neither
   bool skip_passed = false;
   std::optional<LineMission> line;
   std::optional<PathMission> path;
@@ -49,7 +49,8 @@ struct Mission {
   std::optional<Observers<float>> observers;
   CombinedSplit split = CombinedSplit::kRedistribute;
 
-  /// True if the chip computes the reference headings; false if it receives them from the host.
+  /// True if the chip computes the reference headings itself, from its points or its path; false if
+  /// it receives them from the host in each step.
   bool leads() const { return !points.points_m.empty() || path.has_value(); }
 };
 

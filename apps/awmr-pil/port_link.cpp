@@ -37,8 +37,8 @@ class Port : public Line {
 
   Status reset() override {
     return input_error(ErrorCode::kConflict, "--inject",
-                       "'reset' is possible only on the emulated chip; on a board, press its reset "
-                       "button");
+                       "the fault 'reset' can be injected only on the emulated chip; on a board, "
+                       "press its reset button");
   }
 
   Status send(std::span<const std::uint8_t> bytes) override {

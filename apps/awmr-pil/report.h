@@ -42,7 +42,8 @@ struct Injected {
   std::uint8_t seen = 0;      ///< bits set on every sample of the window, or by the first fault
   bool worked = false;        ///< an expected fault was raised in time, or the chip restarted
   bool safe = true;           ///< forces 0 and wheels straight during the whole window
-  bool quiet = true;          ///< no fault outside the window, or before the failure
+  bool quiet = true;          ///< no fault of the autopilot outside of the window (with a failure:
+                              ///< before it)
 };
 
 /// Results of a run and the checks that it must pass.
@@ -50,11 +51,16 @@ struct Report {
   ChipRun chip;
   Cycles cycles;
   std::vector<std::size_t> restarts;      ///< samples before which the chip was restarted
-  Difference from_float;                  ///< of the chip's run and the host's float run
-  std::optional<Difference> from_double;  ///< of the chip's and the double run, without injection
-  double heading_apart_deg = 0.0;         ///< heading_apart_deg() of chip and host's double run
-  std::optional<Difference> by_float32;   ///< host runs: float with powf compared with double
-  std::optional<Difference> by_table;     ///< host runs in float: tables compared with powf
+  Difference from_float;                  ///< difference of the chip's run from the same run in
+                                          ///< float on the host
+  std::optional<Difference> from_double;  ///< difference of the chip's run from the run in double
+                                          ///< on the host; absent with an injection
+  double heading_apart_deg = 0.0;         ///< heading_apart_deg() of the chip's run and the run in
+                                          ///< double on the host
+  std::optional<Difference> by_float32;   ///< difference of two runs on the host: float with powf,
+                                          ///< and double
+  std::optional<Difference> by_table;     ///< difference of two runs in float on the host: with
+                                          ///< tables, and with powf
   std::optional<Injected> injected;
   std::vector<Check> checks;
 

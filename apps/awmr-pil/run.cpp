@@ -152,7 +152,8 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
     }
     if (damage) {
       return input_error(ErrorCode::kConflict, "--inject",
-                         "'parameters' is possible only on the emulated chip; remove --port");
+                         "the fault 'parameters' can be injected only on the emulated chip; "
+                         "remove --port");
     }
     return port_link(*options.port, options.baud, elf,
                      in.parameters.crc ^ mission_crc(in.setup.mission));

@@ -30,8 +30,8 @@ constexpr std::string_view kPrefix = "awmr-pil-";
 constexpr int kEndingSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM,
                                   SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ};
 
-/// Locked while the folder is created or removed. The thread that ends the program never unlocks
-/// it.
+/// Locked while the folder is created or removed. The thread that ends the program locks it and
+/// never unlocks it, so that no folder is created after the clean-up.
 std::mutex folder_mutex;
 /// Folder of this run; empty if there is none. Never destroyed, because a signal may arrive during
 /// exit.

@@ -25,7 +25,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Results of checking a project, in the order in which to fix them.
+/// Results of checking a project, in the order in which the user should act on them.
 struct Check {
   std::vector<Finding> missing;      ///< values and trials not provided yet
   std::vector<Finding> implausible;  ///< contradictory or impossible values
@@ -55,7 +55,8 @@ std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::p
   for (const Fault& fault : result.error().faults) {
     if (document && is_null_at(*document, path.string(), fault.place)) {
       check.missing.push_back({fault.place, 0, Severity::kError, "missing-value",
-                               "to be filled in: it is null; the project's README describes it"});
+                               "to be filled in: the value is null. Measure it as the project's "
+                               "README describes"});
     } else {
       check.faults.push_back(fault);
     }
@@ -75,7 +76,8 @@ bool has_rows(const fs::path& path, Check& check) {
          std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
 }
 
-/// Returns the parameter that a kind of table identifies.
+/// Returns a parameter that this kind of trial identifies; messages describe the trial by it
+/// (trial_of()).
 ParameterId shown_by(TrialKind kind) {
   switch (kind) {
     case TrialKind::kTurning:
@@ -122,8 +124,9 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   const auto nothing_shows = [&](ParameterId id) {
     check.missing.push_back(
         {"", 0, Severity::kError, "missing-trial",
-         fmt::format("no trial for {} ({}), which the gains need: {}", info(id).name,
-                     info(id).meaning, vehicle ? trial_of(*vehicle, id) : info(id).trial)});
+         fmt::format("no trial for {} ({}), without which no gains can be tuned; record {}",
+                     info(id).name, info(id).meaning,
+                     vehicle ? trial_of(*vehicle, id) : info(id).trial)});
   };
   if (!project.surge) nothing_shows(ParameterId::kSurgeAlpha);
   if (!project.turning) nothing_shows(ParameterId::kYawAlpha);
@@ -132,13 +135,13 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   check.notes.push_back(
       {project.vehicle.string() + ":/sway_alpha", 0, Severity::kNote, "assumed-sway",
        fmt::format(
-           "not given ({}): identify assumes that of common tyres, within a factor of {:.1f}, "
-           "unless a driving log has sway_mps",
+           "not given ({}): identify assumes the value of common tyres, which can be wrong by a "
+           "factor of {:.1f}. Give a driving log with sway_mps, or this key, if sideslip matters",
            info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 
-/// If a fault is in the file `path`, adds a fault with column mappings guessed from its column
-/// names.
+/// If the file `path` already has a fault, adds another one whose message suggests column mappings,
+/// guessed from the file's column names.
 void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& options,
                       std::vector<Fault>& faults) {
   const std::string place = path.string() + ":";
@@ -178,7 +181,8 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
-  // A mapping may name a file that is not read here, because it has no rows yet.
+  // While some files have no rows yet, they are not read, and a mapping for them is no fault
+  // although nothing uses it.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;
@@ -194,7 +198,8 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const std::vector<Finding>& found = trials->findings;
   check.notes.insert(check.notes.end(), found.begin(), found.end());
   if (as_is || std::none_of(found.begin(), found.end(), contradicts)) return;
-  // The second read reports the contradictions as faults with the mapping that fixes them.
+  // Reads the trials again without `as_is`, which reports each contradiction as a fault with the
+  // column mapping that corrects it.
   std::erase_if(check.notes, contradicts);
   files.options.as_is = false;
   if (const auto refused = load_trials(files); !refused) {

@@ -63,12 +63,15 @@ struct LiveCommand {
   IdentifyCommand identify;  ///< options of the identification; execute() sets `logs`
   StreamSource source = {};
   std::optional<fs::path> record = {};  ///< file of the recording; default: next to the model
-  double every_s = 5.0;                 ///< interval between two updates, > 0
+  double every_s = 5.0;                 ///< interval between two updates of the display, > 0
   double budget_s = 5.0;                ///< time limit of an interim fit, > 0
-  double enough = 0.1;                  ///< sufficient half width of an interval (precision.h), > 0
-  bool until_enough = false;            ///< stop when every half width is at most `enough`
-  double duration_s = 0.0;              ///< stop after this time; 0: no limit
-  double idle_s = 0.0;                  ///< stop after this time without data; 0: no limit
+  double enough = 0.1;                  ///< half width of an interval that is small enough
+                                        ///< (precision.h), > 0
+  bool until_enough = false;            ///< end the recording when every half width is at most
+                                        ///< `enough`
+  double duration_s = 0.0;              ///< end the recording after this time; 0: no limit
+  double idle_s = 0.0;                  ///< end the recording after this time without data; 0: no
+                                        ///< limit
 };
 Result<Outcome> execute(const LiveCommand& command);
 void add_live(CLI::App& app, Session& session);
@@ -90,7 +93,7 @@ struct SuggestCommand {
   std::optional<fs::path> scenario;
   YawMode mode = YawMode::kCombined;
   int repeats = 3;  ///< runs of each suggested trial
-  int most = 8;     ///< largest number of trials in the printed list
+  int most = 8;     ///< largest number of trials in the printed list; the file lists all
   std::optional<fs::path> output;
 };
 Result<Outcome> execute(const SuggestCommand& command);
@@ -123,13 +126,13 @@ struct ValidateCommand {
   AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
   TrialOptions trials = {};    ///< column mappings and used time spans of the logs
-  bool other_columns = false;  ///< true: mappings may name files that this command does not read
+  bool other_columns = false;  ///< true: mappings that name other files are accepted and ignored
   double horizon_s = 10.0;     ///< length of the windows over which logs are predicted
   double log_tolerance = 0.3;  ///< largest accepted NRMSE of a channel over a window
   bool tyres = false;          ///< also fit the tyres of the four-wheel plant to the logs
   bool claims = false;  ///< print the paper's fourteen claims, each with its criterion and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown file for the claims
-  std::optional<fs::path> scenario = {};      ///< set: the logs are drives of this scenario
+  std::optional<fs::path> scenario = {};      ///< if given: the logs are drives of this scenario
   AcceptanceOptions acceptance = {};
   InputNames names = {};
 };

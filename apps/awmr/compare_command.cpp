@@ -141,7 +141,8 @@ Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, Compa
 void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
   const std::string file = (command.output / kComparisonTable).string();
   const std::string text =
-      command.shard ? "stopped: run the whole part of the comparison again"
+      command.shard ? "stopped: a part (--shard) cannot be continued; run this part again from "
+                      "its beginning"
                     : fmt::format("stopped: {} finished runs are in {}; continue with {}",
                                   comparison.rows.size(), file, option_text("resume"));
   print_notice(text);
@@ -171,8 +172,9 @@ Status read_texts(const Texts& texts, CompareCommand& command) {
 void add_samples(CLI::App& command, CompareOptions& options) {
   command
       .add_option("--samples", options.samples,
-                  "Random draws of parameters (from the model's covariance), noise and "
-                  "disturbances (default 0: nominal only)")
+                  "Number of repetitions, each with randomly drawn parameters (from the model's "
+                  "covariance), noise and disturbances (default 0: one run with the model's own "
+                  "values)")
       ->check(within(0, 1000000));
   command.add_option("--seed", options.seed, "Seed of the draws (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed));
@@ -312,7 +314,8 @@ void add_compare(CLI::App& app, Session& session) {
   add_preferences(*sub, *texts);
   sub->add_flag(
       "--break-even", command->compare.break_even,
-      "Also compute the tyre scrub of differential turns at which a steering mode becomes better");
+      "Also compute how large the tyre scrub of differential turns (a constant yaw moment against "
+      "the turn) must be for a mode with less of it to become better");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit, "measured, if the model has that rate");

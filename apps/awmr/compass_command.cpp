@@ -76,10 +76,12 @@ Result<Outcome> execute(const CompassCommand& command) {
 
 void add_compass(CLI::App& app, Session& session) {
   auto command = std::make_shared<CompassCommand>();
-  CLI::App* sub = add_command(
-      app, session, "compass", "Fit hard and soft iron of a compass from two turns of the vehicle",
-      "awmr compass datasets/synthetic/field.csv --declination 4.5 -o awmr_compass.h",
-      [command] { return execute(*command); });
+  CLI::App* sub =
+      add_command(app, session, "compass",
+                  "Calibrate a compass (hard and soft iron) from a record of two "
+                  "full turns of the vehicle",
+                  "awmr compass datasets/synthetic/field.csv --declination 4.5 -o awmr_compass.h",
+                  [command] { return execute(*command); });
   add_file(*sub, "FILE", command->file,
            "CSV with t_s, field_ahead, field_left and yaw_rate_radps (optional, to check the "
            "signs), as the sketch CompassCalibration records it")

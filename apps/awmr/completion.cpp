@@ -209,7 +209,7 @@ std::string fish_line(const std::string& condition, const OptionInfo& option) {
     if (!option.short_name.empty()) line += " -s " + option.short_name.substr(1);
   }
   std::string values = fish_values(option);
-  // Positional arguments are offered but not required.
+  // fish's `-r` (the option requires a value) does not apply to positional arguments.
   if (option.positional && values.starts_with(" -r")) values = " -F";
   return line + values + " -d " + quoted(brief(option.meaning)) + "\n";
 }

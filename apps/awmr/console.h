@@ -1,4 +1,5 @@
-/// Functions that all commands use: their outcome, registration on the command line, terminal output.
+/// Functions that all commands use: their outcome, registration on the command line, terminal
+/// output.
 #pragma once
 
 #include <filesystem>
@@ -24,10 +25,11 @@ struct Outcome {
   std::string summary = {};  ///< text for stdout: results first, at most one screen
   /// printed below the summary with `--verbose`; the output files contain the same numbers
   std::string details = {};
-  std::string closing = {};            ///< last line: files written
+  std::string closing = {};            ///< last line of the output: the files written
   std::string brief = {};              ///< short summary that `run` prints instead
   std::vector<Finding> findings = {};  ///< printed on stderr
-  bool refused = false;                ///< the work completed with a negative result: exit code 1
+  bool refused = false;                ///< true: the command ran, with a negative result (exit code
+                                       ///< 1)
   std::string document = {};           ///< content of the output file, for `--json`
   std::vector<std::filesystem::path> written = {};  ///< files written by the command
 };

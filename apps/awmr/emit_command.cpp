@@ -80,9 +80,9 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
   outcome.findings.push_back(
       {command.model.filename().string(), 0, Severity::kWarning, "coarse-table",
        fmt::format(
-           "the {} resistance is so steep at low speed that its most accurate table has "
-           "an error of {:.2g} % (usual: at most {:g} %), and so has the feed-forward on the "
-           "chip. For a power law, use --resistance powf",
+           "the {} resistance is so steep at low speed that its most accurate table has an error "
+           "of {:.2g} % (usual: at most {:g} %). The feed-forward on the chip has the same error; "
+           "if the resistance is a power law, --resistance powf avoids the table",
            name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
 }
 
@@ -94,9 +94,9 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
   outcome.findings.push_back(
       {command.gains.string(), 0, Severity::kWarning, "weak-heading",
        fmt::format(
-           "lambda mu/epsilon holds the heading so weakly that motors of 16 % unequal force turn "
-           "the vehicle by {:.0f} deg; the sketches take more than 45 deg for a failure (fault 17) "
-           "and disarm. Use faster gains, or those of awmr tune --observer",
+           "the heading loop is so weak (small lambda mu/epsilon) that motors whose forces differ "
+           "by 16 % turn the vehicle {:.0f} deg off its heading; above 45 deg the sketches report "
+           "fault 17 and disarm. Use faster gains, or those of awmr tune --observer",
            degrees(parameters.steady_error_rad))});
 }
 
@@ -112,21 +112,23 @@ std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& comman
   };
   if (sample_time_s < kLongestStep_s) {
     add(
-        fmt::format("sample_time_s is {:g} s, and a step of the ATmega2560 takes up to {:g} s: "
-                    "give a longer sample_time_s, or use a faster board",
+        fmt::format("sample_time_s is {:g} s, but a control step on the ATmega2560 takes up to "
+                    "{:g} s: give vehicle.json a longer sample_time_s and identify again, or use "
+                    "a faster board",
                     sample_time_s, kLongestStep_s));
   }
   const std::uint32_t step_ms = command.emit.step_timeout_ms;
   if (step_ms != 0 && sample_time_s > 1e-3 * step_ms) {
     add(fmt::format(
-        "sample_time_s is {:g} s, and a step that lasts longer than {} ms is a fault, so "
-        "that every step is one: set {} to at least two sample times",
+        "sample_time_s is {:g} s, longer than the permitted time between two steps, {} ms, so "
+        "that every step would raise a fault: set {} to at least two sample times",
         sample_time_s, step_ms, option_text("step-timeout-ms")));
   }
   if (sample_time_s > 0.5 * oldest_s) {
     add(
-        fmt::format("sample_time_s is {:g} s, and a heading older than {:g} s is a fault: set {} "
-                    "to at least two sample times",
+        fmt::format("sample_time_s is {:g} s, more than half of the largest permitted age of a "
+                    "heading, {:g} s, so that a single missed heading raises a fault: set {} to "
+                    "at least two sample times",
                     sample_time_s, oldest_s, option_text("heading-timeout-ms")));
   }
   return findings;

@@ -50,15 +50,19 @@ void add_timeouts(CLI::App& command, EmitOptions& options) {
         ->capture_default_str();
   };
   timeout("--heading-timeout-ms", options.heading_timeout_ms,
-          "Largest age of heading and yaw rate, ms; older ones are a fault");
+          "Largest permitted age of heading and yaw rate, ms; older readings raise a fault, which "
+          "stops the motors");
   timeout("--speed-timeout-ms", options.speed_timeout_ms,
-          "Largest age of speed and position, ms; older ones are a fault");
+          "Largest permitted age of speed and position, ms; older readings raise a fault, which "
+          "stops the motors");
   timeout("--command-timeout-ms", options.command_timeout_ms,
-          "Largest time between two commands, ms; a longer pause is a fault");
+          "Largest permitted time between two commands, ms; a longer pause raises a fault, which "
+          "stops the motors");
   command
       .add_option(
           "--step-timeout-ms", options.step_timeout_ms,
-          "Largest time between two steps, ms; a longer one is a fault [three sample times]")
+          "Largest permitted time between two steps, ms; a longer time raises a fault, which "
+          "stops the motors [three sample times]")
       ->check(within<std::uint32_t>(1, kHour_ms));
 }
 

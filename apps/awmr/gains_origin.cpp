@@ -47,15 +47,16 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
   findings.push_back(
       {gains.string(), 0, Severity::kWarning, "gains-of-another-model",
        fmt::format(
-           "these gains were tuned on another model than {}, or on it before it changed: "
-           "their constraints and margins are not valid for this one. Tune again (awmr tune)",
+           "these gains were tuned for another model than {}, or for an earlier version of that "
+           "file: their constraints and margins are not valid for it. Tune again (awmr tune)",
            model.filename().string())});
   return {};
 }
 
 void note_unstable(const Gains<double>& gains, double sample_time_s,
                    const std::filesystem::path& gains_file, std::vector<Finding>& findings) {
-  constexpr double kMax = 2.0;  // stability limit of a sampled integrator
+  constexpr double kMax = 2.0;  // a sampled first-order loop is unstable if rate times sample time
+                                // is 2 or more
   const double heading = gains.heading.lambda + gains.heading.mu / gains.heading.epsilon;
   const double speed = gains.speed.mu / gains.speed.epsilon;
   for (const auto& [name, rate] : {std::pair("lambda + mu/epsilon of the heading", heading),
@@ -63,7 +64,8 @@ void note_unstable(const Gains<double>& gains, double sample_time_s,
     if (rate * sample_time_s < kMax) continue;
     findings.push_back({gains_file.string(), 0, Severity::kWarning, "unstable-gains",
                         fmt::format("{} is {:.3g} 1/s: at a sample time of {:g} s the loop is "
-                                    "unstable from {:.3g} 1/s on. Tune again for this model",
+                                    "unstable if this rate is {:.3g} 1/s or more. Tune again for "
+                                    "this model (awmr tune)",
                                     name, rate, sample_time_s, kMax / sample_time_s)});
   }
 }

@@ -65,9 +65,9 @@ std::string scrub_text(const Model& model) {
   if (!model.yaw_scrub) return {};
   const YawScrub& scrub = *model.yaw_scrub;
   return fmt::format(
-      "scrub: {} differential turns needed {:.3g} m ({:.3g} to {:.3g}) of moment in addition to "
-      "the yaw resistance;\n"
-      "compare --break-even shows its effect on the choice of mode\n",
+      "tyre scrub: {} differential turns needed {:.3g} m (95 %: {:.3g} to {:.3g}) of yaw moment "
+      "in addition to the yaw resistance;\nawmr compare --break-even shows its effect on the "
+      "choice of mode\n",
       scrub.rows, scrub.moment_m, scrub.ci95_m.lo, scrub.ci95_m.hi);
 }
 

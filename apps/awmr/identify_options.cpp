@@ -33,8 +33,8 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
                      (subject != "surge" && options.yaw_family.requested);
   if (again) {
     return input_error(ErrorCode::kGivenTwice, "--family",
-                       fmt::format("'{}' gives a family a second time; give each of "
-                                   "surge and yaw one",
+                       fmt::format("'{}' selects a second family for the same resistance; give "
+                                   "one for surge and one for yaw",
                                    text));
   }
   if (subject.empty()) {
@@ -44,8 +44,8 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   } else if (subject == "yaw") {
     if (choice.family == Family::kDeadZone) {
       return input_error(ErrorCode::kConflict, "--family",
-                         "a dead zone belongs to the wheels: use surge=dead-zone, which also "
-                         "corrects the turning runs");
+                         "a dead zone is a property of the motors, not of the yaw resistance: use "
+                         "surge=dead-zone, which also corrects the turning runs");
     }
     options.yaw_family = choice;
   } else {

@@ -27,7 +27,8 @@ inline constexpr double kMaxTime_s = 1e12;
 /// the text is not of this form.
 Status add_excluded(std::string_view text, TrialOptions& trials);
 
-/// Checks the part of the logs to use. Errors (input): `--until` is not after `--from`.
+/// Checks the span of time in which the logs are used. Errors (input): `--until` is not after
+/// `--from`.
 Status check_used(const TrialOptions& trials);
 /// Calls check_used(), and add_excluded() for each text of `excluded`. Errors: as these.
 Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials);
@@ -35,7 +36,8 @@ Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials)
 /// Returns the options as pairs of name and value for the model's provenance.
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);
 
-/// Appends the parts of the logs that are used, unless the whole logs are used.
+/// Appends the options `--from`, `--until` and `--exclude` to `words`, unless the whole logs are
+/// used.
 void describe_parts(const TrialOptions& trials,
                     std::vector<std::pair<std::string, std::string>>& words);
 

@@ -49,11 +49,13 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,
-         "Resistance: power (default; logs take another that is significantly better), "
-         "coulomb-linear, coulomb-linear-quadratic, coulomb-power, dead-zone, or auto (least "
-         "AICc); surge=NAME, yaw=NAME for one")
+         "Family of the resistance laws: power (default; logs take another that is significantly "
+         "better), coulomb-linear, coulomb-linear-quadratic, coulomb-power, dead-zone, or auto "
+         "(least AICc); surge=NAME or yaw=NAME selects it for one law")
       ->delimiter(',');
-  sub.add_option("--loss", words.loss, "squares (default), huber, cauchy or tukey")
+  sub.add_option("--loss", words.loss,
+                 "Loss function of the residuals: squares (default) or, "
+                 "with less weight for large errors, huber, cauchy or tukey")
       ->check(one_of(names_in(kLossNames)));
   sub.add_flag("--joint", words.command.identify.joint,
                "Fit a1, b1 and m' together from the surge runs and the coast-down curves");
@@ -70,8 +72,8 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
                  "Number of random initial guesses of a log fit without tables (default 6)")
       ->check(within(0, 1000));
   sub.add_option("--bootstrap", command.identify.bootstrap,
-                 "Number of block bootstrap resamples for the shape of the intervals of a log fit "
-                 "(default 0)")
+                 "Number of block bootstrap resamples from which a log fit takes the shape of its "
+                 "intervals (default 0: intervals from the covariance alone)")
       ->check(within(0, 1000000));
   sub.add_option("--time-limit", command.identify.time_limit_s,
                  "Time limit for log fits, s (default: none). Fits that have not converged are "

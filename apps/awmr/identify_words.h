@@ -10,7 +10,7 @@
 
 namespace awmr::cli {
 
-/// The command, and the values of its options that command_of() still has to parse.
+/// A command as CLI11 fills it in, and the texts of those options that command_of() has to parse.
 struct IdentifyWords {
   IdentifyCommand command;
   ColumnWords columns;

@@ -87,7 +87,8 @@ Status write_all(const std::vector<OutputFile>& files) {
   }
   if (written) written = write_files(files);
   if (written) return written;
-  std::error_code ignored;  // directories that are not empty or were not created remain
+  std::error_code ignored;  // errors are ignored: directories that are not empty, or were not
+                            // created, remain
   // Clang 14 cannot compile std::views::reverse of GCC 12's library.
   for (auto directory = made.rbegin(); directory != made.rend(); ++directory) {
     fs::remove(*directory, ignored);

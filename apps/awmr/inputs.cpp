@@ -13,7 +13,8 @@ InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project) {
   InputNames names;
   for (const std::filesystem::path& path : paths) {
-    // The result is empty if one path is absolute and the other is relative.
+    // Empty if one path is absolute and the other is relative; output files then name the file
+    // without its directory.
     const auto relative =
         path.lexically_normal().lexically_relative(project.parent_path().lexically_normal());
     if (!relative.empty()) names[path] = relative.generic_string();

@@ -29,12 +29,13 @@ using Seconds = std::chrono::duration<double>;
 
 /// Reason why the recording ended.
 enum class LiveEnd { kStream, kInterrupted, kDuration, kIdle, kEnough, kFull };
-constexpr NameTable<LiveEnd, 6> kLiveEndWords{{{"the stream ended", LiveEnd::kStream},
-                                               {"interrupted", LiveEnd::kInterrupted},
-                                               {"the duration is over", LiveEnd::kDuration},
-                                               {"no more data arrived", LiveEnd::kIdle},
-                                               {"enough was recorded", LiveEnd::kEnough},
-                                               {"the recording is full", LiveEnd::kFull}}};
+constexpr NameTable<LiveEnd, 6> kLiveEndWords{
+    {{"the stream ended", LiveEnd::kStream},
+     {"interrupted", LiveEnd::kInterrupted},
+     {"the duration is over", LiveEnd::kDuration},
+     {"no more data arrived", LiveEnd::kIdle},
+     {"enough was recorded", LiveEnd::kEnough},
+     {"the recording has reached its maximum size", LiveEnd::kFull}}};
 
 /// During this time from the start, updates come every second, so that a wrong unit is reported
 /// early.
@@ -63,7 +64,8 @@ Result<fs::path> record_of(const LiveCommand& command) {
     return input_error(
         ErrorCode::kWrongFile, "--record",
         record.string() +
-            " is not a regular file, so the recording could not be read back; name another");
+            " is not a regular file, so the recording could not be read back for the fit; name "
+            "another");
   }
   if (record.lexically_normal() == command.identify.output.lexically_normal()) {
     return input_error(
@@ -123,7 +125,8 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   };
   std::optional<LiveEnd> end;
   while (!end) {
-    // Data that arrived during an update are added first, whatever then ends the recording.
+    // Adds the data that arrived during an update before any end condition is checked, so that none
+    // are lost.
     const std::string bytes = stream.take(std::chrono::milliseconds(100));
     followed.recording.add(bytes);
     if (!bytes.empty()) last_byte = Clock::now();
@@ -166,7 +169,8 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   if (command.until_enough && !has_enough(last)) {
     outcome.refused = true;
     outcome.findings.push_back({"", 0, Severity::kError, "not-enough",
-                                fmt::format("{} before every half width was within {:g} %: {}",
+                                fmt::format("{} before every half width of a 95 % interval was "
+                                            "within {:g} %: {}",
                                             name_in(kLiveEndWords, followed.end),
                                             100.0 * command.enough, widths_text(last))});
   }
@@ -191,11 +195,12 @@ void add_updates_and_end(CLI::App& sub, LiveCommand& live) {
   sub.add_option("--budget", live.budget_s, "Time limit of a fit during the drive, s (default 5)")
       ->check(within(0.1, 3600.0));
   sub.add_option("--enough", live.enough,
-                 "Sufficient relative half width of the 95 % interval of every requested "
-                 "parameter (absolute for exponents; default 0.1)")
+                 "Half width of the 95 % interval at which a parameter is accurate enough: "
+                 "relative to its value, for exponents absolute (default 0.1)")
       ->check(within(1e-6, 1.0));
   sub.add_flag("--until-enough", live.until_enough,
-               "End when --enough is reached; exit code 1 if it is not reached");
+               "End as soon as every requested parameter is as accurate as --enough requires; "
+               "exit code 1 if the recording ends before");
   sub.add_option("--duration", live.duration_s, "End after this time, s (default: never)")
       ->check(within(0.1, 1e6));
   sub.add_option("--idle", live.idle_s, "End after this time without input, s (default: never)")

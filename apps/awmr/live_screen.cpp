@@ -17,7 +17,8 @@
 namespace awmr::cli {
 namespace {
 
-/// "+-1.2 %" for relative widths, "+-0.012" for an exponent.
+/// Text of a half width: "+-1.2 %" if it is relative, "+-0.012" for an exponent, "-" if it is
+/// unknown.
 std::string half_width_text(const Precision& precision) {
   if (!precision.half_width) return "-";
   const double half = *precision.half_width;
@@ -80,7 +81,7 @@ std::string widths_text(const LiveUpdate& update) {
 }
 
 std::string verdict_text(const LiveUpdate& update) {
-  if (!update.model) return "drive: nothing is known yet";
+  if (!update.model) return "drive on: no parameter is estimated yet";
   if (is_enough(precision_of(*update.model, update.requested), update.enough)) {
     return fmt::format("enough: every half width is within {:g} %", 100.0 * update.enough);
   }

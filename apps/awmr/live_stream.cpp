@@ -36,7 +36,8 @@ bool became_shorter(int file) {
 }
 
 std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
+static_assert(std::atomic<bool>::is_always_lock_free,
+              "a signal handler sets this variable, so it must be lock-free");
 volatile std::sig_atomic_t hung_up = 0;
 extern "C" void note_interruption(int signal) {
   interrupted = true;
@@ -139,7 +140,7 @@ Interruption::Interruption() {
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     ::sigaction(kSignals[i], nullptr, &before_[i]);
-    // nohup ignores SIGHUP; keep that.
+    // Under nohup, SIGHUP is ignored; it stays ignored.
     if (kSignals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN) continue;
     ::sigaction(kSignals[i], &action, nullptr);
   }

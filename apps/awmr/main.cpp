@@ -111,7 +111,9 @@ int main(int argc, char** argv) {
                     .value(),
                 argc, argv);
   } catch (const std::exception& error) {
-    return fail(awmr::program_fault(std::string("a fault of the program: ") + error.what()).value(),
-                argc, argv);
+    return fail(
+        awmr::program_fault(std::string("fault of the program (please report it): ") + error.what())
+            .value(),
+        argc, argv);
   }
 }

@@ -17,7 +17,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Outcome that prints a text; `--json` returns it as a string.
+/// Outcome of a command whose only result is a text on stdout; with `--json` the result is that
+/// text as a JSON string.
 Outcome text_outcome(std::string text) {
   std::string document = awmr::to_text(Json(text));
   return Outcome{.summary = std::move(text), .document = std::move(document)};

@@ -39,8 +39,8 @@ std::vector<Ways> needs_of(TrialKind kind) {
   return {};
 }
 
-/// Returns the required columns for which no column of the file was guessed. Of alternative sets,
-/// the one that lacks the fewest columns counts.
+/// Returns the required columns for which no column of the file was guessed. If one of several sets
+/// of columns is sufficient, the columns missing from the most complete set are returned.
 std::vector<std::string> open_columns(const std::vector<ColumnGuess>& guesses, TrialKind kind) {
   std::set<std::string> found;
   for (const ColumnGuess& guess : guesses) found.insert(guess.column);

@@ -37,7 +37,8 @@ std::optional<fs::path> awmr_pil() {
   return find_program("awmr-pil");
 }
 
-/// Replaces this process with awmr-pil, whose output and exit code become the command's.
+/// Replaces this process with the program awmr-pil (exec), so that its output and exit code are
+/// those of the command. Returns only if that fails.
 Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
   const auto program = awmr_pil();
   int reason = ENOENT;

@@ -39,25 +39,28 @@ void add_link(CLI::App& command, PilOptions& options) {
 void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
-                  "Maximum clock cycles of a step [12000 by table, 24000 by powf; with optional "
-                  "parts or a position estimate, 75 % of the sample time]")
+                  "Largest permitted clock cycles of a control step [12000 with resistance "
+                  "tables, 24000 with powf; with optional parts or a position estimate, 75 % of "
+                  "the sample time]")
       ->check(within(1U, kAnyCount));
-  command.add_option("--flash-max", options.flash_max, "Maximum bytes of flash")
+  command.add_option("--flash-max", options.flash_max, "Largest permitted bytes of flash")
       ->check(within(1U, kAnyCount))
       ->capture_default_str();
-  command.add_option("--ram-max", options.ram_max, "Maximum bytes of RAM, without the stack")
+  command
+      .add_option("--ram-max", options.ram_max, "Largest permitted bytes of RAM, without the stack")
       ->check(within(1U, kAnyCount))
       ->capture_default_str();
   command
       .add_option("--difference-max", options.difference_max,
-                  "Largest difference of any signal from the host's float run [0 by table, 1e-6 by "
-                  "powf]")
+                  "Largest permitted difference of any signal from the same run in float on this "
+                  "computer [0 with resistance tables, 1e-6 with powf]")
       ->check(within(0.0, 1e9));
   command
       .add_option(
           "--heading-max-deg", options.heading_max_deg,
-          "Largest difference of the heading from the host's double run at the same or a "
-          "neighbouring sample, deg [0.05; 2 if obstacles are avoided or sensors simulated]")
+          "Largest permitted difference of the heading from the same run in double on this "
+          "computer, at the same or a neighbouring sample, deg [0.05; 2 if obstacles are avoided "
+          "or sensors simulated]")
       ->check(within(0.0, 360.0));
 }
 
@@ -79,7 +82,7 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
   add_bounds(command, options);
   command
       .add_option("--hostile-steps", options.hostile_steps,
-                  "Steps with hostile (extreme or invalid) inputs after the scenario, to find the "
+                  "Number of steps with extreme or invalid inputs after the scenario, to find the "
                   "longest step; 0: none")
       ->check(within(0U, 10000000U))
       ->capture_default_str();

@@ -25,7 +25,8 @@ enum class Optimize { kSpeed, kSize };
 inline constexpr NameTable<Optimize, 2> kOptimizeNames{
     {{"speed", Optimize::kSpeed}, {"size", Optimize::kSize}}};
 
-/// Faults that can be injected into the controller's inputs or parameters.
+/// Faults that `--inject` can cause in one run: in the controller's inputs or parameters, the
+/// sensors, the motors and the servo, or the operator's serial line.
 enum class Injection {
   kNone,
   kNaN,             ///< measured yaw rate is NaN
@@ -35,9 +36,9 @@ enum class Injection {
   kHeadingStale,    ///< the time of the last heading is 10 s old
   kSpeedStale,      ///< the time of the last speed is 10 s old
   kCommandTimeout,  ///< the time of the last command is 10 s old
-  kStepLate,        ///< a pause before a step
+  kStepLate,        ///< a pause of 10 s before a step
   kParameters,      ///< a bit flipped in the parameters in flash, before the start
-  kReset,           ///< reset of the chip, as by a supply drop, after which it starts again
+  kReset,           ///< the chip is reset, as after a drop of its supply, and starts again
   // Sensor failures, detected by the checks of the sketches (control/heading_check.h, gps_check.h).
   kCompassSilent,      ///< no new field measurement
   kCompassFrozen,      ///< raw values repeat
@@ -51,11 +52,11 @@ enum class Injection {
   kGpsNoFix,           ///< sentences without a fix
   kGpsEmpty,           ///< sentences with empty fields
   kGpsDamaged,         ///< sentences with a wrong checksum
-  kGpsRepeated,        ///< the same sentence
+  kGpsRepeated,        ///< the last sentence, over and over
   kGpsLate,            ///< sentences with 2 s latency
   kGpsJump,            ///< the position is off by 20 m
   kGpsSpeedZero,       ///< a speed that is stuck at 0
-  kGpsPositionFrozen,  ///< the same position, with a speed
+  kGpsPositionFrozen,  ///< the position does not change, although the speed is above 0
   kMotorsReversed,     ///< the vehicle drives in the wrong direction, but turns as commanded
   kSidesSwapped,       ///< left and right motors exchanged
   kGyroReversed,       ///< yaw rate of the wrong sign
@@ -66,7 +67,7 @@ enum class Injection {
   kCommandSilence,        ///< no command
   kCommandNoise,          ///< characters without a line end
   kCommandUnknown,        ///< unknown commands
-  kCommandRepeatedFrame,  ///< the same frame
+  kCommandRepeatedFrame,  ///< one command frame, over and over
   kStop,                  ///< STOP
   kStopInNoise            ///< STOP within other characters, without a line end
 };
@@ -121,24 +122,27 @@ struct PilOptions {
   std::optional<std::filesystem::path> port;  ///< serial port of a real board, with kUart
   unsigned baud = 500000;
   EmitOptions emit;
-  /// Absent: size for a timed path, obstacles, or two or more optional parts (the position estimate
-  /// counts as one); else speed.
+  /// Goal of the compiler. Absent: small size if the scenario has a timed path, obstacles, or two
+  /// or more optional parts (the position estimate counts as one); else few cycles.
   std::optional<Optimize> optimize;
-  /// Bound on the cycles of a step. Absent: 12,000 by table, 24,000 by powf; with optional parts or
-  /// the position estimate, 75 % of the sample time.
+  /// Largest permitted number of clock cycles of a control step. Absent: 12,000 with resistance
+  /// tables, 24,000 with powf; with optional parts or the position estimate, 75 % of the sample
+  /// time.
   std::optional<unsigned> cycles_max;
-  unsigned flash_max = 20480;  ///< bound on the flash, bytes
-  unsigned ram_max = 1024;     ///< bound on the RAM without the stack, bytes
-  /// bound on the difference from the host's float run; absent: 0 by table, 1e-6 by powf
+  unsigned flash_max = 20480;  ///< largest permitted use of flash, bytes
+  unsigned ram_max = 1024;     ///< largest permitted use of RAM, without the stack, bytes
+  /// Largest permitted difference of any signal, in SI units, from the same run computed in float
+  /// on the host. Absent: 0 with resistance tables, 1e-6 with powf.
   std::optional<double> difference_max;
-  /// Bound on the difference of the heading from the host's run in double, at the same or a
-  /// neighbouring sample, deg. Absent: 0.05, or 2 if obstacles are avoided or sensors simulated,
-  /// because one of the runs can then change its path one sensor sample earlier.
+  /// Largest permitted difference of the heading from the same run computed in double on the host,
+  /// at the same or a neighbouring sample, deg. Absent: 0.05, or 2 if obstacles are avoided or
+  /// sensors simulated, because one of the runs can then change its path one sensor sample earlier.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
   unsigned hostile_steps = 6000;  ///< steps with hostile inputs after the scenario; 0: none
   double line_noise = 0.0;  ///< fraction of bits flipped and of bytes lost, with kUart and no port
-  std::optional<std::filesystem::path> build_directory;  ///< kept after the run; absent: temporary
+  std::optional<std::filesystem::path> build_directory;  ///< directory of the firmware, kept after
+                                                         ///< the run; absent: a temporary one
   std::filesystem::path output;
 };
 

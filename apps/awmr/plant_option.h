@@ -25,7 +25,8 @@ struct PlantChoice {
   std::optional<PlantKind> kind = {};  ///< plant of every scenario; empty: each scenario's own
   /// validation.json whose tyres override the scenarios' and the defaults.
   std::optional<std::filesystem::path> tyres_file = {};
-  bool checks_other = false;  ///< true (`compare`): without `kind`, the other plant runs, too
+  bool checks_other = false;  ///< true (`compare`): if `kind` is empty, also tests the ranking on
+                              ///< the other plant
   bool runs_other() const { return checks_other && !kind; }
 };
 
@@ -107,8 +108,8 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
       std::ranges::any_of(scenarios, [](const Scenario& s) { return s.tyres.has_value(); });
   if (choice.tyres_file && !has_tyres && !choice.runs_other()) {
     return input_error(ErrorCode::kConflict, kTyresOption,
-                       fmt::format("no run uses the four-wheel plant: remove this option, or give "
-                                   "{} {}",
+                       fmt::format("no run uses the four-wheel plant, which these tyres are for: "
+                                   "remove this option, or give {} {}",
                                    kPlantOption, name_in(kPlantKindNames, PlantKind::kFourWheel)));
   }
   return {};

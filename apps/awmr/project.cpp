@@ -28,7 +28,7 @@ class FileNames {
     const std::size_t before = faults_.size();
     const std::string name = json.string(key);
     if (name.empty() && faults_.size() == before) {
-      json.fault(ErrorCode::kBadName, key, "is empty: give a file");
+      json.fault(ErrorCode::kBadName, key, "is empty: give the path of a file");
     }
     return resolved(project_, name);
   }
@@ -38,10 +38,12 @@ class FileNames {
   std::vector<fs::path> all_at(JsonObject& json, const char* key) const {
     std::vector<fs::path> paths;
     for (const std::string& name : json.strings(key)) {
-      if (name.empty()) json.fault(ErrorCode::kBadName, key, "has an empty name: give files");
+      if (name.empty())
+        json.fault(ErrorCode::kBadName, key,
+                   "contains an empty name: remove it, or give the path of a file");
       if (name.find('\0') != std::string::npos) {
         json.fault(ErrorCode::kBadName, key,
-                   "has a name with a NUL character: remove the character");
+                   "contains a file name with a NUL character: remove the character");
       }
       paths.push_back(resolved(project_, name));
     }

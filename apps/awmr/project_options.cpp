@@ -10,7 +10,8 @@
 namespace awmr::cli {
 namespace {
 
-/// An option of a command, and the key of project.json, or tune.json for `tune`, with its effect.
+/// An option of a command, and the key with the same effect in project.json (for `tune`: in
+/// tune.json).
 struct ProjectKey {
   std::string_view command;
   std::string_view option;
@@ -46,7 +47,8 @@ constexpr ProjectKey kKeys[] = {
     {"compare", "scenario", "compare/scenarios"},
 };
 
-/// The marked option `option` ("family surge=...") in terms of the project.
+/// Text of the option `option` ("family surge=...", as marked by option_text()) for a user of
+/// project.json: its key, or its command and name.
 std::string project_text(std::string_view command, std::string_view option) {
   std::string name(option.substr(0, option.find(' ')));
   std::ranges::replace(name, '_', '-');

@@ -1,5 +1,5 @@
-/// Options of a step of a project, named by the keys of project.json and tune.json that have their
-/// effect. Commands that read a project (`run`, `check`) have no such options.
+/// Replaces the command-line options that messages name by the keys of project.json and tune.json
+/// with the same effect. Commands that read a project (`run`, `check`) do not have these options.
 #pragma once
 
 #include <string_view>

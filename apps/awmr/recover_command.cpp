@@ -62,7 +62,7 @@ Status check_output_of(const RecoverCommand& command) {
                        : check_output(*command.output, inputs);
 }
 
-/// The command, and the values of its options that command_of() still has to parse.
+/// A command as CLI11 fills it in, and the texts of those options that command_of() has to parse.
 struct RecoverWords {
   RecoverCommand command;
   std::string plan = "tables";

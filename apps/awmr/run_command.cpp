@@ -34,7 +34,8 @@ void add_written(Outcome& total, const std::vector<fs::path>& written) {
   total.written.insert(total.written.end(), written.begin(), written.end());
 }
 
-/// Adds the outcome of a step to the total, with its brief text under the title.
+/// Adds the outcome of a step to the total. The summary shows only the step's short text
+/// (Outcome::brief) under `title`.
 void add_step(Steps& steps, const char* title, Outcome step) {
   Outcome& total = steps.total;
   steps.documents.emplace_back(step.written.front().stem().string(), std::move(step.document));

@@ -147,7 +147,7 @@ Result<Gains<double>> gains_for(const SimulateCommand& command, const Scenario& 
                      "the controller of this scenario needs gains: give --gains GAINS.json");
 }
 
-/// Adds the findings about the run, as far as they do not come from the choice of the plant.
+/// Adds the findings about the run, except those that tyres_of() has added for `--tyres`.
 Status note_run(const SimulateCommand& command, const Scenario& scenario, const Model& model,
                 const Gains<double>& gains, const Metrics& metrics,
                 std::vector<Finding>& findings) {

@@ -7,8 +7,8 @@
 
 namespace awmr::cli {
 
-/// Colours text for a stream. Adds no colour if the stream is not a terminal, if NO_COLOR is set
-/// [no-color.org] or if TERM is dumb.
+/// Adds terminal colours to text for a stream. Leaves text unchanged if the stream is not a
+/// terminal, if NO_COLOR is set [no-color.org] or if TERM is dumb.
 class Style {
  public:
   explicit Style(std::FILE* stream);

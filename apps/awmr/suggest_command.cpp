@@ -52,7 +52,8 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
       if (command.parameter != metric.name) continue;
       return input_error(
           ErrorCode::kUnknownName, "--parameter",
-          fmt::format("the run of {} in mode {} has no value of {}; choose another parameter",
+          fmt::format("the simulation of {} in mode {} has no value of the metric {}; choose "
+                      "another metric or scenario",
                       scenario.name, name_of(command.mode), metric.name));
     }
     options.metrics.push_back(
@@ -123,8 +124,8 @@ void add_suggest(CLI::App& app, Session& session) {
              "Yaw-control mode of the scenario "
              "(default combined)");
   sub->add_option("--repeats", command.repeats,
-                  "Number of runs of each suggested surge, turning or coast-down trial (default "
-                  "3); a log is driven once")
+                  "Number of runs planned for each suggested surge, turning or coast-down trial "
+                  "(default 3); a suggested log is planned once")
       ->check(within(1, 1000));
   sub->add_option("--most", command.most,
                   "Number of trials on the sheet (default 8; the file has "

@@ -113,15 +113,15 @@ Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
 /// Adds the options of the search; returns `--nominal`.
 CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
   auto* nominal = sub.add_flag("--nominal", command.nominal,
-                               "Tune for the nominal parameters only: no parameter draws, noise, "
-                               "latency or lag");
+                               "Tune for the model's own parameter values only, without parameter "
+                               "draws, sensor noise, latency or motor lag");
   sub.add_flag(
       "--observer", command.observer,
       "Also tune a disturbance observer, for constant disturbances such as a slope or unequal "
       "motors");
   sub.add_option("--baseline", command.baseline,
-                 "Baseline gains, with objective 1: pole-placement (default), paper or a "
-                 "gains.json")
+                 "Baseline gains, whose objective is 1 by definition: pole-placement (default), "
+                 "paper or a gains.json")
       ->type_name("NAME|FILE");
   sub.add_option_function<std::string>(
          "--mode",
@@ -179,12 +179,13 @@ Result<Outcome> execute(const TuneCommand& command) {
 void add_tune(CLI::App& app, Session& session) {
   auto command = std::make_shared<TuneCommand>();
   auto shard_text = std::make_shared<std::optional<std::string>>();
-  CLI::App* sub = add_command(app, session, "tune", "Search the controller's gains under T2 < T1",
-                              "awmr tune --model model.json -o gains.json",
-                              [command, shard_text]() -> Result<Outcome> {
-                                AWMR_ASSIGN_OR_RETURN(command->shard, shard_of(*shard_text));
-                                return execute(*command);
-                              });
+  CLI::App* sub = add_command(
+      app, session, "tune",
+      "Tune the gains of the heading and speed laws, under the reaching condition T2 < T1",
+      "awmr tune --model model.json -o gains.json", [command, shard_text]() -> Result<Outcome> {
+        AWMR_ASSIGN_OR_RETURN(command->shard, shard_of(*shard_text));
+        return execute(*command);
+      });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
            "tune.json: mode, form, margin, limits, baseline, weights, goals, open, observer, "

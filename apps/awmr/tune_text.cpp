@@ -45,12 +45,12 @@ std::string sensitivity_text(const RobustTuning& robust) {
   return text;
 }
 
-/// Describes the constraints that are at their limits, and the ranges of gains that are equally
-/// good.
+/// Describes the constraints whose limits keep the objective from improving (active constraints),
+/// and the ranges of gains with practically the same objective.
 std::string active_text(const Tuning& tuning) {
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
-    held += fmt::format("{}{} (limit 10 % wider: objective {:.1f} % lower)",
+    held += fmt::format("{}{} (a limit 10 % wider would lower the objective by {:.1f} %)",
                         held.empty() ? "" : "; ", one.name, 100.0 * one.wider_gains);
   }
   return fmt::format(

@@ -157,8 +157,10 @@ void note_fitted_logs(const Model& model, const Provenance& provenance,
 /// Lists the claims if requested; else the verdict and the prediction of each log.
 std::string summary_of(const ValidateCommand& command, const Validation& validation) {
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
-  const char* const title =
-      validation.trials.empty() ? "" : "on the trials that the model was fitted to (in sample)\n";
+  const char* const title = validation.trials.empty()
+                                ? ""
+                                : "on the same trials that the model was fitted to (in "
+                                  "sample)\n";
   std::string text = title + brief_of(validation) + logs_table(validation);
   for (const Acceptance& drive : validation.drives) text += acceptance_table(drive);
   return text;

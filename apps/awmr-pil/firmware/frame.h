@@ -3,8 +3,8 @@
 //   and the CRC (low byte first)
 // The chip answers each request of the host once, with the same type and sequence number. If the
 // host repeats a request because the answer was lost, the chip repeats the answer but does not
-// execute the request again, except kHello. Damaged frames are not answered: the host repeats the request after a
-// silence.
+// execute the request again, except kHello. Damaged frames are not answered: the host repeats the
+// request after a silence.
 #pragma once
 
 #include <stdint.h>
@@ -19,22 +19,24 @@ constexpr uint8_t kHeadBytes = 3;  // type, sequence, length
 constexpr uint8_t kMaxPayload = 140;
 constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // bytes after the start byte
 
-// Requests and their payloads -> payloads of the answers, which have the same type.
-// Hello: starts the controller anew. nothing -> awmr_init()'s fault (8 bit), AWMR_PARAMETERS_CRC32
-// xor kPilMission (32 bit), by which the host detects firmware made for other inputs. kPilMission is
-// the checksum of the generated mission.h, 0 if the mission adds nothing.
+// Types of the requests, with the payloads of request and answer. An answer has the type of its
+// request. Hello: starts the controller anew. Request: empty. Answer: the fault bits of awmr_init()
+// (8 bit), then AWMR_PARAMETERS_CRC32 xor kPilMission (32 bit), by which the host detects firmware
+// made for other inputs. kPilMission is the checksum of the generated mission.h, 0 if the mission
+// adds nothing.
 constexpr uint8_t kHello = 'H';
-// Follow points: acceptance_m, points as x_m, y_m -> nothing.
+// Follow points. Request: acceptance_m, then x_m and y_m of each point. Answer: empty.
 constexpr uint8_t kFollow = 'F';
-// Control step: awmr_input -> awmr_output, clock cycles of the step (16 bit).
+// Control step. Request: awmr_input. Answer: awmr_output, then the clock cycles of the step (16
+// bit).
 constexpr uint8_t kStep = 'S';
 
 /// Reads frames byte by byte. take() returns true when its byte completes a valid frame, which can
 /// be read until the next call. When a frame is damaged, the reader searches the bytes received so
 /// far for the start byte of the next frame.
 struct FrameReader {
-  uint8_t bytes[kMaxFrame];  // of this frame, after its start byte
-  uint8_t count;             // number of these bytes received
+  uint8_t bytes[kMaxFrame];  // received bytes of the present frame, after its start byte
+  uint8_t count;             // number of bytes in `bytes`
   bool is_inside;            // true: a start byte was received, the frame is not complete
 
   uint8_t type() const { return bytes[0]; }

@@ -147,9 +147,9 @@ struct Question {
   BreakEven entry;
 };
 
-/// Returns a Question for each mode that has smaller wheel-force differences than `setting.mode`
-/// and a worse score, and does not complete if `setting.mode` does not. `rows`: the rows of sample
-/// 0.
+/// Returns a Question for each mode that has smaller wheel-force differences and a worse score than
+/// `setting.mode`. A mode is left out if it completes the scenario and `setting.mode` does not.
+/// `rows`: the rows of sample 0.
 std::vector<Question> questions_of(const ModeSetting& setting, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
@@ -184,7 +184,8 @@ void answer(Question& question) {
       });
 }
 
-/// Adds the scrub that was measured in differential turns to an otherwise complete entry.
+/// Adds to an otherwise complete entry the scrub that was measured in differential turns, and the
+/// number of turns that would decide the comparison.
 void add_measured(const Model& model, BreakEven& entry) {
   const auto& scrub = model.yaw_scrub;
   if (scrub) {
@@ -213,8 +214,9 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMaxTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// The questions of all scenarios and modes. `without`: rows of sample 0 without scrub. `entry`:
-/// has the values that all questions share, most_m and sliding_m.
+/// Returns the questions of all scenarios and modes. `without`: rows of sample 0 (the nominal
+/// model), simulated without scrub. `entry`: a BreakEven with most_m and sliding_m, which are the
+/// same for all questions.
 Result<std::vector<Question>> all_questions(const Model& model, const Gains<double>& gains,
                                             const std::vector<Scenario>& scenarios,
                                             const std::vector<ComparisonRow>& without,
@@ -254,7 +256,7 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
   const Interval force = model.vehicle.wheel_force;
   BreakEven entry;
-  // 2 d (F'R - F'L) with F'R = F'max and F'L = F'min.
+  // Largest yaw moment of the wheel forces: 2 d (F'R - F'L) with F'R = F'max and F'L = F'min.
   entry.most_m = 2.0 * nominal.half_track_m * (force.hi - force.lo);
   entry.sliding_m = sliding_moment_m(nominal);
   AWMR_ASSIGN_OR_RETURN(const std::vector<ComparisonRow> without,

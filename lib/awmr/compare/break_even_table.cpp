@@ -11,8 +11,9 @@
 namespace awmr {
 namespace {
 
-/// Lines for one pair of modes: number of scenarios in which the first is still ahead with the
-/// measured scrub, is no longer ahead, or is undecided. `all`: the entries of the pair.
+/// Lines for one pair of modes: the numbers of scenarios in which, with the measured scrub, the
+/// first mode is still ahead, is no longer ahead, or neither is certain. `all`: the entries of the
+/// pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;
@@ -30,15 +31,14 @@ std::string decided(const std::vector<const BreakEven*>& all) {
     }
   }
   std::string text = fmt::format(
-      "    with the measured scrub: still ahead in {}, no longer in {}, undecided in "
-      "{}\n",
+      "    with the measured scrub, by number of scenarios: still ahead in {}, no longer in {}, "
+      "undecided in {}\n",
       count[Lead::kKept], count[Lead::kLost], count[Lead::kOpen]);
   if (at_other_rates > 0) {
     const Interval rates = *all.front()->measured_degps;
     text += fmt::format(
-        "    {} of the undecided results reach {:.3g} to {:.3g} deg/s; scrub was measured at "
-        "{:.3g} to "
-        "{:.3g}\n",
+        "    {} of the undecided results are for yaw rates of {:.3g} to {:.3g} deg/s, but scrub "
+        "was measured at {:.3g} to {:.3g} deg/s\n",
         at_other_rates, slowest, fastest, rates.lo, rates.hi);
   }
   if (turns) {

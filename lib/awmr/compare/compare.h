@@ -35,7 +35,7 @@ struct NamedGains {
 struct ComparisonRow {
   std::string scenario;
   YawMode mode{};
-  int sample = 0;  ///< >= 0; 0: the model's own values
+  int sample = 0;  ///< 0: the model's own values; 1, 2, ...: drawn samples
   Metrics metrics;
   std::string gains = {};  ///< NamedGains::name
 };
@@ -45,7 +45,8 @@ struct Contender {
   YawMode mode{};
   std::string gains;  ///< NamedGains::name; empty with a single set
 
-  /// "combined", or "combined with tuned.json".
+  /// Name for tables and messages: "combined", or "combined with tuned.json" if there are several
+  /// sets of gains.
   std::string label() const;
   friend bool operator==(const Contender&, const Contender&) = default;
 };
@@ -152,7 +153,7 @@ struct Change {
 
 /// Result of compare().
 struct Comparison {
-  std::vector<ComparisonRow> rows;  ///< finished rows, sorted by scenario, gains, mode, sample
+  std::vector<ComparisonRow> rows;  ///< finished runs, sorted by scenario, gains, mode, sample
   /// Number of evaluated samples, including the nominal one: the samples 0, 1, 2, ... that have a
   /// finished run in every scenario, mode and set of gains. Fewer than requested if the comparison
   /// was stopped, or is a part.

@@ -94,7 +94,8 @@ std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   return text + survived + '\n';
 }
 
-/// "best or tied, of 12 scenarios" by metric, if there are several scenarios.
+/// Table: for each metric, the number of scenarios in which each mode is best or tied with the
+/// best. Empty for a single scenario.
 std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
   if (scenarios.size() < 2) return "";
   std::string text =

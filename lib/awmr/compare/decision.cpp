@@ -129,7 +129,9 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
                                                std::vector<Change>& changes) {
   std::vector<ChangedScenario> changed;
   for (const Scenario& scenario : scenarios) {
-    if (std::holds_alternative<OpenLoop>(scenario.guidance)) continue;  // nothing is ranked
+    if (std::holds_alternative<OpenLoop>(scenario.guidance))
+      continue;  // an open-loop scenario has
+                 // no ranking
     Change change{.scenario = scenario.name,
                   .kind = ChangeKind::kPlant,
                   .setting = std::string(name_in(kPlantKindNames, other_plant(scenario))),
@@ -152,7 +154,7 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
   return changed;
 }
 
-/// "differential and combined"
+/// Joins the names of modes: "differential and combined"; "none" for an empty list.
 std::string listed(const std::vector<Contender>& contenders) {
   std::vector<std::string> labels;
   for (const Contender& one : contenders) labels.push_back(one.label());

@@ -23,8 +23,9 @@ constexpr int kWeightings = 1000;
 struct Entry {
   std::size_t mode = 0;  ///< index in ScenarioRows::modes
   const ModeRows* rows = nullptr;
-  std::vector<double> log_scores;   ///< log_score() of each counted run
-  std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() of the counted runs
+  std::vector<double> log_scores;   ///< log_score() of each run in the statistics
+                                    ///< (ModeRows::counted)
+  std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
   bool completes = true;            ///< false: completes significantly less often than the best
 
   double log_score() const { return mean(log_scores); }
@@ -145,7 +146,7 @@ template <class Value>
 void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
   constexpr double kRounding = 1e-12;
-  double least = value(entries.front());  // the first of the list has `completes`
+  double least = value(entries.front());  // the first entry always has `completes`
   for (const Entry& entry : entries) {
     if (entry.completes) least = std::min(least, value(entry));
   }
@@ -221,8 +222,9 @@ bool dominates(const Contender& other, const Contender& own,
   return better;
 }
 
-/// Gives each mode that is tied for rank 1 the mean of the tied modes' shares of weightings and, if
-/// they are equivalent, of their shares of samples, because no mode alone has rank 1.
+/// Sets first_by_weights of every mode that is tied for rank 1 to the mean over the tied modes,
+/// because none of them has rank 1 alone. If they are equivalent, does the same with
+/// first_by_samples.
 void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
   const auto end = std::find_if(ranking.begin(), ranking.end(),
                                 [](const RankedMode& mode) { return mode.rank > 1; });

@@ -9,9 +9,10 @@
 namespace awmr {
 namespace {
 
-/// Returns the scenarios that need vehicles of their own: each scenario with a corner, and the
-/// first scenario without a corner. All others without a corner share the vehicles of the latter.
-/// `first` receives, for each scenario, the index of its first vehicle.
+/// Returns the scenarios that need vehicles of their own: each scenario with a corner (parameters
+/// moved to the ends of their intervals), and the first scenario without one. All other scenarios
+/// share the vehicles of that first one. `first` receives, for each scenario, the index of its
+/// first vehicle.
 std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::size_t samples,
                                    std::vector<std::size_t>& first) {
   std::vector<const Scenario*> own;

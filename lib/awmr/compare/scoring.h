@@ -16,7 +16,8 @@ struct ScoredMetric {
   const MetricColumn* metric = nullptr;
   double weight = 0.0;   ///< w, >= 0
   double offset = 0.0;   ///< f of log_loss(), in the metric's unit, > 0
-  double missing = 0.0;  ///< value for a run without the metric: the largest of all counted runs
+  double missing = 0.0;  ///< value that replaces a missing one: the largest of all runs in the
+                         ///< statistics (ModeRows::counted)
 };
 
 /// Returns the metrics that can rank and that any run of the scenario has. Their weights are those
@@ -33,14 +34,16 @@ std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Prefere
 /// dominate the score.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
-/// Mean of log_loss() over the counted runs (ModeRows::counted).
+/// Mean of log_loss() over the drawn samples of a mode, or its value for the nominal run if there
+/// are none (ModeRows::counted).
 double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored);
 
 /// Score of a run: the sum of w ln(x + f) over the metrics. For two runs, exp(difference of their
 /// scores) is the weighted geometric mean of the ratios of their x + f.
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring);
 
-/// log_score() of each counted run of a mode (ModeRows::counted).
+/// log_score() of each drawn sample of a mode, or of the nominal run if there are none
+/// (ModeRows::counted).
 std::vector<double> log_scores(const ModeRows& rows, const std::vector<ScoredMetric>& scoring);
 
 }  // namespace awmr

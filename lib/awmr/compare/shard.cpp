@@ -134,7 +134,8 @@ const ShardKind& comparison_shards() {
                  [](std::string_view text, const std::string& file, const std::string&) {
                    return check_comparison_csv(text, file);
                  }}},
-      .own_keys = {"changes", "findings"},  // part 1 has the changes
+      .own_keys = {"changes", "findings"},  // keys that differ between parts: only part 1 has
+                                            // `changes`
       .arithmetic = batch_rounding,
       .arithmetic_advice = "run all parts on processors with AVX2 or NEON",
       .read = [](JsonObject& json) { read_payload(json); }};

@@ -24,7 +24,8 @@ struct ModeRows {
   std::span<const ComparisonRow> rows;  ///< never empty
 
   const Metrics& nominal() const { return rows.front().metrics; }
-  /// Rows that enter the statistics: the drawn samples, or the nominal run if there are none.
+  /// The counted rows, from which all statistics are computed: those of the drawn samples, or the
+  /// nominal run if there are no samples.
   std::span<const ComparisonRow> counted() const {
     return rows.size() > 1 ? rows.subspan(1) : rows;
   }
@@ -50,7 +51,7 @@ Comparison evaluated_part(const Comparison& comparison);
 struct Summary {
   std::optional<double> nominal;        ///< value in sample 0
   std::size_t count = 0;                ///< number of counted runs that have the metric
-  std::optional<double> mean;           ///< over these runs
+  std::optional<double> mean;           ///< mean over these runs
   std::optional<double> q05, q50, q95;  ///< quantiles; absent for fewer than 2 runs
 };
 Summary summarise(const ModeRows& rows, const MetricColumn& metric);
@@ -77,10 +78,11 @@ struct PairedDifference {
   Contender first;
   Contender second;
   MetricId metric{};
-  std::optional<double> nominal;  ///< of sample 0, in the metric's unit
+  std::optional<double> nominal;  ///< difference in sample 0 (the nominal model), in the metric's
+                                  ///< unit
   std::size_t count = 0;          ///< number of samples with the metric in both contenders
-  std::optional<double> mean;     ///< over these samples, in the metric's unit
-  std::optional<Interval> ci95;   ///< 95 %, of the mean; absent for fewer than 2 samples
+  std::optional<double> mean;     ///< mean difference over these samples, in the metric's unit
+  std::optional<Interval> ci95;   ///< 95 % interval of the mean; absent for fewer than 2 samples
   std::optional<double> p;        ///< of the paired t test, in [0, 1]; absent for fewer than 2
   /// p with Holm's correction for the number of differences in the scenario. Below 0.05 the
   /// difference is significant. The risk of any false positive in the scenario is then at most 5 %.

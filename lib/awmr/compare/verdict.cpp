@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// "a, b and c"
+/// Joins names to a list in a sentence: "a, b and c".
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -38,11 +38,12 @@ const PairedDifference* widest_gap(const std::vector<PairedDifference>& differen
   return widest;
 }
 
-/// Metric in which a mode is behind most: ", most of all in finish_time_s: 8.2 s more (95 %: 8 to
-/// 8.4)"
+/// Text of the metric in which `other` is furthest behind the best mode: ", most of all in
+/// finish_time_s: 8.2 s more (95 %: 8 to 8.4)". Empty without such a metric.
 std::string gap_text(const PairedDifference* gap, const Contender& other) {
   if (gap == nullptr) return "";
-  // If `other` is the second of the pair, first minus second is below 0.
+  // The difference is first minus second. The text gives how much more `other` has, so the sign is
+  // changed if `other` is the second.
   const double sign = gap->second == other ? -1.0 : 1.0;
   const MetricColumn& metric = column_of(gap->metric);
   std::string text = fmt::format(", most of all in {}: {:.3g} {} more", metric.name,

@@ -170,7 +170,8 @@ ColumnExpression::~ColumnExpression() = default;
 
 tl::expected<ColumnExpression, std::string> ColumnExpression::parse(std::string_view text) {
   if (text.size() > kLongest) {
-    return tl::unexpected(fmt::format("it has {} bytes; the limit is {}", text.size(), kLongest));
+    return tl::unexpected(
+        fmt::format("the formula has {} bytes; the limit is {}", text.size(), kLongest));
   }
   auto formula = formula_of(text);
   if (!formula) return tl::unexpected(formula.error());
@@ -184,7 +185,7 @@ tl::expected<ColumnExpression, std::string> ColumnExpression::parse(std::string_
     compiled->parser.Eval();
   } catch (const mu::ParserError&) {
     return tl::unexpected(std::string(
-        "it is not a formula: a value, an operator or an argument is missing or superfluous"));
+        "this is not a formula: a value, an operator or an argument is missing or superfluous"));
   }
   return ColumnExpression(std::move(formula->names), std::move(compiled));
 }

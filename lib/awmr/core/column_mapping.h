@@ -20,7 +20,8 @@ struct ColumnMapping {
   double offset = 0.0;
   std::string expression = {};  ///< text after the '='; empty: only way 2 applies
   std::string file = {};        ///< name or path of the only file to apply it to; empty: all
-  bool standing = false;        ///< true: from vehicle.json: lowest priority, no error if unused
+  bool standing = false;        ///< true for mappings of vehicle.json: they have the lowest
+                                ///< priority and may be unused
 };
 
 /// Parses `NAME=SOURCE[*SCALE][+OFFSET]`. A SOURCE that contains '*' or '+' must be in double

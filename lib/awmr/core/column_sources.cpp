@@ -182,7 +182,8 @@ class Search {
       }
       source.indices.push_back(static_cast<std::size_t>(first - header_.begin()));
     }
-    // A mapping of t_s may name a column of dates, which the first row shows.
+    // A mapping of t_s may name a column of dates. It is one if its cell in the first row is a
+    // date.
     const bool is_one = source.indices.size() == 1 && !source.expression && source.scale == 1.0;
     if (column_.name == kTimeName && source.mapping != nullptr && is_one &&
         source.indices[0] < samples_.size() && seconds_of_date(samples_[source.indices[0]])) {

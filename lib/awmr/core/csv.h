@@ -36,7 +36,7 @@ struct CsvColumn {
 
 /// Note on how a file was interpreted, for the user.
 struct CsvNote {
-  int line = 0;      ///< 0: the whole file
+  int line = 0;      ///< line that the note is about; 0: the whole file
   std::string code;  ///< "csv-format", ...: apps/awmr/FINDINGS.md lists the codes
   std::string message;
 };
@@ -46,7 +46,8 @@ class CsvTable {
  public:
   struct Column {
     std::vector<double> values;
-    std::vector<int> character;      ///< by row: position in the line, from 1; empty: unknown
+    std::vector<int> character;      ///< by row: position of the cell in its line, in characters
+                                     ///< from 1; empty: unknown
     std::vector<bool> present = {};  ///< by row: the file has a value; empty: in all rows
   };
   /// Content of a table.

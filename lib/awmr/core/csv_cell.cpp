@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kLongestCell = 40;  ///< characters shown in a message
+constexpr std::size_t kLongestCell = 40;  ///< number of characters of a cell that a message shows
 
 std::string lower(std::string_view text) {
   std::string result(text);

@@ -10,7 +10,7 @@ namespace awmr {
 struct CsvCell {
   std::string_view text;  ///< without quotes and outer spaces
   int line = 1;
-  int character = 1;  ///< position in the line, from 1
+  int character = 1;  ///< position of the cell in its line, in characters from 1
   bool is_quoted = false;
   /// The value, if the text is a plain number such as -12.5. number_from_text() parses the others.
   std::optional<double> number = {};
@@ -23,7 +23,7 @@ class CsvScanner {
   /// text between the closing quote of a cell and the delimiter.
   enum class Outcome { kRecord, kEnd, kOpenQuote, kTextAfterQuote };
 
-  /// Precondition: `bytes` have no byte order mark.
+  /// Starts at the first byte of `bytes`, which must not have a byte order mark.
   explicit CsvScanner(std::string_view bytes) : rest_(bytes) {}
   void set_delimiter(char delimiter) { delimiter_ = delimiter; }
 

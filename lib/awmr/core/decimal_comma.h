@@ -14,7 +14,8 @@ namespace awmr {
 struct DecimalCommas {
   std::optional<CsvCell> comma = {};  ///< the first number with a comma
   std::optional<CsvCell> point = {};  ///< the first number with a point
-  bool unmistakable = false;          ///< true: a number has a comma that cannot separate thousands
+  bool unmistakable = false;          ///< true: at least one comma cannot be a thousands separator,
+                                      ///< so commas are decimal
 };
 
 /// Parses a cell such as `-1,25` or `1,25e3` and records its comma in `seen`. Empty for other text.

@@ -1,4 +1,4 @@
-/// Owning file descriptor.
+/// Owner of a POSIX file descriptor.
 #pragma once
 
 #include <utility>

@@ -88,8 +88,8 @@ Result<Target> target_of(const fs::path& path) {
   }
   if (target.status.st_nlink > 1) {
     return write_error(path,
-                       "it has a second name (hard link) that would keep the old bytes; remove one "
-                       "of the two or give another name");
+                       "the file has a second name (hard link), under which the old content would "
+                       "remain; remove one of the two or give another name");
   }
   return target;
 }
@@ -169,7 +169,7 @@ struct Staged {
   fs::path path;  ///< as the user gave it
   std::string_view bytes;
   Target target;
-  std::optional<TemporaryFile> temporary;  ///< none for a pipe or device
+  std::optional<TemporaryFile> temporary;  ///< none if the output is a pipe or a device
 };
 
 Result<Staged> stage(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
@@ -285,7 +285,8 @@ Status check_output_directory(const fs::path& path) {
     if (exists || there == directory_of(there)) break;
     if (there.filename().native().size() > NAME_MAX) {
       return input_error(ErrorCode::kBadName, path.string(),
-                         fmt::format("a name of {} bytes is too long; the limit is {}",
+                         fmt::format("a name of {} bytes is too long; the limit is {}. Give a "
+                                     "shorter name",
                                      there.filename().native().size(), NAME_MAX));
     }
     there = directory_of(there);

@@ -73,12 +73,10 @@ void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
   parts.notes.push_back(
       {0, "joined-by-time",
        fmt::format(
-           "the file has signals of different rates, joined by time in {} rows; number of values "
-           "by column: {}. Between its values a command keeps the previous one, a measurement "
-           "counts only in the rows that have it, and a formula has a value in the rows of its "
-           "column with the most values; {} rows without a value, or before every command has had "
-           "one, are "
-           "left out",
+           "signals of different rates were joined by time into {} rows; number of values by "
+           "column: {}. A command keeps its value until the next one, a measurement is used only "
+           "in the rows that have it, and a formula only in the rows of its most frequent column; "
+           "{} rows without a value, or before the first value of every command, are left out",
            parts.lines.size(), rates_of(parts), before - parts.lines.size())});
 }
 

@@ -123,7 +123,7 @@ Json output_document(std::string_view schema, const Provenance& provenance);
 /// Reads the keys written by put_provenance().
 Provenance read_provenance(JsonObject& json);
 /// True if the `inputs` of the document include a file with this SHA-256. Empty if the document
-/// lists no inputs, as a document written by hand.
+/// lists no inputs, for example because it was written by hand.
 std::optional<bool> is_made_from(const Json& document, std::string_view sha256);
 
 /// JSON text with an indentation of two spaces and a newline at the end. Numbers read back to the

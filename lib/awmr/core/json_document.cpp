@@ -21,7 +21,8 @@ std::string place_of(const std::string& file, std::string_view text, std::size_t
   std::string_view before = text.substr(0, std::min(offset, text.size()));
   const auto lines = std::count(before.begin(), before.end(), '\n');
   if (lines == 0 && before.starts_with("\xEF\xBB\xBF")) before.remove_prefix(3);
-  before.remove_prefix(before.rfind('\n') + 1);  // npos + 1 is 0
+  before.remove_prefix(before.rfind('\n') + 1);  // removes nothing if there is no line end: npos +
+                                                 // 1 is 0
   const auto characters =
       std::count_if(before.begin(), before.end(), [](char c) { return !continues_character(c); });
   return fmt::format("{}:{}:{}", file, lines + 1, characters + 1);
@@ -68,7 +69,7 @@ class DocumentBuilder final : public Json::json_sax_t {
   bool number_unsigned(number_unsigned_t value) override { return add(value); }
   bool number_float(number_float_t value, const string_t& /*text*/) override { return add(value); }
   bool string(string_t& value) override { return add(std::move(value)); }
-  bool binary(binary_t& /*value*/) override { return false; }  // does not occur in text
+  bool binary(binary_t& /*value*/) override { return false; }  // JSON text has no binary values
   bool start_object(std::size_t /*size*/) override { return open(Json::object()); }
   bool key(string_t& value) override;
   bool end_object() override { return close(); }
@@ -85,7 +86,7 @@ class DocumentBuilder final : public Json::json_sax_t {
   struct Level {
     Json value;
     std::string key;                       ///< of an object: key of the value that follows
-    std::unordered_set<std::string> keys;  ///< of an object: keys so far
+    std::unordered_set<std::string> keys;  ///< of an object: the keys read so far
   };
 
   bool open(Json value) {

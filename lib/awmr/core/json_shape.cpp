@@ -82,7 +82,8 @@ void JsonShape::requested(std::string_view key, bool required) {
   property(key);
   RequestedKeys& requested = now();
   requested.keys.emplace(key);
-  // A key is optional if its first request was not `required`, as by has() before reading.
+  // A key is optional if its first request was not `required`, for example if has() asks for it
+  // before it is read.
   if (!required && !requested.required.contains(std::string(key))) requested.optional.emplace(key);
   if (required && !requested.optional.contains(std::string(key))) requested.required.emplace(key);
 }
@@ -169,7 +170,7 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
       continue;
     }
     allowed.insert(one.keys.begin(), one.keys.end());
-    // Required are the keys that every run with this name requires.
+    // Requires the keys that every run of the reader with this name requires.
     if (std::exchange(first, false)) required = one.required;
     std::erase_if(required, [&](const std::string& k) { return !one.required.contains(k); });
   }
@@ -206,7 +207,8 @@ Json JsonShape::variant_without(const std::string& key) const {
   const Keys keys = with_any_name(key);
   Json then = forbidding(keys.all, allowed);
   std::set<std::string> required = absent->required;
-  // Keys that are only required without the optional keys do not depend on the choice.
+  // Drops keys that are required only in runs without the optional keys: the choice does not decide
+  // about them.
   std::erase_if(required, [&](const std::string& k) { return !keys.required.contains(k); });
   then["required"] = required;
   Json where = names_of(on);

@@ -34,7 +34,7 @@ struct MetChoice {
 
 /// State of the exploration, shared by the JsonShapes of one schema.
 struct Exploration {
-  Way way = {};                               ///< the current run
+  Way way = {};                               ///< settings of the current run of the reader
   std::map<std::string, MetChoice> met = {};  ///< choices requested so far, by JSON pointer
 };
 
@@ -70,8 +70,9 @@ class JsonShape {
   /// Keys requested in several runs.
   struct Keys {
     std::set<std::string> all;
-    std::set<std::string> present;   ///< in the runs in which optional keys are present
-    std::set<std::string> required;  ///< required in at least one run
+    std::set<std::string> present;   ///< keys requested in the runs in which optional keys are
+                                     ///< present
+    std::set<std::string> required;  ///< keys that are required in at least one run
   };
   Property& property(std::string_view key);
   RequestedKeys& now();

@@ -49,8 +49,8 @@ Result<OpenedFile> OpenedFile::open(const std::filesystem::path& path) {
   }
   if (S_ISFIFO(file.status_.st_mode) && !has_writer(file.descriptor())) {
     return input_error(ErrorCode::kCannotRead, file.name_,
-                       fmt::format("no program writes to this pipe after {:g} s; start "
-                                   "the writer first, or give a file",
+                       fmt::format("no program writes to this pipe after {:g} s; start the writer "
+                                   "first, or give a file",
                                    kPipeWait_s));
   }
   ::fcntl(file.descriptor(), F_SETFL, ::fcntl(file.descriptor(), F_GETFL) & ~O_NONBLOCK);

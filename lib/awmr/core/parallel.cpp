@@ -99,7 +99,8 @@ class Helpers {
   std::condition_variable offered_, left_;
   std::vector<Loop*> loops_;  ///< loops that need threads, the oldest first
   bool ended_ = false;
-  std::vector<std::jthread> threads_;  ///< last member, so that it is destroyed first
+  std::vector<std::jthread> threads_;  ///< last member: destroyed first, while the other members
+                                       ///< still exist
 };
 
 Helpers& helpers() {

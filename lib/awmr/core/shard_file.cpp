@@ -96,8 +96,10 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
                        shard.count, name, first.origin.shard.count);
   }
   if (shard.index > shard.count) {
-    return fmt::format("is part {} of {}, but the number must be at most the count; run it again",
-                       shard.index, shard.count);
+    return fmt::format(
+        "is part {} of {}, but a part's number is at most the number of parts; run "
+        "the part again",
+        shard.index, shard.count);
   }
   const std::string other =
       origin_difference(part.origin.provenance, part.origin.version, first.origin.provenance, name);

@@ -39,7 +39,8 @@ std::optional<pid_t> maker_of(std::string_view name) {
 /// allocate memory or lock, so the paths are copied to the heap beforehand.
 constexpr int kSlots = 64;
 std::atomic<char*> registered[kSlots];
-static_assert(std::atomic<char*>::is_always_lock_free, "a signal handler reads it");
+static_assert(std::atomic<char*>::is_always_lock_free,
+              "a signal handler reads this variable, so it must be lock-free");
 
 /// Signals with which a user or the system ends a program.
 constexpr int kEndingSignals[] = {SIGHUP,  SIGINT,  SIGQUIT, SIGTERM, SIGPIPE,
@@ -110,7 +111,7 @@ TemporaryFile::TemporaryFile(fs::path path)
       slot_(register_path(path_)),
       file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600)) {
   if (file_.number() < 0) {
-    path_.clear();  // nothing to remove, or another process's file
+    path_.clear();  // no file is removed: there is none, or it belongs to another process
     return;
   }
   // On a file system without locks, only the process id shows that the file is in use.

@@ -68,8 +68,8 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>
   return rest;
 }
 
-/// Returns the controller in float. Values derived from it are also computed in float, as by the
-/// firmware's compiler in awmr.cpp: the check sum compares their bits.
+/// Returns the controller in float. Values derived from it are also computed in float, as the
+/// compiler of the firmware does in awmr.cpp, because the check sum covers their bits.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
                                    const Gains<double>& gains) {
   Controller<float> controller{};

@@ -102,7 +102,8 @@ struct EmittedTable {
   std::vector<ResistanceLine> lines;  ///< ResistanceTable::lines
   std::uint16_t first = 0;            ///< ResistanceTable::first
   std::uint8_t mantissa_bits = 0;     ///< ResistanceTable::mantissa_bits
-  double lowest_speed = 0.0;          ///< start of the first cell; below: a line to the origin
+  double lowest_speed = 0.0;          ///< start of the first cell; below it, the table is a line
+                                      ///< through the origin
   double top_speed = 0.0;             ///< end of the last cell
   double split = 0.0;                 ///< a tenth of the largest force or moment, in the unit of g
   double worst_error = 0.0;           ///< largest error where g is below `split`, in the unit of g
@@ -134,10 +135,12 @@ struct AutopilotParameters {
   EmittedTable surge;                                  ///< table of g1; empty for kPowf
   EmittedTable yaw;                                    ///< table of g3; empty for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
-  double table_error = 0.0;               ///< bound, or the larger error of both tables
+  double table_error = 0.0;               ///< largest of the bound (default kTableError) and the
+                                          ///< errors of both tables
   float sample_time_s = 0.0F;             ///< AWMR_SAMPLE_TIME_S, s
   float route_speed_mps = 0.0F;           ///< AWMR_ROUTE_SPEED_MPS, m/s
-  double steady_error_rad = 0.0;          ///< steady heading error, motors 16 % different
+  double steady_error_rad = 0.0;          ///< steady heading error, rad, if the forces of the
+                                          ///< motors differ by 16 %
   float on_course_rad = 0.0F;             ///< AWMR_ON_COURSE_RAD, rad
   float off_course_mrad = 0.0F;           ///< AWMR_OFF_COURSE_MRAD, m rad
   PositionFilter<float> position{};       ///< filter of the GPS fixes

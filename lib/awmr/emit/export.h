@@ -17,10 +17,10 @@ namespace awmr {
 enum class ExportFormat {
   kRos2,       ///< ROS 2 parameter file (YAML) for nodes of any name
   kMatlab,     ///< script that fills the struct `awmr`
-  kPython,     ///< module of constants
+  kPython,     ///< module that defines constants
   kCsv,        ///< name,value,unit,std_error,ci95_lo,ci95_hi,source
-  kArduPilot,  ///< Rover's .param: NAME,VALUE
-  kPx4,        ///< rover's .params, as QGroundControl reads it
+  kArduPilot,  ///< parameter file of ArduPilot Rover (.param): NAME,VALUE
+  kPx4,        ///< parameter file of PX4's rovers (.params), as QGroundControl reads it
 };
 inline constexpr NameTable<ExportFormat, 6> kExportFormatNames{
     {{"ros2", ExportFormat::kRos2},

@@ -85,12 +85,13 @@ void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values
       "epsilon: half width of the heading law's boundary layer");
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     add("heading_friction_width", gains.heading.friction_width_radps, "rad/s",
-        "w0: rate below which fed-forward Coulomb friction is proportional to rate and error in "
-        "steering mode; 0.02 rad/s in differential mode, with an observer w0");
+        "w0: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot + "
+        "lambda e while this sum is below w0; in differential mode below 0.02 rad/s (with an "
+        "observer: w0)");
   }
   if (gains.friction_width_at(0.5) > feed_forward_rest_speed<double>()) {
     add("heading_combined_friction_width", gains.friction_width_at(0.5), "rad/s",
-        "that rate in combined mode");
+        "w0 of the combined mode");
   }
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
   add("speed_epsilon", gains.speed.epsilon, "m/s",

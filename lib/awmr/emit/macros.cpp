@@ -89,13 +89,14 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
       "epsilon, rad/s: half width of the boundary layer of S", "/heading/epsilon");
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     add("AWMR_HEADING_FRICTION_WIDTH_RADPS", gains.heading.friction_width_radps,
-        "w0, rad/s: rate below which fed-forward Coulomb friction is proportional to rate and "
-        "error in steering mode; 0.02 rad/s in differential mode, with an observer w0",
+        "w0, rad/s: in steering mode the fed-forward Coulomb friction is proportional to "
+        "psi_d_dot + lambda e while this sum is below w0; in differential mode below 0.02 rad/s "
+        "(with an observer: w0)",
         "/heading/friction_width_radps");
   }
   if (gains.friction_width_at(0.5) > feed_forward_rest_speed<double>()) {
     add("AWMR_HEADING_COMBINED_FRICTION_WIDTH_RADPS", gains.friction_width_at(0.5),
-        "rad/s: that rate in combined mode",
+        "rad/s: w0 of the combined mode",
         gains.heading.combined_friction_width_radps > 0.0 ? "/heading/combined_friction_width_radps"
                                                           : "/heading/friction_width_radps");
   }

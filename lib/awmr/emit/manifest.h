@@ -1,6 +1,6 @@
-/// Manifest of an emitted directory: lists each file that `awmr emit` wrote, with its hash. A listed
-/// file that was edited later belongs to the user and is not replaced. Neither is a file that is not
-/// listed, unless it begins like a file that emit writes.
+/// Manifest of an emitted directory: lists each file that `awmr emit` wrote, with its hash. A
+/// listed file that was edited later belongs to the user and is not replaced. Neither is a file
+/// that is not listed, unless it begins like a file that emit writes.
 #pragma once
 
 #include <filesystem>

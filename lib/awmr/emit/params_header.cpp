@@ -154,7 +154,7 @@ std::string comment_safe(std::string_view text) {
 /// literal, so a point is added to a text without point or exponent. A negative value is in
 /// parentheses, because a macro can stand behind an operator.
 std::string float_literal(double value) {
-  const float rounded = static_cast<float>(value) + 0.0F;  // -0 + 0 = 0
+  const float rounded = static_cast<float>(value) + 0.0F;  // adding 0 turns -0 into 0
   std::string text = fmt::format("{:.9g}", static_cast<double>(rounded));
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   text += "f";

@@ -35,7 +35,7 @@ std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind)
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
                        std::span<const double> weights);
 
-/// As above with equal weights of sum 1: the variance of the mean of g over these rates.
+/// Variance of the mean of g over these rates: as above, with equal weights of sum 1.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
 
 /// The largest yaw rate, deg/s, for which the yaw resistance was measured: the vehicle's

@@ -1,6 +1,7 @@
 /// Names, in /estimates of model.json, of the vehicle and sensor errors that a fit of logs can
-/// estimate: steering trim, largest rate of the servo, imbalance of left and right motors, saturation of the forces, Stribeck
-/// friction, slope of the ground, delay, filter time constant and wheel slip of a sensor.
+/// estimate: steering trim, largest rate of the servo, imbalance of left and right motors,
+/// saturation of the forces, Stribeck friction, slope of the ground, delay, filter time constant
+/// and wheel slip of a sensor.
 #pragma once
 
 #include <array>
@@ -20,10 +21,13 @@ inline constexpr std::array<std::string_view, 6> kExtraForceNames = {
     "surge.stribeck", "surge.stribeck_speed_mps",
     "yaw.stribeck",   "yaw.stribeck_speed_radps",
     "slope.x_mps2",   "slope.y_mps2"};
-inline constexpr std::string_view kSensorDelayPrefix = "delay.";      ///< + the channel's column
-inline constexpr std::string_view kSensorLagPrefix = "lag.";          ///< + the channel's column
-inline constexpr std::string_view kSlipPrefix = "slip.";              ///< + the channel's column
-inline constexpr std::string_view kSlipRatioPrefix = "slip_ratio.";   ///< + the channel's column
+inline constexpr std::string_view kSensorDelayPrefix =
+    "delay.";  ///< followed by the channel's column name
+inline constexpr std::string_view kSensorLagPrefix =
+    "lag.";                                               ///< followed by the channel's column name
+inline constexpr std::string_view kSlipPrefix = "slip.";  ///< followed by the channel's column name
+inline constexpr std::string_view kSlipRatioPrefix =
+    "slip_ratio.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSwayOffsetName = "sway.offset_m";  ///< of the sway sensor
 inline constexpr std::string_view kSwayAngleName = "sway.angle_rad";  ///< of the sway sensor
 

@@ -123,7 +123,8 @@ Plant<double> Model::plant_as_known() const {
         (*this)[parameter.id].value.value_or(none_of(parameter.id));
   }
   Plant<double> plant = plant_of(vehicle, values);
-  // A negative scrub moment is due to noise, because scrub cannot drive a turn.
+  // A negative scrub moment is due to noise, because tyre scrub always resists a turn; it counts as
+  // 0.
   if (yaw_scrub) plant.yaw_scrub_m = std::max(yaw_scrub->moment_m, 0.0);
   return plant;
 }

@@ -47,8 +47,10 @@ using Quantiles = std::array<double, kQuantileCount>;
 
 /// One identified number with its uncertainty and its origin.
 struct Estimate {
-  std::optional<double> value;      ///< in the parameter's unit; absent: not determined by the data
-  std::optional<double> std_error;  ///< in the same unit, > 0; absent: given, or too few data
+  std::optional<double> value;      ///< in the parameter's unit; absent if the data do not
+                                    ///< determine it
+  std::optional<double> std_error;  ///< in the same unit, > 0; absent for a given value, or with
+                                    ///< too few data
   std::optional<Interval> ci95;     ///< 95 % confidence interval; absent as `std_error`
   Source source = Source::kGiven;
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...

@@ -241,16 +241,18 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
         fmt::format("[{:g}, {:g}] does not contain moment_m {:g}; identify again", ci.lo, ci.hi,
                     scrub.moment_m));
   check(ci.hi >= 0.0, "ci95_m",
-        fmt::format("[{:g}, {:g}] is below 0, but scrub cannot drive a turn", ci.lo, ci.hi));
+        fmt::format("[{:g}, {:g}] is below 0, but tyre scrub always resists a turn; identify again",
+                    ci.lo, ci.hi));
   // The half width over std_error_m is Student's quantile: 12.7 with one degree of freedom, 1.96
   // with many.
   const double quantile = 0.5 * (ci.hi - ci.lo) / scrub.std_error_m;
   check(quantile >= 1.95 && quantile <= 12.8, "std_error_m",
-        fmt::format("{:g} does not match ci95_m [{:g}, {:g}], whose half width is {:.3g} times "
-                    "std_error_m; 1.96 to 12.7 times is possible",
+        fmt::format("{:g} does not match ci95_m [{:g}, {:g}]: its half width is {:.3g} times "
+                    "std_error_m, where 1.96 to 12.7 times is possible; identify again",
                     scrub.std_error_m, ci.lo, ci.hi, quantile));
   check(std::abs(0.5 * (ci.lo + ci.hi) - scrub.moment_m) <= 0.01 * (ci.hi - ci.lo), "moment_m",
-        fmt::format("{:g} is not the middle of ci95_m [{:g}, {:g}]", scrub.moment_m, ci.lo, ci.hi));
+        fmt::format("{:g} is not the middle of ci95_m [{:g}, {:g}]; identify again", scrub.moment_m,
+                    ci.lo, ci.hi));
   check(scrub.yaw_rate_radps.lo > 0.0 && scrub.yaw_rate_radps.hi < 1e3, "yaw_rate_radps",
         "yaw rates must be above 0 and below 1000 rad/s");
   // The scrub moment was overcome by the wheel forces, so it cannot exceed their largest yaw
@@ -258,7 +260,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
   const Interval force = model.vehicle.wheel_force;
   const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
   check(scrub.moment_m <= most_m, "moment_m",
-        fmt::format("{:g} exceeds the largest moment of the left and right wheels, {:.4g} m",
+        fmt::format("{:g} exceeds the largest yaw moment of the left and right wheel forces, "
+                    "{:.4g} m; identify again",
                     scrub.moment_m, most_m));
 }
 

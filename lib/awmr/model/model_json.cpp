@@ -227,8 +227,8 @@ EstimatorReport report_from_json(JsonObject json) {
   for (JsonObject& parameter : json.objects("parameters")) {
     report.parameters.push_back(parameter_from_json(parameter));
   }
-  // Both can be null: a fit without degrees of freedom has no residual spread, and a rank-deficient
-  // one has no finite condition number.
+  // residual_std and condition_number can be null: a fit without degrees of freedom has no residual
+  // spread, and a rank-deficient one has no finite condition number.
   report.residual_std = json.nullable_number("residual_std", kNonNegative).value_or(kNaN);
   report.rows_used = count(json, "rows_used");
   report.degrees_of_freedom = count(json, "degrees_of_freedom");

@@ -36,7 +36,8 @@ struct ParameterInfo {
   std::string_view unit;     ///< "1" if dimensionless
   std::string_view meaning;  ///< description for messages
   std::string_view trial;    ///< the trial that identifies it, as text for messages
-  bool term = false;         ///< optional: 0, not in model.json unless fitted or given
+  bool term = false;         ///< true: optional term, 0 and not in model.json unless it is fitted
+                             ///< or given
 };
 
 /// Names of quantities that a fit of logs can estimate in addition to the parameters. They are only
@@ -44,7 +45,7 @@ struct ParameterInfo {
 inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";
-inline constexpr std::string_view kBiasPrefix = "bias.";  ///< + the channel's column
+inline constexpr std::string_view kBiasPrefix = "bias.";  ///< followed by the channel's column name
 /// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). A coast-down without a surge trial determines only
 /// this ratio and b1, and for other families the ratios of ratio_names.h.
 inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";

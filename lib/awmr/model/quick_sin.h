@@ -36,7 +36,7 @@ AWMR_CALLED inline float quick_sin(float x, uint8_t quarters) {
   const uint16_t t = static_cast<uint16_t>(turn);
   const uint16_t size = detail::sin15((quarter & 1U) != 0 ? static_cast<uint16_t>(~t) : t);
   if (size == 0) return 0.0F;
-  // An exact division by 2^15.
+  // Divides by 2^15 exactly, by subtracting 15 from the exponent of the float.
   const uint32_t bits = bits_of(static_cast<float>(size)) - (static_cast<uint32_t>(15) << 23U);
   return float_of((quarter & 2U) != 0 ? bits | 0x80000000UL : bits);
 }

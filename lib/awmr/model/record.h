@@ -92,7 +92,8 @@ struct LeaveOneOut {
 /// One initial guess of a multistart search, and how the search from it ended.
 struct SearchStart {
   std::vector<double> values;  ///< the guess, in the order of EstimatorReport::parameters
-  double cost = 0.0;           ///< at the end: half the sum of squared standardised residuals
+  double cost = 0.0;           ///< cost at the end of the search: half the sum of squared
+                               ///< standardised residuals
   bool chosen = false;         ///< true: the estimates are the end of this search
   std::string stop_reason;
 };

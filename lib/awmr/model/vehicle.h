@@ -62,7 +62,8 @@ struct Vehicle {
 
   /// Form of the simulated controller's allocation; the firmware's is always exact.
   AllocationForm allocation = AllocationForm::kExact;
-  SensorQuality sensors = {};  ///< assumed when gains are tuned (tune/tune.h)
+  SensorQuality sensors = {};  ///< sensor errors that are assumed when gains are tuned
+                               ///< (tune/tune.h)
   /// s, >= 0: first-order lag from the motors' command to their force. Gains are tuned for it, and
   /// log fits filter the logged commands with it. Absent: none, unless a log identifies it.
   std::optional<double> motor_time_constant_s;

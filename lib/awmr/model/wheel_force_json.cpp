@@ -4,8 +4,8 @@ namespace awmr {
 
 Interval wheel_force_from_json(JsonObject json) {
   Interval force;
-  // F' is relative to the largest force of one motor, so it is within [-1, 1]. Forward thrust must
-  // exist, and motors must be able to stop.
+  // F' is relative to the largest force of one motor, so it is within [-1, 1]. The range must
+  // include 0 (motors off) and forward forces.
   force.lo = json.number("min", {.min = -1.0, .max = 0.0});
   force.hi = json.number("max", {.min = 0.0, .max = 1.0, .min_excluded = true});
   json.reject_unknown_keys();

@@ -21,15 +21,16 @@ constexpr double kWithin99 = 2.576;
 /// Half width of a 95 % interval in standard errors, for a normal distribution.
 constexpr double kNormalQuantile95 = 1.96;
 
-/// Returns half the width of the exponent's 95 % interval over its standard error: the quantile of
-/// Student's t that the fit used. kNormalQuantile95 if the exponent has no interval.
+/// Returns the quantile of Student's t that the fit used for its 95 % intervals: half the width of
+/// the exponent's interval divided by its standard error. kNormalQuantile95 if the exponent has no
+/// interval.
 double quantile_of_exponent(const Estimate& beta) {
   if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
   return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
 }
 
-/// Computes the curve from rest to 1.05 times the fastest run, with more points at low rates, where the
-/// curve is steep.
+/// Computes the curve from rest to 1.05 times the fastest run, with more points at low rates, where
+/// the curve is steep.
 void add_curve(const Model& model, TrialKind kind, DrawnFit& fit) {
   const auto law = fitted_law(model, kind);
   if (!law) return;

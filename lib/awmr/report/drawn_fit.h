@@ -1,5 +1,5 @@
-/// Data for the identification charts of the page and the figures: the curve through steady runs with
-/// its confidence band, residuals, and modelled coast-downs. Private to report/.
+/// Data for the identification charts of the page and the figures: the curve through steady runs
+/// with its confidence band, residuals, and modelled coast-downs. Private to report/.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace awmr {
 struct CurvePoint {
   double rate = 0.0;   ///< u in m/s or r in rad/s
   double value = 0.0;  ///< input for this steady rate: tau_speed, or tau_turn in m
-  /// Half width of the 95 % confidence band at this rate, in the unit of `value`; 0 if the model has
-  /// no covariance of the law.
+  /// Half width of the 95 % confidence band at this rate, in the unit of `value`; 0 if the model
+  /// has no covariance of the law.
   double half_band = 0.0;
 };
 
@@ -33,7 +33,7 @@ struct DrawnFit {
   Resistance<double> law{};            ///< `coulomb` includes the motors' dead zone (surge only)
   std::vector<CurvePoint> curve = {};  ///< empty if the model does not have the law
   bool has_band = false;               ///< true: the curve has a confidence band
-  /// Residuals; empty if fewer than three rows are predicted.
+  /// Residuals of the runs; empty if the model predicts fewer than three of them.
   std::vector<LeftOver> left_over = {};
   double bound_percent = 0.0;  ///< 99 % of normally distributed residuals are within +- this value
 };
@@ -50,16 +50,16 @@ struct CoastdownCurve {
   std::vector<double> speed_mps = {};
 };
 
-/// Computes one curve for each initial speed of the model's coast-downs. If there are more than eight
-/// speeds, eight are used, evenly chosen. Empty if there is no coast-down, or if the model lacks g1
-/// or m'.
+/// Computes one curve for each initial speed of the model's coast-downs. If there are more than
+/// eight speeds, eight are used, evenly chosen. Empty if there is no coast-down, or if the model
+/// lacks g1 or m'.
 std::vector<CoastdownCurve> coastdown_curves(const Model& model);
 
 /// Returns a flag for each trial of the model: true if a warning or an error refers to its row.
 std::vector<bool> doubtful_trials(const Model& model);
 
-/// The fits and coast-downs as JSON for the page: {"surge", "turning", "coastdown"}. A kind of steady
-/// run that the model does not have is left out.
+/// The fits and coast-downs as JSON for the page: {"surge", "turning", "coastdown"}. A kind of
+/// steady run that the model does not have is left out.
 Json fits_json(const Model& model);
 
 }  // namespace awmr

@@ -28,8 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// JSON text for a script element of the page. `<` is escaped, so that no text in the data can end the
-/// element.
+/// JSON text for a script element of the page. `<` is escaped, so that no text in the data can end
+/// the element.
 std::string script_safe(const Json& json) {
   std::string text;
   for (const char c : json.dump()) {
@@ -42,8 +42,8 @@ std::string script_safe(const Json& json) {
   return text;
 }
 
-/// True if mass, length, width, l_f and d are those of the paper's Table 1. The page shows the paper's
-/// claims only for this vehicle.
+/// True if mass, length, width, l_f and d are those of the paper's Table 1. The page shows the
+/// paper's claims only for this vehicle.
 bool is_vehicle_of_paper(const Vehicle& vehicle) {
   const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * b; };
   return near(vehicle.mass_kg, 37.0) && near(vehicle.length_m, 1.32) &&
@@ -58,8 +58,8 @@ void round_numbers(Json& json) {
   for (Json& value : json) round_numbers(value);
 }
 
-/// Rounds the numbers that the page only displays. The gains are not rounded, because the page simulates
-/// and copies them.
+/// Rounds the numbers that the page only displays. The gains are not rounded, because the page
+/// simulates and copies them.
 void round_shown(Json& data) {
   for (const char* name : {"model", "validation", "comparison", "pil", "suggest"}) {
     if (data.contains(name)) round_numbers(data[name]);
@@ -91,8 +91,9 @@ std::string assembled(const Json& data) {
   }
 }
 
-/// Adds the initial data of the interactive part. Its scenario is the first that is_plain_heading(),
-/// else headings of 30, then -30 deg. Adds nothing without gains, or if the model has no turning motion.
+/// Adds the initial data of the interactive part. Its scenario is the first that
+/// is_plain_heading(), else headings of 30, then -30 deg. Adds nothing without gains, or if the
+/// model has no turning motion.
 Status add_live(const fs::path& directory, const Model& model, Json& data) {
   if (kLiveWasm.empty() || !data.contains("gains")) return {};
   Scenario scenario = heading_steps({30.0, -30.0}, {.name = "headings 30 then -30 deg"});

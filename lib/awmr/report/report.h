@@ -36,8 +36,8 @@ Status check_report_page(const std::filesystem::path& path);
 /// File name of the Python program that draws the figures.
 inline constexpr const char* kPlotName = "plot.py";
 
-/// Print figures: their data as CSV files, figures.json, and plot.py, a Python program that draws them
-/// with matplotlib.
+/// Print figures: their data as CSV files, figures.json, and plot.py, a Python program that draws
+/// them with matplotlib.
 struct FigureSet {
   std::vector<OutputFile> files = {};     ///< the files, with paths relative to an output directory
   std::vector<std::string> names = {};    ///< names of the figures: CSV file names, no extension

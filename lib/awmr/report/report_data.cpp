@@ -139,7 +139,8 @@ Status read_own_samples(const std::filesystem::path& directory, ReportData& data
   return {};
 }
 
-/// Adds the findings in awmr_emit.json, which `awmr emit` wrote next to the results or into `firmware`.
+/// Adds the findings in awmr_emit.json, which `awmr emit` wrote next to the results or into
+/// `firmware`.
 Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
                    std::vector<Finding>& findings) {
   for (const auto& folder : {directory, directory / "firmware"}) {

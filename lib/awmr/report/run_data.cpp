@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Largest number of rows of all runs together. A row takes about 100 bytes of the page, and the page
-/// must be smaller than 3 MB.
+/// Largest number of rows of all runs together. A row takes about 100 bytes of the page, and the
+/// page must be smaller than 3 MB.
 constexpr std::size_t kMaxRows = 20000;
 constexpr std::size_t kMaxRowsOfRun = 1500;
 constexpr std::size_t kMinRowsOfRun = 100;
@@ -89,8 +89,8 @@ Json columns_of(const CsvTable& table, std::size_t most_rows) {
 }
 
 /// Returns the files in a directory whose names match the pattern, sorted by name. An entry has the
-/// name, then the groups of the match. Errors (input): the directory cannot be read; a match is not a
-/// regular file.
+/// name, then the groups of the match. Errors (input): the directory cannot be read; a match is not
+/// a regular file.
 Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& directory,
                                                              const std::regex& pattern) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> entries, list_directory(directory));
@@ -105,8 +105,8 @@ Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& dir
   return files;
 }
 
-/// At most kMaxSamples of the values, ascending and evenly spaced by rank, including the smallest and
-/// the largest.
+/// At most kMaxSamples of the values, ascending and evenly spaced by rank, including the smallest
+/// and the largest.
 Json at_even_ranks(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t count = std::min(values.size(), kMaxSamples);

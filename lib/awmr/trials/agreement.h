@@ -31,8 +31,9 @@ double last_place(const CsvTable& table, std::string_view column,
 /// Maximum rounding error of a printed value whose column has this last place.
 double rounding_error(double printed, double last_place);
 
-/// Maximum error of `timed`, a rate measured over `elapsed_s` > 0: timed (stop_watch/elapsed +
-/// course). `elapsed_last_place`: last_place() of the times, s.
+/// Largest plausible error of `timed`, a speed or yaw rate computed as distance or angle over the
+/// time `elapsed_s` > 0. It allows for the error of the time, and for a fixed relative error of the
+/// distance. `elapsed_last_place`: last_place() of the times, s.
 double timing_error(double timed, double elapsed_s, double elapsed_last_place);
 
 /// Standard deviation, s, of a time whose column has this last place, s. Above 1 ms (stop watch):

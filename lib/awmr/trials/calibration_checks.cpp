@@ -105,7 +105,7 @@ CourseWindow course_window(const DrivingLog& log, const LogWindow& window,
 
 struct CourseFit {
   Complex factor;          ///< k = s exp(i phi)
-  double std_error = 0.0;  ///< of the real and the imaginary part of k
+  double std_error = 0.0;  ///< standard error of the real and of the imaginary part of k
   double scatter_m = 0.0;  ///< standard deviation of the residuals
 };
 

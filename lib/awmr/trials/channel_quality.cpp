@@ -43,7 +43,7 @@ double quantum_of(const Changes& changes) {
   for (const double step : changes.step) {
     const double times = step / smallest;
     steps.push_back(times);
-    // Tolerance for values that were rounded to few digits in the file.
+    // The tolerance allows for values that the file gives with few digits.
     if (std::abs(times - std::round(times)) < 0.05 + 1e-6 * times) ++on_grid;
   }
   const bool grid = static_cast<double>(on_grid) > 0.98 * static_cast<double>(steps.size());
@@ -66,7 +66,7 @@ std::vector<double> gaps_of(const Changes& changes) {
 bool changes_step_by_step(const Changes& changes, double quantum) {
   constexpr double kNearlyAll = 0.95;
   constexpr double kRegular = 0.8;
-  constexpr double kOffMultiple = 0.15;  // of the interval
+  constexpr double kOffMultiple = 0.15;  // tolerance for a multiple, as a fraction of the interval
   if (!(quantum > 0.0)) return false;
   const auto single =
       std::ranges::count_if(changes.step, [&](double step) { return step < 1.5 * quantum; });
@@ -283,7 +283,7 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
         notable > 0.0 && changed_s(t_s, activity, run, notable) >= kMinChanged_s;
     if (!is_notable) continue;
     quality.stuck.push_back(run);
-    // The first reading of the run is valid.
+    // The first reading of a stuck run is valid; the repetitions after it are not measurements.
     for (std::size_t i = run.begin + 1; i < run.end; ++i) quality.fresh[i] = false;
   }
 }
@@ -314,7 +314,7 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
     }
     i = end;
   }
-  // A signal with few distinct values repeats all of them.
+  // A signal with few distinct values repeats all of them, so its ends do not show saturation.
   constexpr std::size_t kMinLevels = 20;
   if (levels < kMinLevels) return;
   for (const double bound : {*high, *low}) {

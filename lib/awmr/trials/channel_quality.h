@@ -36,10 +36,9 @@ struct ChannelQuality {
 ///
 /// A slow sensor changes its value in every second row at most, at a multiple of its interval. A
 /// coarse sensor changes it at any time, also in neighbouring rows, mostly by one step of its
-/// resolution. Of a slow sensor, only the rows with a
-/// new reading are measurements. Of a coarse sensor, every row is a measurement: an unchanged value
-/// means that the signal did not reach the next step. Rows with spikes, stuck values (except the
-/// first) or saturated values are not measurements.
+/// resolution. Of a slow sensor, only the rows with a new reading are measurements. Of a coarse
+/// sensor, every row is one: an unchanged value means that the signal did not reach the next step.
+/// Rows with spikes, stuck values (except the first) or saturated values are not measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

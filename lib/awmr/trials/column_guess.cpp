@@ -163,7 +163,8 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
                        (*time)->meaning + "; it is also read without a mapping"});
   }
   if (!guesses.empty()) return;
-  // A name such as `ms` may mean milliseconds or m/s, but a speed does not rise in every row.
+  // A column named by a unit alone counts as time only if its values rise in every row: `ms` may
+  // also mean m/s, but a speed does not rise in every row.
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const Words words = words_of(sample.names[i]);
     const auto unit = unit_in(words, Dimension::kTime);

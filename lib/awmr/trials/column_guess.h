@@ -15,8 +15,8 @@ namespace awmr {
 /// First rows of a file in any supported format.
 struct FileSample {
   std::vector<std::string> names;
-  std::vector<std::vector<double>> values;  ///< by name: the first numbers, at most kSampleRows
-  std::vector<std::string> texts;  ///< by name: first non-empty cell; empty in binary files
+  std::vector<std::vector<double>> values;  ///< by column: its first numbers, at most kSampleRows
+  std::vector<std::string> texts;  ///< by column: its first non-empty cell; empty for binary files
 };
 inline constexpr std::size_t kSampleRows = 1000;
 
@@ -40,7 +40,7 @@ struct ColumnGuess {
   /// that no column can be used.
   std::string expression;
   Confidence confidence = Confidence::kUnsure;
-  std::string why;                   ///< reason, for the user
+  std::string why;                   ///< reason of the guess, as text for the user
   std::vector<double> samples = {};  ///< first few values of the source column
 };
 

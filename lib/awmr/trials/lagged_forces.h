@@ -29,8 +29,8 @@ class LaggedForces {
     SideForces<double> by_lag;
     SideForces<double> by_delay;
   };
-  /// Computes the mean over [t, t + h] if the commands reach the motors `delay_s` after they were
-  /// logged. `signals`: signals of the same log.
+  /// Computes the mean forces over [t, t + h] if the commands reach the motors `delay_s` after they
+  /// were logged. `signals`: signals of the same log.
   Mean mean(const LogSignals& signals, double t_s, double h_s, double delay_s) const;
 
  private:

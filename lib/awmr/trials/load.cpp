@@ -89,8 +89,8 @@ void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>
     for (std::size_t k = 0; k < i; ++k) {
       if (!is_same_recording(logs[i], logs[k])) continue;
       faults.push_back({ErrorCode::kGivenTwice, logs[i].file,
-                        fmt::format("the same recording as {}, row by row: it would "
-                                    "count twice; give it once",
+                        fmt::format("the same recording as {}, row by row, which would count "
+                                    "twice; remove one of the two files",
                                     logs[k].file)});
       break;
     }

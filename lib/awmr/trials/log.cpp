@@ -65,7 +65,8 @@ void unwrap(std::vector<double>& angle_rad) {
 void check_log_columns(TrialReader& reader, bool has_steering) {
   if (has_steering && !reader.has("steering_cmd_deg") && !reader.has("steering_deg")) {
     reader.header_fault(ErrorCode::kMissing,
-                        "no steering: add a column steering_cmd_deg or steering_deg");
+                        "no steering: add a column steering_cmd_deg or steering_deg, or set drive "
+                        "to \"differential\" in vehicle.json if the vehicle has no steering");
   }
   if (reader.has("latitude_deg") != reader.has("longitude_deg")) {
     reader.header_fault(ErrorCode::kMissing,
@@ -242,7 +243,7 @@ double DrivingLog::median_step_s() const {
 }
 
 bool has_force_difference(const DrivingLog& log) {
-  constexpr double kMuch = 0.01;  // F', a fraction of F_max
+  constexpr double kMuch = 0.01;  // difference of the forces F' that counts, as a fraction of F_max
   for (std::size_t i = 0; i < log.rows(); ++i) {
     if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
   }
@@ -284,7 +285,8 @@ DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
     log.steering_command_rad =
         values_of(reader, rows, "steering_cmd_deg", info(LogChannel::kSteering).to_si);
   } else if (!reader.has("steering_deg")) {
-    log.steering_command_rad.emplace(log.t_s.size(), 0.0);  // vehicle without steering
+    log.steering_command_rad.emplace(log.t_s.size(), 0.0);  // a vehicle without steering has the
+                                                            // command 0
   }
   return log;
 }

@@ -1,4 +1,5 @@
-/// Start of a driving log, at rest or in motion.
+/// Determines whether a driving log begins at rest or in motion, and adds a row of rest before a
+/// log that begins at rest.
 #pragma once
 
 #include "awmr/trials/log.h"

@@ -135,7 +135,8 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
 /// Ratio of the yaw rate to that of rolling wheels, u tan(d)/(2 l_f) (d: steering angle, 2 l_f:
 /// about the wheelbase), in windows with about equal forces on both sides.
 std::optional<double> rate_over_rolling(const Evidence& evidence) {
-  constexpr double kLittle = 0.1;  // fraction of the steering moment
+  constexpr double kLittle = 0.1;  // largest moment of the force difference, as a fraction of the
+                                   // steering moment
   if (!evidence.has(LogChannel::kSpeed) || !evidence.vehicle.has_steering()) return std::nullopt;
   std::vector<double> rolling;
   std::vector<double> rate;
@@ -225,7 +226,7 @@ double position_variance_m2(const DrivingLog& log) {
 /// 4 sigma^2. The term 4 sigma^2 is therefore subtracted. Empty if the median distance in the
 /// faster half of the windows is below twice that of noise alone.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
-  constexpr double kClear = 4.0;  // ratio of the squares
+  constexpr double kClear = 4.0;  // smallest ratio of the squared distance to that of noise alone
   const double noise_m2 = 4.0 * position_variance_m2(evidence.log);
   std::vector<double> driven;
   std::vector<double> moved;

@@ -210,8 +210,8 @@ Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
                              plant.mass_norm, plant.inertia_norm, 4.0 * step_s);
   return input_error(
       ErrorCode::kOutOfRange, file,
-      fmt::format("{}, too fast to be followed through a log (the limit is {:g} s): check the "
-                  "vehicle's values and the units of its trials",
+      fmt::format("{}, too fast to be followed when a log is replayed (limit: {:g} s): check the "
+                  "values in vehicle.json and the units of the trials",
                   what, 4.0 * kShortestReplayStep_s));
 }
 

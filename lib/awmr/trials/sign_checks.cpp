@@ -140,7 +140,7 @@ std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations,
 /// from north, and x may be east. 0 if the positions show no such offset.
 double mirrored_heading_deg(const Evidence& evidence) {
   constexpr double kQuarter_deg = 90.0;
-  constexpr double kClose_deg = 20.0;  // tolerance for declination and sideslip
+  constexpr double kClose_deg = 20.0;  // tolerance, deg, for declination and sideslip
   if (!evidence.has(LogChannel::kX) || !evidence.has(LogChannel::kY)) return 0.0;
   const CourseRelation course = course_relation(evidence.overlapping);
   if (course.sign != -1) return 0.0;
@@ -202,7 +202,7 @@ std::string alternatives(const std::array<std::string, kSignedCount>& columns,
 }
 
 std::vector<Contradiction> check_signs(const Evidence& evidence) {
-  // Positions from latitude and longitude have the right sign.
+  // Positions from latitude and longitude have the right sign, so y cannot be the wrong column.
   const unsigned fixed = evidence.log.is_geographic ? bit(Signed::kY) : 0U;
   const std::vector<unsigned> solutions = smallest_flips(sign_relations(evidence), fixed);
   if (solutions.empty() || solutions.front() == 0U) return {};
@@ -314,7 +314,8 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
 /// span is the largest rise of the mean speed over 0.25 s above the smallest earlier mean. The
 /// first half second of a span does not count, because motors and sensors may lag.
 double gathered_backwards_mps(const DrivingLog& log) {
-  constexpr double kPushes = 0.1;  // fraction of the largest thrust
+  constexpr double kPushes = 0.1;  // smallest rearward thrust that counts, as a fraction of the
+                                   // largest thrust
   constexpr double kLag_s = 0.5;
   constexpr double kMean_s = 0.25;
   const std::vector<double>& speed = log[LogChannel::kSpeed]->value;
@@ -344,7 +345,8 @@ double gathered_backwards_mps(const DrivingLog& log) {
 /// Detects a column with speeds without sign: never negative, and rising during rearward thrust.
 /// (Rearward thrust would slow down a vehicle that drives forward.)
 std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
-  constexpr double kNegative = 0.05;  // fraction of the largest speed
+  constexpr double kNegative = 0.05;  // smallest negative speed that counts, as a fraction of the
+                                      // largest speed
   constexpr double kMuch = 0.15;
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto [slowest, fastest] = std::ranges::minmax(evidence.log[LogChannel::kSpeed]->value);

@@ -31,8 +31,8 @@ void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::p
 void check_consistency(const TrialSet<TurningRow>& turning, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
-/// As above, for coast-downs. Also adds the warning `coast-beyond-surge` if a coast-down begins
-/// above 1.5 times the speed of the fastest surge run.
+/// As check_consistency() of surge runs, for coast-downs. Also adds the warning
+/// `coast-beyond-surge` if a coast-down begins above 1.5 times the speed of the fastest surge run.
 void check_consistency(const CoastdownSet& coastdown, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);

@@ -58,7 +58,7 @@ constexpr std::array<RateUnit, 4> kTimedUnits{
 /// Yaw rate of one row compared with a limit.
 struct TurnShare {
   const TurningRow* row;
-  double share;           ///< yaw rate over the limit
+  double share;           ///< yaw rate divided by its limit
   std::string described;  ///< the comparison as text, for messages
 };
 
@@ -124,7 +124,8 @@ std::optional<SpeedCurve> speed_curve(const TrialSet<TurningRow>& turning,
   for (const SurgeRow& row : surge->rows) thrust = std::max(thrust, row.tau_speed);
   const bool surge_beyond = thrust > vehicle.driven_wheels() * limit;
   const bool turns_beyond = std::max(hardest(turning.rows), hardest(turning.by_sides)) > limit;
-  // The same wrong unit in both tables, such as PWM counts, works as well as F'.
+  // If both tables have the same unit of force, the curve is usable even if that unit is wrong
+  // (such as PWM counts instead of F').
   const bool is_same =
       surge_beyond == turns_beyond && (!surge_beyond || surge->force_column == "wheel_force");
   return is_same ? std::optional<SpeedCurve>(surge->rows) : std::nullopt;

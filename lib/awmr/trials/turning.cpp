@@ -48,7 +48,7 @@ struct Turn {
   std::string equation;     ///< equation of computed_m, for messages
   std::string parameter;    ///< vehicle parameter in the equation: "front_axle_m"
   double length_m = 0.0;    ///< value of this parameter
-  // Values stored in the row.
+  // Values for the TurningRow.
   double steering_rad = 0.0;
   double wheel_force = 0.0;
   std::optional<SideForces<double>> sides = {};

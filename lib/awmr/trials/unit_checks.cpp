@@ -107,7 +107,8 @@ std::vector<Contradiction> check_forces(const Evidence& evidence) {
 
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
   std::vector<Contradiction> found = check_forces(evidence);
-  // With a wrong unit of time, windows of one second have no meaning.
+  // With a wrong unit of time, windows of one second have no meaning, so the units of the motion
+  // are not checked.
   if (auto time = check_time(evidence)) {
     found.insert(found.begin(), *time);
     return found;

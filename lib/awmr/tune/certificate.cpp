@@ -115,8 +115,9 @@ ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Rand
   return best;
 }
 
-/// The point with the smallest value in each orthant of the ball. The pattern search starts from
-/// each of these points, because the function can have several local minima.
+/// Returns the point with the smallest value in each orthant of the ball (all points whose
+/// coordinates have the same signs). The pattern search starts from each of these points, because
+/// the function can have several local minima.
 std::vector<ValuedPoint> best_by_orthant(std::vector<ValuedPoint> points) {
   std::map<unsigned, ValuedPoint> best;
   for (ValuedPoint& one : points) {

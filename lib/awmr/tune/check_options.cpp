@@ -24,7 +24,7 @@ namespace {
 /// Adds a fault for each number of option_table.h that is outside of its range.
 struct CheckOption {
   std::vector<Fault>& faults;
-  std::string of = {};  ///< before the key in the message, as "limits: "
+  std::string of = {};  ///< text before the key in the message, such as "limits: "
 
   template <class Value>
   void operator()(const char* key, const Value& value, const NumberRule& rule) const {
@@ -89,22 +89,23 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   const UnmodelledVariation& open = options.open;
   if (!open.any()) return;
   if (options.nominal) {
-    faults.push_back(
-        {ErrorCode::kConflict, "",
-         "`open` varies the sampled plants, which nominal disables; remove one of the two"});
+    faults.push_back({ErrorCode::kConflict, "",
+                      "`open` varies the randomly drawn vehicles, which nominal disables; remove "
+                      "one of the two"});
     return;
   }
   for (const double factor : open.mass_factors) {
     if (allows(kMassFactor, factor)) continue;
     faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("open: a mass factor of {} is not in {} ... {}", factor,
-                                  kMassFactor.min, kMassFactor.max)});
+                      fmt::format("open: the mass factor {} is out of range; give a factor in {} "
+                                  "... {}",
+                                  factor, kMassFactor.min, kMassFactor.max)});
   }
   for (const Interval& force : open.wheel_forces) {
     if (force.lo >= -1.0 && force.lo < force.hi && force.hi > 0.0 && force.hi <= 1.0) continue;
     faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("open: wheel forces of [{}, {}], but -1 <= min < max and 0 < "
-                                  "max <= 1 is needed",
+                      fmt::format("open: found the wheel forces [{}, {}], but -1 <= min < max and "
+                                  "0 < max <= 1 are required",
                                   force.lo, force.hi)});
   }
   if (std::max(open.mass_factors.size(), open.wheel_forces.size()) > kMaxOpenValues) {
@@ -140,23 +141,25 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
   for (const auto& [figure, most] : goal.at_most) {
     if (!is_run_figure(figure) || !figures.insert(figure).second) {
       faults.push_back({ErrorCode::kUnknownName, "",
-                        fmt::format("goals: {} is unknown or given twice; available: {}", figure,
-                                    fmt::join(run_figure_names(), ", "))});
+                        fmt::format("goals: the metric {} is unknown or given twice; available: {}",
+                                    figure, fmt::join(run_figure_names(), ", "))});
     }
     if (!allows(kGoalLimit, most)) {
       faults.push_back({ErrorCode::kOutOfRange, "",
-                        fmt::format("goals: {} at most {} is not above 0 or outside of {} ... {}",
+                        fmt::format("goals: the limit of {}, {}, is not above 0 or out of range; "
+                                    "give a number in {} ... {}",
                                     figure, most, kGoalLimit.min, kGoalLimit.max)});
     }
   }
   if (figures.empty()) {
-    faults.push_back({ErrorCode::kMissing, "",
-                      "goals: a goal is without a limit; give at_most at least one metric"});
+    faults.push_back(
+        {ErrorCode::kMissing, "",
+         "goals: a goal is without a limit; give at_most at least one metric with its limit"});
   }
   if (!allows(kGoalShare, goal.share)) {
     faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("goals: a share of {} is not in {} ... {}", goal.share,
-                                  kGoalShare.min, kGoalShare.max)});
+                      fmt::format("goals: the share {} is out of range; give a number in {} ... {}",
+                                  goal.share, kGoalShare.min, kGoalShare.max)});
   }
 }
 
@@ -169,8 +172,8 @@ void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
   }
   if (options.nominal) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "sensitivity needs sampled plants, which nominal disables; remove one of the "
-                      "two"});
+                      "sensitivity needs randomly drawn vehicles, which nominal disables; remove "
+                      "one of the two"});
   }
 }
 
@@ -181,8 +184,8 @@ void check_late_limits(const TuneOptions& options, std::vector<Fault>& faults) {
                                    std::pair("delayed_damping", &TuningLimits::delayed_damping)}) {
     if (!options.nominal || options.limits.*limit == unchanged.*limit) continue;
     faults.push_back({ErrorCode::kConflict, "",
-                      fmt::format("limits: {} is for loops with latency or motor lag, which "
-                                  "nominal disables; remove one of the two",
+                      fmt::format("limits: {} limits the heading loop with latency and motor lag, "
+                                  "which nominal disables; remove one of the two",
                                   key)});
   }
 }
@@ -218,11 +221,13 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
   }
   if (options.nominal) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "goals need sampled plants, which nominal disables; remove one of the two"});
+                      "goals need randomly drawn vehicles, which nominal disables; remove one of "
+                      "the two"});
   }
   if (options.evaluation_draws == 0) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "goals are evaluated on fresh draws; judged_draws has to be above 0"});
+                      "goals are evaluated on newly drawn vehicles; their number judged_draws has "
+                      "to be above 0"});
   }
   if (options.goals.size() > kMaxGoals) {
     faults.push_back(

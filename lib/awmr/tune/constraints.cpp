@@ -91,8 +91,8 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
   return worst;
 }
 
-/// The constraints that are evaluated for one vehicle at a time (all except late damping, delay
-/// margin and steering rate).
+/// The constraints that are evaluated for one vehicle at a time: all except late damping, delay
+/// margin and steering rate, which are evaluated over all vehicles of the context at once.
 std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle);
@@ -320,9 +320,9 @@ std::vector<double> steering_shares(const ConstraintContext& context) {
   return {steering_share<double>(YawMode::kSteering), steering_share<double>(YawMode::kCombined)};
 }
 
-/// Returns the gains with `width`, the friction width of the mode with this share of the steering,
-/// at the smallest in `widths` with which the steering rate is at most `limit_degps`, or at the
-/// largest.
+/// Sets `width`, the friction width of the mode in which the steering makes the fraction `share` of
+/// the yaw moment, to the smallest value in `widths` with which the RMS steering rate is at most
+/// `limit_degps`. If there is none, it is set to the largest value.
 Gains<double> with_smallest_width(Gains<double> gains, double HeadingGains<double>::*width,
                                   Interval widths, double limit_degps, double share,
                                   const ConstraintContext& context) {
@@ -352,7 +352,8 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider) {
-  // At the largest width, the fed-forward friction grows with S a tenth as fast as the correction.
+  // Fixes the largest width: with it, the fed-forward friction grows with S a tenth as fast as the
+  // corrective term mu S/epsilon.
   constexpr double kMinFrictionShare = 0.1;
   HeadingGains<double>& heading = gains.heading;
   constexpr double kNarrowest = feed_forward_rest_speed<double>();
@@ -371,7 +372,9 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
                                 is_own ? &HeadingGains<double>::combined_friction_width_radps
                                        : &HeadingGains<double>::friction_width_radps,
                                 widths, *limit * (1.0 + wider), share, context);
-    if (gains.observer.is_on()) break;  // one width for all modes; the first has the most noise
+    if (gains.observer.is_on())
+      break;  // with an observer, all modes have the width of the first
+              // one, whose steering command has the most noise
   }
   const bool is_default =
       std::max(heading.friction_width_radps, heading.combined_friction_width_radps) <= kNarrowest;

@@ -38,13 +38,17 @@ struct ConstraintContext {
   double speed_mps = 1.0;                ///< largest u_d of the scenarios, >= 0
   double step_rad = radians(60.0);       ///< largest change of the commanded heading, >= 0
   double fastest_radps = radians(60.0);  ///< highest yaw rate of the runs, > 0
-  TuningLimits limits = {};              ///< without steering_rate_rms_degps: no limit of that rate
+  TuningLimits limits = {};              ///< if steering_rate_rms_degps is absent, the steering
+                                         ///< rate has no limit
   Interval wheel_force{-1.0, 1.0};       ///< F' of one wheel over F_max
   double heading_noise_rad = radians(1.0);     ///< standard deviation of the noise, >= 0
   double yaw_rate_noise_radps = radians(0.5);  ///< standard deviation of the noise, >= 0
-  double heading_correlation = 0.0;      ///< of the heading noise at two samples T_s apart, [0, 1)
-  double yaw_rate_correlation = 0.0;     ///< of the yaw-rate noise at two samples T_s apart, [0, 1)
-  double latency_s = 0.0;                ///< of the readings of heading and yaw rate, s, >= 0
+  double heading_correlation = 0.0;      ///< correlation of the heading noise between two samples
+                                         ///< T_s apart, [0, 1)
+  double yaw_rate_correlation = 0.0;     ///< correlation of the yaw-rate noise between two samples
+                                         ///< T_s apart, [0, 1)
+  double latency_s = 0.0;                ///< latency of the readings of heading and yaw rate, s, >=
+                                         ///< 0
   double motor_time_constant_s = 0.0;    ///< first-order lag of the motors, s, >= 0
   std::vector<DrawnVehicle> draws = {};  ///< drawn vehicles, which must meet the constraints, too
 

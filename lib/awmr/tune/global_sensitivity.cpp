@@ -121,7 +121,8 @@ std::vector<double> figures_at(const Sample& sample, const ObjectiveSetting& set
                                const LoopConditions& assumed,
                                const Controller<double>& controller) {
   const std::span<const YawMode> modes = setting.modes();
-  // A drawn model has every parameter that the model has.
+  // plant_as_known() does not check for missing parameters, but a drawn model has every parameter
+  // of the model.
   const Plant<double> plant = sample.model.plant_as_known();
   std::vector<BatchRun> runs;
   for (const YawMode mode : modes) {
@@ -162,7 +163,8 @@ Result<GlobalSensitivity> global_sensitivity(const Model& model, const Objective
                         drawn_samples(model, setting.seed, at(samples), samples));
   const auto controller = make_controller(setting.vehicles.front().plant, setting.vehicle, gains);
   const std::size_t n = at(samples);
-  // The metrics of the samples AB_i by input, then of A and B (sobol.h).
+  // The metrics of each sample, in this order: the samples AB_i of each input i, then A, then B
+  // (sobol.h).
   std::vector<std::vector<double>> figures((inputs.size() + 2) * n);
   parallel_for(figures.size(), 0, [&](std::size_t i) {
     const std::size_t input = i / n;

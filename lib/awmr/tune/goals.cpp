@@ -33,8 +33,9 @@ constexpr RunFigure kFiguresByName[kRunFigures] = {
      [](const Metrics& m, const Scenario&) { return m.steering_rate_rms_degps; }},
 };
 
-/// Excess of each draw in one mode: the largest over the scenarios, because the runs of one draw
-/// share its plant and are not independent. Outcomes are by draw, then mode, then scenario.
+/// Excess of each drawn vehicle in one mode (goals.h): the largest over the scenarios, because the
+/// runs of one vehicle are not independent. `outcomes` are sorted by vehicle, then mode, then
+/// scenario.
 std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                              std::size_t scenarios) {
   std::vector<double> all;

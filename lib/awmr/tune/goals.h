@@ -38,7 +38,7 @@ double excess_of(const TuningGoal& goal, const RunOutcome& outcome);
 struct GoalInMode {
   const TuningGoal* goal = nullptr;
   YawMode mode{};
-  std::string name() const;  ///< for constraints and messages
+  std::string name() const;  ///< name of the goal in constraints and messages
 };
 /// Each goal in each of its modes that is in `modes`: by goal, then mode.
 std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);

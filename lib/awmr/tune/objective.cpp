@@ -29,7 +29,7 @@ std::size_t runs_together(std::size_t count, std::size_t scenarios) {
   return std::min(kBatchRuns, (share + kFour - 1) / kFour * kFour);
 }
 
-/// Metrics, up to the failure, of a run that failed.
+/// Metrics of a run that diverges, computed from its rows before the failure.
 Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
                           const ObjectiveSetting& setting) {
   return drive_batch(std::span(&run, 1), scenario, setting.vehicle.sample_time_s,

@@ -74,7 +74,7 @@ struct ObjectiveSetting {
   ObjectiveWeights weights;
   std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
   double tail_share = 1.0;          ///< share of the vehicles that counts as worst, (0, 1]
-  std::uint64_t seed = 0;           ///< of the random numbers of the runs
+  std::uint64_t seed = 0;           ///< seed of the random numbers of the runs
   BatchArithmetic arithmetic = {};  ///< instruction set and rounding of the runs
   std::vector<TuningGoal> goals = {};
   /// Number of each vehicle, which with the seed selects its random numbers; empty: 0, 1, ...
@@ -92,13 +92,14 @@ RunNoise draw_noise(const ObjectiveSetting& setting);
 
 /// Objective and metrics of one set of gains.
 struct Evaluation {
-  std::vector<ModeScore> scores;       ///< of the first vehicle, by mode, then scenario
+  std::vector<ModeScore> scores;       ///< scores of the first vehicle, by mode, then scenario
   std::vector<double> mode_objective;  ///< geometric mean over scenarios, in the order of modes()
   std::vector<double> mode_activity;   ///< by mode: sum of the control variation of all runs,
                                        ///< divided by the sum with the baseline gains
   std::vector<double> goal_quantile;   ///< quantile of the excess, by goal, then mode (goals.h);
                                        ///< a goal is met if it is at most 1
-  TradeOffPoint trade_off;             ///< means over all runs
+  TradeOffPoint trade_off;             ///< settling time and control variation, as means over all
+                                       ///< runs
   double objective = 0.0;  ///< geometric mean over the modes, plus soft goals; finite if `valid`
   bool valid = false;      ///< the objective is finite, and no run breaks off
 };

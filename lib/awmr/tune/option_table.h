@@ -17,7 +17,8 @@ inline constexpr NumberRule kEvaluationDraws{.min = 0.0, .max = 100'000.0};
 inline constexpr NumberRule kShareAboveZero{.min = 0.0, .max = 1.0, .min_excluded = true};
 inline constexpr NumberRule kBetweenZeroAndOne{
     .min = 0.0, .max = 1.0, .min_excluded = true, .max_excluded = true};
-/// Damping ratios and the share of the yaw moment; a smaller limit would be none.
+/// Range of the limits on damping ratios and of noise_share. A limit below 1e-6 would have no
+/// effect.
 inline constexpr NumberRule kLimitShare{.min = 1e-6, .max = 1.0};
 /// Limit of a metric in a goal, and the share of the draws that must meet it.
 inline constexpr NumberRule kGoalLimit{.min = 1e-9, .max = 1e9};

@@ -34,8 +34,9 @@ double least_mu(const ConstraintReport& dominates) {
   return std::max(dominates.limit / kInside, kMinMu);
 }
 
-/// `at_one`: the constraints of gains that are all 1. The constraints limit the sum of the rates of
-/// law and observer.
+/// Returns the speed gains with the fastest pole. `at_one`: the constraints for gains that are all
+/// 1, from which the largest permitted rate follows in proportion. This rate is the sum of the
+/// rates of law (mu_s/eps_s) and observer.
 SpeedGains<double> place_speed_pole(const std::vector<ConstraintReport>& at_one,
                                     double observer_radps) {
   constexpr double kMinRate = 1e-3;
@@ -71,7 +72,8 @@ class HeadingPoles {
   }
 
   bool is_met(const Gains<double>& gains) {
-    // The draws are examined only if the model's own plant meets the constraints.
+    // The drawn vehicles are examined, which takes longer, only if the model's own plant meets the
+    // constraints.
     double broken = violation(gains, own_);
     if (broken <= 0.0 && !context_.draws.empty()) broken = violation(gains, context_);
     if (broken < least_broken_) {
@@ -103,7 +105,7 @@ class HeadingPoles {
   }
 
   const ConstraintContext& context_;
-  ConstraintContext own_;  ///< without the draws
+  ConstraintContext own_;  ///< the context without its drawn vehicles
   SpeedGains<double> speed_;
   double mu_;
   ObserverGains<double> observer_;

@@ -45,9 +45,10 @@ class SearchSpace {
 /// A set of gains with its evaluation.
 struct Candidate {
   Gains<double> gains{};
-  /// Largest residual of the constraints, the activity limit and the goals; <= 0 is feasible.
+  /// Largest residual of the constraints, the activity limits and the goals; the gains are feasible
+  /// if it is <= 0.
   double violation = 0.0;
-  double objective = 0.0;  ///< meaningful if `simulated`
+  double objective = 0.0;  ///< value of the objective; meaningful only if `simulated`
   bool simulated = false;  ///< false: a constraint is violated, so nothing was simulated
   bool valid = false;      ///< the objective is finite, and no run breaks off
 
@@ -73,8 +74,8 @@ class Problem {
  public:
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective);
 
-  /// Names of the residuals: the required constraints, then the activity limit of each mode, then
-  /// the goals that are not soft.
+  /// Names of the residuals: the required constraints, then for each mode the limit of the control
+  /// activity (`activity_max`), then the goals that are not soft.
   const std::vector<std::string>& names() const { return names_; }
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }

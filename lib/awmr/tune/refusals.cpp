@@ -108,8 +108,8 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
   return refused_at(
       requested, is_activity ? "/activity_max" : pointer_to(found.broken_most), ErrorCode::kNoGains,
       fmt::format(
-          "no gains within the bounds meet every limit: the nearest of {} evaluated ({}) violate "
-          "'{}' by {:.0f} %; {}, or increase local_evaluations",
+          "no gains within the bounds meet every limit: the nearest of {} evaluated sets ({}) "
+          "violate '{}' by {:.0f} %; {}, or increase local_evaluations",
           found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
           is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
 }

@@ -73,9 +73,10 @@ const Limit* limit_of(std::string_view constraint) {
   return found == limits().end() ? nullptr : &*found;
 }
 
-/// Number of the limit at which gains with these constraints just meet the constraints that it
-/// sets. The limit of the speed lag is 1/(4 zeta^2); all others are proportional to their number in
-/// tune.json.
+/// Returns the value of a limit in tune.json with which given gains just meet the constraints that
+/// this limit sets. `number`: present value of the limit; `all`: constraints of the gains under it.
+/// The bound on the speed lag is 1/(4 zeta^2), zeta the value in tune.json; all other bounds are
+/// proportional to their value.
 double just_met(const Limit& limit, double number, const std::vector<ConstraintReport>& all) {
   double ratio = 1.0;
   for (const ConstraintReport& c : all) {
@@ -86,7 +87,7 @@ double just_met(const Limit& limit, double number, const std::vector<ConstraintR
   return number * ratio;
 }
 
-/// Rounds to two digits, towards more permitted gains.
+/// Rounds to two digits, to the less strict side.
 double in_two_digits(const Limit& limit, double number) {
   const double digit = std::pow(10.0, std::floor(std::log10(std::abs(number))) - 1.0);
   return digit * (limit.relaxed_by_less ? std::floor(number / digit) : std::ceil(number / digit));
@@ -153,16 +154,17 @@ std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& c
 
 namespace {
 
-/// Gains that tune() would start from under the limits of `context`, as in feasible_start() but
-/// from fewer starts. Empty if none are found.
+/// Returns gains from which tune() could start its search under the limits of `context`: as
+/// feasible_start(), but with fewer initial guesses. Empty if none are found.
 std::optional<Gains<double>> start_with(TuneOptions options, const ConstraintContext& context) {
   const std::array<Gains<double>, 2> poles = starting_poles(context);
   bound_around(poles, options.bounds);
   return least_relaxed(options, context, poles[0], {});
 }
 
-/// Gains that meet the limits of `context` but `limit`, and violate that as little as possible.
-/// Empty if none are found. `loosest`: the context with no such limit.
+/// Returns gains that meet all limits of `context` except `limit`, and violate `limit` as little as
+/// possible. Empty if none are found. `loosest`: the same context with `limit` at its least strict
+/// value.
 std::optional<Gains<double>> start_without(const Limit& limit, TuneOptions options,
                                            const ConstraintContext& context,
                                            const ConstraintContext& loosest,
@@ -173,9 +175,10 @@ std::optional<Gains<double>> start_without(const Limit& limit, TuneOptions optio
   return found ? found : least_relaxed(options, context, nearest, limit.constraints);
 }
 
-/// The number of the limit, between that of `context` and none, with which gains exist; empty if
-/// there is none. The number at which gains just meet the constraints is made less strict until the
-/// search confirms it, because the default bounds depend on it.
+/// Returns a value for `limit`, less strict than that of `context`, with which the search for a
+/// start finds gains; empty if there is none. It begins with the value that some gains just meet
+/// and makes it less strict until the search succeeds, because the default bounds of the gains
+/// depend on the limit.
 std::optional<double> number_that_permits(const Limit& limit, const ConstraintContext& context,
                                           const Gains<double>& nearest,
                                           const TuneOptions& requested) {

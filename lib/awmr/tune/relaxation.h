@@ -16,11 +16,11 @@ std::string advice_on(const std::string& constraint);
 /// Pointer in tune.json to the limit of a constraint; "/bounds" if it has none.
 std::string pointer_to(const std::string& constraint);
 
-/// A limit of tune.json with another number.
+/// A limit of tune.json, set to a less strict value.
 struct RelaxedLimit {
   const char* key;            ///< "limits/damping"
-  double number;              ///< less strict than that of the context it was made from
-  ConstraintContext context;  ///< with the number
+  double number;              ///< the new value of the limit
+  ConstraintContext context;  ///< the context in which the limit has this value
 };
 
 /// For each limit of the context that can be relaxed, some less strict values, strictest first:

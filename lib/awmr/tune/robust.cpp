@@ -56,8 +56,9 @@ EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::
   return of_one;
 }
 
-/// Applies the unmodelled variation of draw `number`, from 1, to the vehicle. The mass factor
-/// changes with every draw, the wheel-force range after all mass factors were used.
+/// Applies the unmodelled variation (payload, battery voltage) of the drawn vehicle `number`, from
+/// 1. The mass factor changes with every vehicle, the wheel-force range after all mass factors were
+/// used.
 void open_up(const UnmodelledVariation& open, int number, DrawnVehicle& vehicle) {
   const std::size_t turn = at(number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());

@@ -141,7 +141,7 @@ bool failed(nlopt_result code) { return code < 0 && code != NLOPT_ROUNDOFF_LIMIT
 /// requests one point at a time, so the seeded search is restarted for each generation and replays
 /// the known values. The result equals that of a sequential run.
 nlopt_result search_globally(Problem& problem, const TuneOptions& options, const Point& start) {
-  // NLopt has one random generator per process.
+  // NLopt has one random generator per process, so global searches take turns.
   static std::mutex generator;
   const std::lock_guard<std::mutex> turn(generator);
   std::vector<Looked> known;
@@ -163,7 +163,7 @@ struct Feasibility {
   const ConstraintContext& context;
   std::span<const std::string> relaxed = {};
   Candidate best = {.violation = std::numeric_limits<double>::infinity()};
-  /// Of gains that violate relaxed constraints only: those that violate them least.
+  /// Among the gains that violate only constraints in `relaxed`: those that violate them least.
   Candidate least = {.violation = std::numeric_limits<double>::infinity()};
 
   /// Largest residual of the constraints that count, and of those in `relaxed`.
@@ -305,7 +305,7 @@ std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
 
 namespace {
 
-/// Writes the constraint that the nearest gains violate most to `result`.
+/// Stores in `result` the constraint that `problem.nearest` violates most, and its residual.
 void note_broken(Problem& problem, SearchResult& result) {
   const Point nearest[] = {problem.space().point_of(problem.nearest.gains)};
   const Looked looked = problem.look_at(nearest).front();

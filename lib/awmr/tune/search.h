@@ -20,7 +20,7 @@ struct SearchResult {
   std::string broken_most = {};
   double broken_by = 0.0;
   int evaluations = 0;  ///< evaluated sets of gains, on some or all draws
-  int simulated = 0;    ///< those whose runs were simulated
+  int simulated = 0;    ///< of these, the number whose runs were simulated
   SearchHistory history;
   std::vector<TradeOffPoint> met;  ///< trade-off of all feasible gains on the draws of the search
   std::string algorithm;

@@ -24,7 +24,8 @@ FirstAndTotal indices_over(const std::vector<std::size_t>& places, const std::ve
     least = std::min({least, of_a[j], of_b[j]});
     most = std::max({most, of_a[j], of_b[j]});
   }
-  // A constant output: rounding of the mean would give it a variance above 0.
+  // A constant output has the indices 0. Without this test, rounding of the mean would give it a
+  // variance above 0.
   if (!(most > least)) return {};
   mean /= 2.0 * static_cast<double>(places.size());
   double squares = 0.0, without_first = 0.0, of_total = 0.0;

@@ -1,5 +1,5 @@
 /// Computes Sobol indices: the fractions of an output's variance that are due to each input.
-/// Private to this folder.
+/// Private to tune/.
 ///
 /// With independent inputs x_i, V = Var f:
 ///   first order  S_i  = Var(E[f | x_i])/V            fraction of V that knowing x_i removes

@@ -44,7 +44,8 @@ constexpr double kMaxSearchSteps = 1e11;
 constexpr double kLongSearch_s = 10.0;
 /// Time of an RK4 step on two cores, s.
 constexpr double kTimeOfStep_s = 2.5e-8;
-/// Evaluations on all draws: in the last part of the search, and of gains on new draws.
+/// For the estimated duration: number of evaluations on all draws in the last part of the search,
+/// and number of evaluations of gains on new draws.
 constexpr double kOnAllDraws = 12.0;
 constexpr double kOnNewDraws = 3.0;
 
@@ -131,7 +132,8 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
     context.step_rad = std::max(context.step_rad, largest_step_rad(s));
     context.fastest_radps = std::max(context.fastest_radps, reached_radps(s));
   }
-  // No steady turn is faster than the one that the largest moment of the stronger mode sustains.
+  // The expected yaw rate is at most that of the steady turn at the largest moment of the stronger
+  // mode.
   const auto steady = steady_rate(plant.yaw, largest_moment_m(context.own(), context.speed_mps));
   if (steady) context.fastest_radps = std::clamp(*steady, kSlowest_radps, context.fastest_radps);
   return context;
@@ -146,7 +148,8 @@ void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
       std::min(vehicle.steering_max_rate_degps, 2.0 * degrees(context.plant.steering_max_rad) /
                                                     context.plant.steering_time_constant_s);
   const Gains<double> none{{0.0, 0.0, 1.0}, {0.0, 1.0}};
-  // Without Coulomb friction, because with_friction_width() limits the noise that friction adds.
+  // The default is computed without Coulomb friction: with_friction_width() keeps the noise that
+  // friction adds within the limit.
   ConstraintContext without_friction = context;
   without_friction.plant.yaw.coulomb = 0.0;
   context.limits.steering_rate_rms_degps =
@@ -167,8 +170,9 @@ Status limit_observer(const ConstraintContext& context, std::optional<ObserverSe
     if (!*limit) *limit = kObserverShare * most;
     if (**limit > 0.0) continue;
     return input_error(ErrorCode::kOutOfRange, "",
-                       fmt::format("the observer's {}: at {:g} m/s no wheel force is left to "
-                                   "compensate a disturbance; give slower scenarios",
+                       fmt::format("no default for the observer's {}: at {:g} m/s the wheels have "
+                                   "no force left to compensate a disturbance; give slower "
+                                   "scenarios",
                                    name, context.speed_mps));
   }
   return {};
@@ -364,7 +368,8 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Runs the candidates on new draws. A shard stores its runs; otherwise their statistics are added.
+/// Runs the candidates on new draws and adds the statistics to `robust`. For a shard, adds the runs
+/// themselves instead, for merge_tune_shards().
 Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
                            const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};

@@ -155,7 +155,8 @@ bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
 struct TuneOptions {
-  std::string file = "tune.json";  ///< name in errors: the path that it was read from
+  std::string file = "tune.json";  ///< name of the options' file in error messages: the path that
+                                   ///< it was read from
   /// true: tune on the identified plant only, with noise-free sensors without latency and motors
   /// without lag. false (robust): tune also on `draws` plants from the model's covariance, with the
   /// noise, latency and lag of LoopConditions. The gains meet every constraint on all of these
@@ -245,7 +246,7 @@ struct ModeScore {
 /// An evaluation of the search that improved on all earlier ones.
 struct SearchStep {
   int evaluation = 0;      ///< number of the evaluation, from 1
-  double objective = 0.0;  ///< of the evaluated gains, which meet every constraint
+  double objective = 0.0;  ///< objective of the evaluated gains, which meet every constraint
 };
 
 /// Progress of a search.
@@ -263,7 +264,7 @@ inline constexpr std::size_t kMaxHistorySteps = 200;
 /// Metrics of a run for goals and evaluation. The objective uses other ones (kObjectiveTerms).
 struct RunOutcome {
   YawMode mode{};
-  bool completed = false;  ///< settled after every step
+  bool completed = false;  ///< true if the run settles after every heading step
   bool broke_off = false;  ///< the run broke off; the metrics are those up to that time
   /// In the order of run_figure_names(). The settling time of a run that does not settle is the
   /// scenario's duration.
@@ -271,7 +272,7 @@ struct RunOutcome {
 };
 /// The runs of one set of gains, by draw, then mode, then scenario.
 struct EvaluatedRuns {
-  std::string gains;  ///< as in EvaluatedGains
+  std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
   std::vector<RunOutcome> outcomes;
 };
 
@@ -322,7 +323,7 @@ struct GlobalSensitivity {
 enum class GoalVerdict {
   kMet,     ///< the whole 95 % interval of the share is at or above the required share
   kMissed,  ///< the whole 95 % interval of the share is below the required share
-  kOpen,    ///< neither: more draws are needed
+  kOpen,    ///< the interval contains the required share: more draws are needed
 };
 inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
     {{"met", GoalVerdict::kMet}, {"missed", GoalVerdict::kMissed}, {"open", GoalVerdict::kOpen}}};
@@ -331,7 +332,7 @@ inline constexpr NameTable<GoalVerdict, 3> kGoalVerdictNames{
 struct EvaluatedGoal {
   TuningGoal goal;
   YawMode mode{};
-  std::string gains;  ///< as in EvaluatedGains
+  std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
   int held = 0;       ///< number of draws that meet every limit
   int runs = 0;       ///< number of all draws
   Interval ci95;      ///< 95 % interval of the share held/runs, by Clopper and Pearson
@@ -344,14 +345,15 @@ struct RobustTuning {
   /// false: the model has no covariance, so the draws differ by noise and unmodelled variation
   /// only.
   bool from_covariance = false;
-  /// By gains, then mode. Empty if only a part was evaluated (TuneOptions::shard).
+  /// Statistics over the new draws, by gains, then mode. Empty if only a part of the draws was
+  /// evaluated (TuneOptions::shard).
   std::vector<EvaluatedGains> evaluated;
   /// `evaluated` for each scenario: by scenario, then gains, then mode; empty with a single
   /// scenario.
   std::vector<EvaluatedGains> evaluated_by_scenario;
   std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode; empty for a part
   std::vector<EvaluatedRuns> runs;   ///< only for a part: the runs of its draws, by gains
-  std::optional<GlobalSensitivity> sensitivity;  ///< absent if not requested
+  std::optional<GlobalSensitivity> sensitivity;  ///< absent if the analysis was not requested
 };
 
 /// Settling time and control variation of one set of gains, each as the mean over the modes,
@@ -393,9 +395,9 @@ struct ModeCertificate {
 struct Certificate {
   int parameters = 0;          ///< number of parameters in the model's covariance; 0: only the
                                ///< model's own values were examined
-  int degrees_of_freedom = 0;  ///< of the confidence ellipsoid
+  int degrees_of_freedom = 0;  ///< degrees of freedom of the confidence ellipsoid
   Interval yaw_rate_radps;     ///< examined yaw rates
-  double latency_s = 0.0;      ///< of the sensor readings
+  double latency_s = 0.0;      ///< latency of the sensor readings
   double motor_time_constant_s = 0.0;
   std::vector<ModeCertificate> modes;
 
@@ -411,9 +413,9 @@ struct SettlingChange {
 };
 /// Runs of which fewer than 95 % settle with the tuned gains.
 struct UnsettledRuns {
-  std::string scenario;  ///< empty: the only one
+  std::string scenario;  ///< name of the scenario; empty if there is only one
   YawMode mode{};
-  std::string why;  ///< the mode cannot turn the vehicle (turning.h); empty: it can
+  std::string why;  ///< reason why the mode cannot turn the vehicle (turning.h); empty if it can
   std::vector<SettlingChange> changes;  ///< changes_that_settle() (settling.h)
 };
 
@@ -422,9 +424,9 @@ struct Tuning {
   Gains<double> gains{};
   std::vector<ConstraintReport> constraints;
   double objective = 0.0;         ///< J over all modes, scenarios and plants (objective.h)
-  std::vector<ModeScore> scores;  ///< of the nominal plant, by mode, then scenario
+  std::vector<ModeScore> scores;  ///< scores on the nominal plant, by mode, then scenario
   Baseline baseline;
-  TuningLimits limits;  ///< of the search, with the defaults filled in
+  TuningLimits limits;  ///< limits of the search, with the defaults filled in
   ExaminedRange examined;
   double baseline_objective = 0.0;  ///< 1, plus the terms of soft goals
   std::vector<ModeScore> baseline_scores;

@@ -95,11 +95,11 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   }
   if (!options.goals.empty() && options.nominal) {
     json.fault(ErrorCode::kConflict, "goals",
-               "goals need sampled plants, which nominal disables; remove one of the two");
+               "goals need randomly drawn vehicles, which nominal disables; remove one of the two");
   }
   if (!options.goals.empty() && options.evaluation_draws == 0) {
     json.fault(ErrorCode::kConflict, "judged_draws",
-               "goals are evaluated on fresh draws; give a number above 0");
+               "goals are evaluated on newly drawn vehicles: give their number, above 0");
   }
 }
 
@@ -222,7 +222,8 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   }
   if (options.open.any()) json["open"] = open_json(options.open);
   if (options.activity_max) json["activity_max"] = *options.activity_max;
-  // The last key, as merge_tune_shards() adds it: the files must be equal byte for byte.
+  // Must be the last key: merge_tune_shards() appends it there, and the merged file must be
+  // byte-identical with this one.
   if (!robust.evaluated_by_scenario.empty()) {
     json["by_scenario"] = by_scenario_json(robust.evaluated_by_scenario);
   }

@@ -22,8 +22,8 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
   findings.push_back(
       {"", 0, Severity::kWarning, is_missed ? "goal-missed" : "goal-open",
        fmt::format(
-           "{} of {} new draws in {} mode meet the goal (95 % interval: {:.1f} to {:.1f} %); "
-           "{:g} % are required: {}",
+           "{} of {} newly drawn vehicles in {} mode meet the goal (95 % interval of their share: "
+           "{:.1f} to {:.1f} %); {:g} % are required: {}",
            evaluated.held, evaluated.runs, name_of(evaluated.mode), 100.0 * evaluated.ci95.lo,
            100.0 * evaluated.ci95.hi, 100.0 * evaluated.goal.share,
            is_missed ? "tune on more draws (" + option_text("draws") +
@@ -31,7 +31,8 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
                      : std::string("increase judged_draws"))});
 }
 
-/// The cause and the changes that help, as far as they are known; a `merge` does not know them.
+/// End of a message about runs that do not settle: the cause or the changes with which they settle.
+/// Without them (for example in `merge`) it names the key with the settling times.
 std::string advice_for(const std::string& scenario, YawMode mode,
                        std::span<const UnsettledRuns> unsettled) {
   const auto found = std::ranges::find_if(unsettled, [&](const UnsettledRuns& runs) {
@@ -70,8 +71,8 @@ void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
   if (open == 0) return;
   findings.push_back(
       {"", 0, Severity::kNote, "sensitivity-open",
-       fmt::format("{} samples are too few to show which input affects {} of {} metrics most; "
-                   "increase {}",
+       fmt::format("{} samples are too few to show which uncertain input has the largest effect "
+                   "on {} of {} metrics; increase {}",
                    tuning.robust->sensitivity->samples, open, figures.size(),
                    option_text("sensitivity"))});
 }

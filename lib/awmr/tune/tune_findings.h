@@ -9,11 +9,11 @@
 
 namespace awmr {
 
-/// Findings of the tuned gains on fresh draws, which are draws that the search did not use: a
-/// warning for each goal that these draws do not confirm (`goal-missed`, `goal-open`), and one for
-/// each mode in which fewer than 95 % of the runs settle after every step (`unsettled`), per
-/// scenario if there are several. Arguments as in RobustTuning and Tuning; `unsettled`: empty if
-/// the changes that help are unknown.
+/// Findings of the tuned gains on fresh draws, which are drawn vehicles that the search did not
+/// use: a warning for each goal that these draws do not confirm (`goal-missed`, `goal-open`), and
+/// one for each mode in which fewer than 95 % of the runs settle after every step (`unsettled`),
+/// per scenario if there are several. Arguments as in RobustTuning and Tuning; `unsettled`: empty
+/// if the changes that help are unknown.
 std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& evaluated,
                                          const std::vector<EvaluatedGains>& evaluated_by_scenario,
                                          const std::vector<EvaluatedGoal>& goals,

@@ -118,7 +118,8 @@ Result<std::vector<RunOutcome>> evaluated_runs_from_text(const Payload& payload,
             return input_error(
                 ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
                 fmt::format(
-                    "this row must be the run {} (gains, draw, mode, scenario); run the part again",
+                    "expected the run {} (gains, draw, mode, scenario) in this row; run the part "
+                    "again",
                     std::string_view(place).substr(0, place.size() - 1)));
           }
           runs.push_back(*outcome);
@@ -172,7 +173,8 @@ Result<Json> read_gains_json(const std::vector<Part>& parts) {
   if (!json.is_object() || !json.contains("robust") || !json["robust"].is_object()) {
     return input_error(
         ErrorCode::kStaleResult, path.string(),
-        "has no `robust` object, so its gains are nominal; run the part again without nominal");
+        "has no `robust` object, so its gains were tuned with nominal, which cannot be divided "
+        "into parts; run the part again without nominal");
   }
   return json;
 }
@@ -227,7 +229,7 @@ PartText tune_part(const Tuning& tuning, const TuneOptions& options, const Prove
             {"tail_share", options.tail_share},
             {"goals", Json::array()}};
   for (const EvaluatedRuns& runs : tuning.robust->runs) json["gains"].push_back(runs.gains);
-  // The scores are by mode, then scenario.
+  // Lists each mode once: the scores are sorted by mode, then scenario.
   for (const ModeScore& score : tuning.scores) {
     if (score.scenario == tuning.scores.front().scenario) {
       json["modes"].push_back(name_of(score.mode));

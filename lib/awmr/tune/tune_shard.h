@@ -24,7 +24,7 @@ const ShardKind& tune_shards();
 PartText tune_part(const Tuning& tuning, const TuneOptions& options, const Provenance& provenance,
                    const std::vector<Finding>& findings = {});
 
-/// Result of the combined parts, the same as the result of a single `awmr tune`.
+/// Result of all parts together, equal to that of a single `awmr tune`.
 struct MergedTuning {
   std::string gains_text;                                        ///< the bytes of gains.json
   std::vector<EvaluatedGains> evaluated, evaluated_by_scenario;  ///< as in RobustTuning

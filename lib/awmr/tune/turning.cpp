@@ -13,10 +13,11 @@
 namespace awmr {
 namespace {
 
-/// Steering angles above this are not proposed.
+/// Largest steering angle that a message proposes, deg.
 constexpr double kLargestAngle_deg = 60.0;
 
-/// Changes of the steering with which it makes `moment_m` at the speed.
+/// Returns the changes, as text, each of which alone lets the steering make `moment_m`: a larger
+/// steering stop, or a higher speed.
 std::vector<std::string> steering_changes(const DrawnVehicle& vehicle, double speed_mps,
                                           double moment_m) {
   const Plant<double>& plant = vehicle.plant;
@@ -37,7 +38,7 @@ std::vector<std::string> steering_changes(const DrawnVehicle& vehicle, double sp
   return changes;
 }
 
-/// Changes with which the mode turns.
+/// Returns the changes, as text, each of which alone lets the mode turn the vehicle.
 std::vector<std::string> changes(const TurningMoment& moment, const DrawnVehicle& vehicle) {
   const Plant<double>& plant = vehicle.plant;
   std::vector<std::string> found;
@@ -86,7 +87,7 @@ std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle) {
       "resistance at {:.3g} deg/s is {:.3g} m. ",
       name_of(moment.mode), moment.speed_mps, moment.available_m, degrees(kSlowest_radps),
       moment.needed_m);
-  if (found.empty()) return text + "Motors with more force are needed, or a smaller yaw resistance";
+  if (found.empty()) return text + "Use motors with more force, or reduce the yaw resistance";
   text += "It turns with ";
   for (std::size_t i = 0; i < found.size(); ++i) text += (i == 0 ? "" : ", or with ") + found[i];
   return text;

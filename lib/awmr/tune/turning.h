@@ -31,8 +31,8 @@ struct TurningMoment {
 /// tan(d_max/2).
 TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawMode mode);
 
-/// Describes the moments of a mode that does not turn, and the single change of the vehicle or the
-/// scenario that lets it turn, with its number.
+/// Describes the moments of a mode that cannot turn the vehicle, and each change of the vehicle or
+/// the scenario, with its number, that alone lets it turn.
 std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle);
 
 /// Checks that at least one of the modes turns in at least one scenario. Errors (refused): none

@@ -28,8 +28,9 @@ constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
   if (options.draws >= 39 && options.draws <= 10000) return {};
-  return input_error(ErrorCode::kOutOfRange, "draws",
-                     fmt::format("is {}; give a number from 39 to 10000", options.draws));
+  return input_error(
+      ErrorCode::kOutOfRange, "draws",
+      fmt::format("found {} predicted drives; give a number from 39 to 10000", options.draws));
 }
 
 State<double> moved_by(State<double> state, const State<double>& error, Random& random) {
@@ -56,7 +57,8 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
 /// The logged drive, with the conditions and the initial state for its prediction.
 struct LoggedDrive {
   double from_s = 0.0;      ///< time of the first row of the drive, on the log's clock
-  double duration_s = 0.0;  ///< up to the end of the log or of the scenario
+  double duration_s = 0.0;  ///< time from there to the end of the log or of the scenario, whichever
+                            ///< is first
   LoopConditions conditions;
   std::vector<DriveChannel> channels;
   DriveStart start;
@@ -160,7 +162,7 @@ struct Compared {
   DriveChannel channel;
   WindowMeans measured;
   PredictedBand predicted;
-  std::vector<double> largest;  ///< for each draw, its largest distance in this channel
+  std::vector<double> largest;  ///< for each predicted drive, its largest distance in this channel
   double usual = 0.0;           ///< 95 % quantile of `largest`
 };
 

@@ -40,9 +40,9 @@ Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario
 /// Common inputs of the claims' simulations.
 struct ClaimSetting {
   const Model& model;
-  const Plant<double>& plant;  ///< of the model
+  const Plant<double>& plant;  ///< plant of `model`
   const Gains<double>& gains;
-  BatchArithmetic arithmetic;   ///< of the runs
+  BatchArithmetic arithmetic;   ///< arithmetic of the runs
   ControlOptions control = {};  ///< used in every scenario
 
   /// Simulates the scenario in all three modes. Precondition: the model has every parameter, and an

@@ -32,7 +32,8 @@ double white_noise(const std::vector<double>& values, double quantum) {
   return std::max(least, spread / std::sqrt(6.0));
 }
 
-/// A sensor of the controller: where the scenario has its errors, and a run its reading.
+/// A sensor of the controller: the member of a scenario's Sensors with its errors, and the member
+/// of a run's row with its reading.
 struct ControllersSensor {
   Channel Sensors::*errors;
   double Measurement<double>::*reading;

@@ -62,7 +62,8 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
 struct HeldOutSums {
   ErrorSums model;
   ErrorSums four_wheel;
-  std::vector<std::pair<ErrorSums, ErrorSums>> by_window;  ///< model, four wheels
+  std::vector<std::pair<ErrorSums, ErrorSums>> by_window;  ///< for each window: sums of the 3-DOF
+                                                           ///< model, sums of the four wheels
 };
 
 /// Cross-validation: fits the tyres to one half of the windows (every other one) and predicts the
@@ -157,15 +158,16 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
   return std::nullopt;
 }
 
-/// True if a log has fewer rows than the controller has samples, so that commands between rows are
-/// lost.
+/// True if a log has longer time steps than the controller, so that it lacks the commands between
+/// its rows.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
-  constexpr double kLonger = 1.2;  // a factor on the sample time that jitter does not reach
+  constexpr double kLonger = 1.2;  // ratio of time step to sample time above which rows are
+                                   // missing; jitter alone stays below it
   return std::ranges::any_of(
       logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
 }
 
-/// The logs with every other command only, each held over two rows.
+/// Returns the logs with every other command removed: each remaining command is held over two rows.
 std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) {
   for (DrivingLog& log : logs) {
     const auto hold = [&](std::vector<double>& command) {

@@ -10,7 +10,8 @@
 
 namespace awmr::tyre_fit {
 
-/// For kFriction and kCornering, true: the parameter is fitted; false: it is held at a value.
+/// For kFriction and kCornering: true if the parameter is fitted, false if it is held at a fixed
+/// value.
 using IsFree = std::array<bool, 2>;
 
 /// Result of a search.

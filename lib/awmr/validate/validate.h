@@ -54,7 +54,8 @@ struct Claim {
   std::string figure;                   ///< simulated numbers
   std::string tolerance;                ///< criterion for "reproduced"
   std::string why;                      ///< reason for the verdict
-  std::vector<ClaimInMode> modes = {};  ///< verdicts by mode; empty: no verdict for a single mode
+  std::vector<ClaimInMode> modes = {};  ///< verdict for each mode; empty if the claim has no
+                                        ///< verdict for a single mode
   /// Verdict by combination of open settings, if requested (ValidateOptions::open_cases).
   std::vector<ClaimCase> cases = {};
   std::string decided_by = {};  ///< settings that decide the verdict (decisive_settings())

@@ -71,8 +71,8 @@ function breakEven(parent, entries) {
   if (!entries || !entries.length) return;
   const {sliding_m: sliding, measured_m: measured, lead} = entries[0];
   add(parent, "h3", "Scrub at which a mode is no longer ahead");
-  add(parent, "p", "In differential turns the tyres scrub, which adds a Coulomb yaw moment. With the " +
-    "moment in the table, a mode is no longer ahead. Tyres that slide "
+  add(parent, "p", "In differential turns the tyres scrub: a yaw moment resists the turn, the same at every " +
+    "yaw rate. From the moment in the table on, a mode is no longer ahead. Tyres that slide "
     + `sideways with a friction of 0.8 cause ${digits(sliding)} m. `
     + (measured ? `Measured in differential turns of this vehicle: ` +
       `${measured.map((m) => digits(m)).join(" to ")} m.`

@@ -101,7 +101,7 @@ function correlations(parent, covariance) {
   if (names.length < 2) return;
   const at = names.map((name) => covariance.parameters.indexOf(name));
   const box = folded(parent, "Correlations");
-  small(box, "Near ±1, the data determine only a combination of the two. The darker, the stronger.");
+  small(box, "Near ±1, the data determine only a combination of the two. Darker cells: stronger correlation.");
   const node = table(box, ["", ...names.map((name) => `#${name}`)],
     at.map((i, k) => [names[k], ...at.map((j) =>
     digits(covariance.matrix[i][j] / Math.sqrt(covariance.matrix[i][i] * covariance.matrix[j][j]),
@@ -116,7 +116,7 @@ function correlations(parent, covariance) {
 function estimatorsTable(parent, estimates) {
   const box = folded(parent, `Estimators side by side (${estimates.length})`);
   small(box, "The paper's log-linear fit assumes errors on the logarithm of the force. But the " +
-    "force is set exactly; time is measured.");
+    "force is a command, which is exact; the time is measured.");
   table(box, ["of", "estimator", "noise on", "estimates", "#AICc", "#residual std", "#rows",
     "stopped because"], estimates.map((r) => [r.subject,
     [r.estimator, r.family].filter(Boolean).join(", "), r.noise,
@@ -129,7 +129,7 @@ function estimatorsTable(parent, estimates) {
 function influenceTable(parent, estimates) {
   const left = estimates.filter((e) => Array.isArray(e.leave_one_out) && e.leave_one_out.length);
   if (!left.length) return;
-  const box = folded(parent, "Influence: the values without each row");
+  const box = folded(parent, "Influence: change of the values if one row is left out");
   for (const e of left) {
     const names = e.parameters.map((p) => p.name);
     const change = (one, name, i) => {
@@ -211,9 +211,9 @@ function drivesPart(parent, validation) {
     add(parent, "h3", `Drive ${drive.file}, “${scenarioWords(drive.scenario)}”, ${drive.mode}: ` +
       `${drive.inside ? "as predicted" : "not as predicted"}`);
     small(parent, `${digits(drive.duration_s)} s, compared with ${drive.draws} predicted drives, ` +
-      `of which ${percent(drive.p_value)} are as far ` +
-      "from the others or farther. Distances are those of means over half a second, divided by the " +
-      "standard deviation of the predictions.");
+      `of which ${percent(drive.p_value)} are at least ` +
+      "as far from the mean prediction as this drive. A distance is the difference of means over half a " +
+      "second, divided by the standard deviation of the predictions.");
     table(parent, ["channel", "#samples", "#distance", "#allowed", "#outside since, s",
       "#measured − predicted"],
       Object.entries(drive.channels).map(([name, c]) =>

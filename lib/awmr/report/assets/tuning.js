@@ -139,7 +139,7 @@ const robustFigures = [["settling_time_s", "settling time, s"],
 function goalsTable(parent, goals) {
   if (!goals || !goals.length) return;
   add(parent, "h3", "Goals");
-  small(parent, "Share of fresh draws in which every limit is met, with its 95 % interval.");
+  small(parent, "Share of newly drawn vehicles for which every limit is met, with its 95 % interval.");
   const limits = (goal) => Object.entries(goal.at_most).map(([name, most]) =>
     `${metricWords(name)} at most ${digits(most)}`).join("; ") + (goal.soft ? " (soft)" : "");
   table(parent, ["goal", "mode", "gains", "#required", "#kept", "verdict"],
@@ -152,8 +152,8 @@ function goalsTable(parent, goals) {
 function robustCharts(parent, robust) {
   if (!robust || !robust.quantiles) return;
   const n = robust.noise, late = robust.latency;
-  add(parent, "h3", "On draws that were not used for tuning");
-  small(parent, `${robust.judged_draws} fresh draws ` +
+  add(parent, "h3", "On vehicles that were not used for tuning");
+  small(parent, `${robust.judged_draws} newly drawn vehicles ` +
     `(${robust.drawn_from}${openWords(robust.open)}); noise: heading ${n.heading_deg} deg, yaw ` +
     `rate ${n.yaw_rate_degps} deg/s, ` +
     `speed ${n.speed_mps} m/s; latency ${late.heading_s} s; motor lag ` +
@@ -214,7 +214,7 @@ function objectiveWords(gains) {
   const count = (verdict) => robust.filter((goal) => goal.verdict === verdict).length;
   return `Objective ${digits(objective.value)}; ${baselineWords(gains)}: ` +
     `${digits((baseline || {}).objective ?? 1)}; less is better.${held}` +
-    (robust.length ? ` Of ${plural(robust.length, "goal")} on fresh draws, ${count("met")} met, ` +
+    (robust.length ? ` Of ${plural(robust.length, "goal")} on newly drawn vehicles, ${count("met")} met, ` +
       `${count("missed")} missed.` : "");
 }
 

@@ -25,8 +25,8 @@ std::string stem_of(const Json& data, const std::string& name) {
   return name;
 }
 
-/// Difference of a metric between two modes with its 95 % interval, both in percent of the larger of
-/// the two means. There is no row if both means are 0.
+/// Difference of a metric between two modes with its 95 % interval, both in percent of the larger
+/// of the two means. There is no row if both means are 0.
 struct DifferenceRow {
   std::string metric;
   double mean = 0.0;
@@ -98,8 +98,8 @@ void add_differences(const Json& scenario, const std::string& stem, FiguresOfRes
   }
 }
 
-/// Figure of the distribution of a metric: one row per mode, with the samples, the median and the range
-/// from the 5 to the 95 % quantile; without samples, the value of the nominal run.
+/// Figure of the distribution of a metric: one row per mode, with the samples, the median and the
+/// range from the 5 to the 95 % quantile; without samples, the value of the nominal run.
 Figure spread_figure(const std::string& stem, const std::string& metric, const Json& scenario,
                      const Json& samples) {
   const MetricWords words = metric_words(metric);

@@ -1,6 +1,7 @@
 /// A print figure as plain values: axes, panels and series. Private to report/.
 ///
-/// figures_of.h makes figures from results, figure_files.h writes them, and assets/plot.py draws them.
+/// figures_of.h makes figures from results, figure_files.h writes them, and assets/plot.py draws
+/// them.
 #pragma once
 
 #include <string>

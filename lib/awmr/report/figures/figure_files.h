@@ -1,4 +1,5 @@
-/// Text of the files of print figures: one CSV file per figure, and figures.json. Private to report/.
+/// Text of the files of print figures: one CSV file per figure, and figures.json. Private to
+/// report/.
 #pragma once
 
 #include <string>

@@ -15,8 +15,9 @@ struct FiguresOfResults {
   std::vector<std::string> lacking = {};  ///< figures without data: names and reason, one text each
 };
 
-/// Makes the figures of identification, logs, tuning, runs and comparison, as far as there are data.
-/// Errors (input): validation.json, gains.json or comparison.json does not have awmr's format.
+/// Makes the figures of identification, logs, tuning, runs and comparison, as far as there are
+/// data. Errors (input): validation.json, gains.json or comparison.json does not have awmr's
+/// format.
 Result<FiguresOfResults> figures_of(const ReportData& data);
 
 // Each of these functions adds the figures of one kind to `all` or, without data, the reason.
@@ -29,8 +30,8 @@ void add_run_figures(const Json& data, FiguresOfResults& all);
 /// Throws Json::exception if comparison.json does not have awmr's format.
 void add_comparison_figures(const Json& data, FiguresOfResults& all);
 
-/// Returns "KIND_NAME" with NAME limited to 100 bytes. All characters except letters, digits, - and _
-/// are replaced by _, so that the name is valid in file names on every system.
+/// Returns "KIND_NAME" with NAME limited to 100 bytes. All characters except letters, digits, - and
+/// _ are replaced by _, so that the name is valid in file names on every system.
 std::string figure_name(const std::string& kind, const std::string& name);
 
 }  // namespace awmr

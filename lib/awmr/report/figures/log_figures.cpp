@@ -9,8 +9,8 @@
 namespace awmr {
 namespace {
 
-/// A channel of validation.json, the axis on which it is drawn, and the factor from SI units to those
-/// of the axis.
+/// A channel of validation.json, the axis on which it is drawn, and the factor from SI units to
+/// those of the axis.
 struct ChannelAxis {
   std::string_view channel;
   const char* quantity;

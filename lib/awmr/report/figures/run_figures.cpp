@@ -60,8 +60,8 @@ Series reference_of(const Json& run, const char* y) {
           .y = column(run, y)};
 }
 
-/// The reference heading, shifted by whole turns so that it is nearest to the heading of the run. The
-/// heading is continuous, but the reference can jump by a turn.
+/// The reference heading, shifted by whole turns so that it is nearest to the heading of the run.
+/// The heading is continuous, but the reference can jump by a turn.
 Series heading_reference_of(const Json& run) {
   Series reference = reference_of(run, "psi_ref_deg");
   const std::vector<double> psi_deg = column(run, "psi_deg");
@@ -86,8 +86,8 @@ Figure figure_over_time(const ScenarioRuns& one, const char* kind, const std::st
           .panels = std::move(panels)};
 }
 
-/// Figure of the heading. If the scenario commands headings, all runs have the same reference and share
-/// one panel. With guidance, each run has its own reference and its own panel.
+/// Figure of the heading. If the scenario commands headings, all runs have the same reference and
+/// share one panel. With guidance, each run has its own reference and its own panel.
 Figure heading_figure(const ScenarioRuns& one) {
   const Axis psi{"ψ", "deg"};
   std::vector<Panel> panels;

@@ -2,9 +2,9 @@
 /// constraints for the gains of the sliders. The command line uses the same simulation and tuning
 /// sources.
 ///
-/// The page writes the numbers of the setup to the array of live_setup() and calls live_begin(). For
-/// each position of the sliders it calls live_run(), then reads live_rows() rows of kColumns doubles
-/// at live_table() and live_size() bytes of JSON at live_text().
+/// The page writes the numbers of the setup to the array of live_setup() and calls live_begin().
+/// For each position of the sliders it calls live_run(), then reads live_rows() rows of kColumns
+/// doubles at live_table() and live_size() bytes of JSON at live_text().
 #include <fmt/format.h>
 
 #include <optional>

@@ -10,11 +10,12 @@
 
 namespace awmr {
 
-/// Input of the interactive part: the inputs of the tuning constraints (with plant and force limits of
-/// the vehicle) and a heading scenario.
+/// Input of the interactive part: the inputs of the tuning constraints (with plant and force limits
+/// of the vehicle) and a heading scenario.
 struct LiveSetup {
-  ConstraintContext context;     ///< its plant is the nominal one of the model
-  double allocation_form = 0.0;  ///< an AllocationForm, as a number
+  ConstraintContext context;     ///< inputs of the constraints; `plant` is the identified plant of
+                                 ///< the model
+  double allocation_form = 0.0;  ///< the AllocationForm of the vehicle, as a number
   /// Largest yaw moment, m, and surge force, both over F_max, that the tuned observer compensates;
   /// 0 without an observer.
   double observer_yaw_max_m = 0.0;

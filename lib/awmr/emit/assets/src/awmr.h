@@ -1,7 +1,7 @@
 /* awmr: the autopilot of one vehicle as a C interface. C99 and C++11.
    Angles in rad, counter-clockwise positive, x forward, y left. Forces are divided by F_max, the
-   largest force of one motor. No memory is allocated. There is one autopilot: call all functions from
-   the same thread or interrupt.
+   largest force of one motor. No memory is allocated. There is one autopilot: call all functions
+   from the same thread or interrupt.
 
      awmr_init();
      every AWMR_SAMPLE_TIME_S: fill an awmr_input; awmr_step(&input, &output); drive the motors. */
@@ -13,9 +13,9 @@
 #include "awmr_autopilot_params.h"
 #include "awmr_params.h"
 
-/* 1: the position can be estimated from a receiver's fixes (awmr_input.position_is_fix); needs 2.9 kB of
-   flash and 140 bytes of RAM. 0: an input with position_is_fix 1 gives AWMR_FAULT_RANGE. 0 is the default
-   of the Uno, whose flash has no room for it next to the sketches. */
+/* 1: the position can be estimated from a receiver's fixes (awmr_input.position_is_fix); needs
+   2.9 kB of flash and 140 bytes of RAM. 0: an input with position_is_fix 1 gives AWMR_FAULT_RANGE.
+   0 is the default of the Uno, whose flash has no room for the estimate next to the sketches. */
 #ifndef AWMR_WITH_POSITION_ESTIMATE
 #ifdef __AVR_ATmega328P__
 #define AWMR_WITH_POSITION_ESTIMATE 0
@@ -102,8 +102,8 @@ typedef struct awmr_line_law {
 #endif
 
 #if AWMR_WITH_PATH
-/* x = amplitude_x_m cos(rate_x_radps t), y = amplitude_y_m sin(rate_y_radps t); t is 0 at the first step
-   along the path */
+/* x = amplitude_x_m cos(rate_x_radps t), y = amplitude_y_m sin(rate_y_radps t); t is 0 at the first
+   step along the path */
 typedef struct awmr_path {
   float amplitude_x_m;
   float amplitude_y_m;
@@ -160,8 +160,8 @@ typedef struct awmr_observer {
 extern "C" {
 #endif
 
-/* Reads the parameters in flash and compares them with their check sum. Returns AWMR_FAULT_NONE or
-   AWMR_FAULT_PARAMETERS; after the latter, awmr_step gives only the safe command. */
+/* Reads the parameters in flash and compares them with their check sum. Returns AWMR_FAULT_NONE if
+   they agree, else AWMR_FAULT_PARAMETERS: awmr_step then gives only the safe command. */
 uint8_t awmr_init(void);
 
 /* One control step. */
@@ -171,7 +171,8 @@ void awmr_step(const awmr_input* input, awmr_output* output);
    acceptance_m. The points are not copied. count 0: ends guidance, psi_ref_rad is held again. */
 void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
 
-/* As above, but skips a waypoint that was passed by, for a vehicle that cannot turn back to it. */
+/* As awmr_follow, but skips a waypoint that was passed by, for a vehicle that cannot turn back to
+   it. */
 void awmr_follow_skipping(const awmr_point* points, int16_t count, float acceptance_m);
 
 #if AWMR_WITH_POSITION_ESTIMATE
@@ -182,20 +183,20 @@ uint8_t awmr_position_resets(void);
 
 #if AWMR_WITH_LINE
 /* Follows the line through `count` corners from the next step on, instead of waypoints. The corners
-   are not copied. `parameters`: those of the law of awmr emit --line-law, in the order and
-   units (rad, m, s) of its header in src/awmr/control/guidance. corner_m: as in awmr_line_law; 0 for pure_pursuit.
-   sideslip_compensation: as in awmr_line_law. */
+   are not copied. `parameters`: those of the law that was given to awmr emit --line-law, in the
+   order and units (rad, m, s) of the law's header in src/awmr/control/guidance. corner_m: as in
+   awmr_line_law; 0 for pure_pursuit. sideslip_compensation: as in awmr_line_law. */
 void awmr_follow_line_by(const awmr_point* corners, int16_t count, const float* parameters,
                          float corner_m, uint8_t sideslip_compensation);
 #if AWMR_LINE_LAW == 0
-/* As above, for the paper's law (los). */
+/* As awmr_follow_line_by, for the paper's law (los). */
 void awmr_follow_line(const awmr_point* corners, int16_t count, const awmr_line_law* law);
 #endif
 #endif
 
 #if AWMR_WITH_PATH
-/* Follows a timed path from the next step on: at the speed u_ref_mps or, if that is 0, at the speed of the
-   path's point. */
+/* Follows a timed path from the next step on: at the speed u_ref_mps or, if that is 0, at the speed
+   of the path's point. */
 void awmr_follow_path(const awmr_path* path);
 #endif
 

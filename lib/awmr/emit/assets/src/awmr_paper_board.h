@@ -18,8 +18,8 @@
 #elif defined(__AVR_ATmega328P__)
 #include "awmr_board/uno.h"
 #else
-#error "The examples know two boards, Mega 2560 and Uno. For another one write the functions of \
-awmr_board/uno.h for it, or call awmr_step() of awmr.h, which runs anywhere, from a sketch of your own."
+#error "The examples support two boards, Mega 2560 and Uno. For another board, implement the functions of \
+awmr_board/uno.h, or call awmr_step() of awmr.h, which needs none of them, from a sketch of your own."
 #endif
 #if AWMR_BOARD_HAS_CARD
 #include <SD.h>
