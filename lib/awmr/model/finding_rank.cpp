@@ -38,6 +38,7 @@ constexpr CodeEffect kEffects[] = {
     {"contradiction", Effect::kContradiction},
     {"inertia-mismatch", Effect::kContradiction},
     {"scale-mismatch", Effect::kContradiction},
+    {"servo-rate", Effect::kContradiction},
     {"heading-offset", Effect::kContradiction},
     {"implausible-vehicle", Effect::kContradiction},
     {"implausible-deceleration", Effect::kContradiction},
