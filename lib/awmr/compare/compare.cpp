@@ -55,7 +55,7 @@ std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
     if (options.break_even && scenario.tyres) {
       faults.push_back(
           {ErrorCode::kConflict, option_text("break_even"),
-           fmt::format("varies the yaw resistance of the 3-DOF model, but scenario '{}' is on the "
+           fmt::format("varies the scrub moment of the 3-DOF model, but scenario '{}' is on the "
                        "four-wheel plant; leave the option out, or use --plant model",
                        scenario.name)});
     }

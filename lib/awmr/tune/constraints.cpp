@@ -412,9 +412,11 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
           "smallest damping ratio of the sampled heading loop with hold and servo >= required"),
       at_most("speed gain", speed_rate * context.sample_time_s, kSpeedGainPerSample,
               fmt::format("{} T_s <= 0.5: gain margin 4 of the sampled speed loop", rate_name)),
-      at_most(
-          "speed lag", speed_rate * lag_s, 1.0 / (4.0 * zeta * zeta),
-          fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2), zeta = {:g}", rate_name, zeta)),
+      at_most("speed lag", speed_rate * lag_s, 1.0 / (4.0 * zeta * zeta),
+              fmt::format(
+                  "{} (T + latency + T_s/2) <= 1/(4 zeta^2): damping ratio of the speed loop >= "
+                  "zeta = {:g}; T: larger time constant of servo and motors",
+                  rate_name, zeta)),
       at_least("mu dominates", gains.heading.mu,
                kUnmodelledShare * plant.yaw(context.fastest_radps) / known.inertia_norm,
                fmt::format("mu >= 20 % of g3({:.3g} deg/s)/I'z, rad/s^2",

@@ -89,7 +89,7 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 ///   late damping       smallest zeta with latency and motor lag, if any, >= late_damping
 ///   delay margin       smallest zeta with motor lag, twice the latency and T_s >= delayed_damping
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
-///   speed lag          (mu_s/eps_s) (T + T_s/2) <= 1/(4 zeta^2)
+///   speed lag          (mu_s/eps_s) (T + latency + T_s/2) <= 1/(4 zeta^2)
 ///   mu dominates       mu >= 0.2 g3(r)/I'z, r the highest yaw rate of the runs,
 ///                      g3 of the examined vehicle, I'z nominal                        [paper (88)]
 ///   mu_s dominates     mu_s >= 0.2 g1(u_d)/m', g1 of the examined vehicle,
@@ -116,7 +116,7 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 ///   z = 1 - k_s (1 - exp(-a T_s))/a,   k_s = mu_s/eps_s,   a = g1'/m' >= 0,
 /// so z is in [1 - k_s T_s, 1).
 ///
-/// Speed lag: the open loop k_s/(s (1 + tau s)), tau = T + T_s/2, has the closed-loop polynomial
+/// Speed lag: the open loop k_s/(s (1 + tau s)), tau = T + latency + T_s/2, has the closed-loop polynomial
 /// tau s^2 + s + k_s, so zeta = 1/(2 sqrt(k_s tau)). T is the larger of the time constants of servo
 /// and motors, plus the latency.
 ///

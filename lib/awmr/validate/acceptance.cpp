@@ -183,7 +183,7 @@ Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> d
   return one;
 }
 
-/// For each draw, the largest ratio of its distance to Compared::usual over all channels.
+/// For each draw, the largest of the ratios Compared::largest/Compared::usual of all channels.
 std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std::size_t draws) {
   std::vector<double> factors(draws);
   for (const Compared& one : channels) {

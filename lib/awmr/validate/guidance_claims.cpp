@@ -142,8 +142,8 @@ Claim obstacles_avoided(const ModeRuns& line, const ModeRuns& points) {
           .why = !avoided ? "at least one mode does not complete its path"
                  : !same  ? "all modes avoid the obstacles, but one turns wider and takes longer"
                           : "the minimum manoeuvring distance is chosen for the widest turn, so "
-                            "every mode has room; the paper's rule is lost with its figure, this "
-                            "is the project's"};
+                            "every mode has room; the avoidance rule is the project's own, because "
+                            "the figure with the paper's rule is lost"};
 }
 
 /// Largest distance of the vehicle from the point of the path at the same time, m.

@@ -119,9 +119,10 @@ class LinearStepper {
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one Euler step of h_s seconds (of either sign). Returns the rates before the step.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
-  /// Adds to the derivatives S by the delays at a change of the commands from `before` to `after`.
-  /// A longer delay makes the motion follow `before` for longer, so
+  /// Updates S, the derivatives with respect to the delays, at a change of the commands from
+  /// `before` to `after`. A longer delay makes the motion follow `before` for longer, so
   ///     S += rates before - rates after
+  /// The steering delay changes only the derivative of the steering angle.
   void change_command(const DelayedCommand& before, const DelayedCommand& after,
                       LinearMotion& motion);
   /// The rates of the state, friction included. Sets the derivatives of a held speed to 0.

@@ -137,9 +137,10 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return chosen;
 }
 
-/// Refits the best families of `ideal`, a result without back-EMF, with back-EMF. Returns the model
-/// with back-EMF if it is significantly better, else `ideal`; the other fit is among its
-/// alternatives. If back-EMF is selected, it becomes free in `power_law`.
+/// Tests whether the motors have back-EMF: refits the families of `ideal`, a result without
+/// back-EMF, with back-EMF. If that is significantly better, makes back-EMF a free parameter of
+/// `power_law`, selects the families again, and returns the new result, with the best fit of
+/// `ideal` among its alternatives. Else returns `ideal`, with the refit among its alternatives.
 BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                             const IdentifyOptions& options, BestFamily ideal) {
   show_step(options, "trying back-EMF of the motors");
