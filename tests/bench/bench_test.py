@@ -1,4 +1,4 @@
-"""Runs scripts/bench with small inputs and checks that it produces every row of README.md. The script exits with 1 if a row does other
+"""Runs scripts/bench with small inputs and checks that it produces every row of README.md and SCENARIOS.md. The script exits with 1 if a row does other
 work than awmr. Speed is not tested. usage: bench_test.py BUILD
 """
 import pathlib
@@ -19,10 +19,10 @@ def main():
     done = subprocess.run([BENCH, "--quick", "--built", sys.argv[1]], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(done.stdout + done.stderr)
-    tables = (HERE / "README.md").read_text().split("<!-- bench -->")[1]
+    tables = "".join((HERE / f"{page}.md").read_text().split("<!-- bench -->")[1] for page in ("README", "SCENARIOS"))
     printed, shown = rows_of(done.stdout), rows_of(tables)
     if printed != shown:
-        sys.exit(f"scripts/bench --write was not run since its rows changed: {printed} are printed, README.md has {shown}")
+        sys.exit(f"scripts/bench --write was not run since its rows changed: {printed} are printed, the pages have {shown}")
 
 
 if __name__ == "__main__":

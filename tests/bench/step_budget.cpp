@@ -4,17 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 
 #include "counted.h"
 // The scalar type must be declared before the templates that are instantiated with it.
-#include "awmr/control/control_step.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
-#include "awmr/model/rest.h"
-#include "awmr/simulate/physics.h"
+#include "awmr/simulate/closed_loop.h"
 #include "awmr/simulate/scenario_file.h"
-#include "closed_loop.h"
 
 namespace {
 
@@ -31,41 +27,27 @@ constexpr double kPower = 48.0;
 constexpr double kSineAndCosine = 38.0;
 constexpr double kArcTangent = 31.0;
 
-/// Converts a struct to counted scalars.
-template <class Of, class From>
-Of counted(const From& numbers) {
-  static_assert(sizeof(Counted) == sizeof(double));
-  return std::bit_cast<Of>(numbers);
-}
+using View = OneRunOf<Counted>;
+constexpr LoopSteps<Counted> kCountedSteps = {
+    "counted",
+    [](LoopRuns<Counted>& runs) { steps::control(View{}, runs); },
+    [](LoopRuns<Counted>& runs) { steps::measure(View{}, runs); },
+    {[](Vehicles<Counted>& v) { steps::dissipate(View{}, v); },
+     [](Vehicles<Counted>& v) { steps::actuate(View{}, v); },
+     [](Vehicles<Counted>& v) { steps::move(View{}, v); }}};
 
-/// Number of Runge-Kutta steps of the run.
+/// Simulates the nominal vehicle in combined mode. Returns the number of Runge-Kutta steps, if no
+/// step is halved.
 double drive(const Plant<double>& nominal, const Controller<double>& controller,
              const Scenario& scenario, double sample_time_s) {
-  const int substeps = substeps_for(nominal, sample_time_s);
-  const double step_s = sample_time_s / substeps;
-  const auto plant = counted<Plant<Counted>>(resolved_at_rest(nominal, step_s));
-  const auto laws = counted<PreparedController<Counted>>(prepared(controller));
-  const auto vehicle = counted<MetricsVehicle<Counted>>(metered_vehicle(controller.limits));
-  double steps = 0.0;
-  const auto command = [&](const Measurement<Counted>& measured,
-                           const Reference<Counted>& reference) {
-    Allocation<Counted> a;
-    allocate(kFourWheelSteering, yaw_split<Counted>(YawMode::kCombined, controller.limits.split),
-             speed_law(laws, measured, reference), heading_law(laws, measured, reference),
-             laws.constants.allocation, a);
-    return a;
-  };
-  const auto move = [&](double, const Allocation<Counted>& a, State<Counted>& state) {
-    Resolution<Counted> resolution;
-    integrate(
-        plant, Counted(step_s), Counted(substeps),
-        [&](const State<Counted>& at) { return state_rates(plant, at, a.force, a.steering_rad); },
-        true, state, resolution);
-    steps += substeps + resolution.halves.value();
-  };
+  const BatchRun run{nominal, controller, YawMode::kCombined};
+  const std::size_t samples = samples_in(scenario.duration_s, sample_time_s);
+  ClosedLoop<Counted> loop(
+      {&run, 1}, scenario, kCountedSteps,
+      {.sample_time_s = sample_time_s, .samples = samples, .has_metrics = true});
   bench::operations = {};
-  bench::driven<Counted>(scenario, sample_time_s, laws.yaw, vehicle, command, move);
-  return steps;
+  loop.drive();
+  return static_cast<double>(samples) * substeps_for(nominal, scenario, sample_time_s);
 }
 
 }  // namespace

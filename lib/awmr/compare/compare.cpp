@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "awmr/compare/break_even.h"
 #include "awmr/compare/decision.h"
 #include "awmr/compare/sampled_plants.h"
+#include "awmr/compare/shared_noise.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/core/parallel.h"
@@ -149,10 +151,16 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
   return {};
 }
 
+/// Longest run, in samples, whose noise is drawn in advance: it takes 24 bytes per sample, and 38 MB
+/// in a batch.
+constexpr double kMaxSharedNoise = 1e5;
+
 /// A batch of runs: one scenario, set of gains and mode, with the samples to run.
 struct Block {
   std::size_t scenario, gains, mode;
   std::vector<std::size_t> samples;
+  /// Shared by all blocks of these samples in the scenario.
+  std::shared_ptr<SharedNoise> noise;
 
   Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
 };
@@ -169,17 +177,22 @@ std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slo
   const std::size_t apart = layout.scenarios * layout.gains * layout.modes;
   for (std::size_t first = 0; first < samples.size(); first += kBatchRuns) {
     const std::size_t end = std::min(first + kBatchRuns, samples.size());
+    std::shared_ptr<SharedNoise> noise;
     for (std::size_t i = 0; i < apart; ++i) {
+      if (i % (layout.gains * layout.modes) == 0) noise = std::make_shared<SharedNoise>();
       Block block{.scenario = i / (layout.gains * layout.modes),
                   .gains = i / layout.modes % layout.gains,
                   .mode = i % layout.modes,
-                  .samples = {}};
+                  .samples = {},
+                  .noise = noise};
       for (std::size_t s = first; s < end; ++s) {
         if (!slots[layout.row({block.scenario, block.gains, block.mode, samples[s]})]) {
           block.samples.push_back(samples[s]);
         }
       }
-      if (!block.samples.empty()) blocks.push_back(std::move(block));
+      if (block.samples.empty()) continue;
+      noise->add_user();
+      blocks.push_back(std::move(block));
     }
   }
   return blocks;
@@ -196,6 +209,24 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
   return runs;
 }
 
+/// Draws the noise of the block's runs, or takes it from a block of the same samples in another mode
+/// or with other gains.
+void share_noise(const Scenario& scenario, double sample_time_s, const Block& block,
+                 std::vector<BatchRun>& runs) {
+  if (scenario.duration_s / sample_time_s > kMaxSharedNoise) return;
+  const auto& drawn = block.noise->drawn([&] {
+    SharedNoise::Drawn noise;
+    for (const BatchRun& run : runs) {
+      noise[run.sample] = draw_sensor_noise(scenario, sample_time_s, run.seed, run.sample);
+    }
+    return noise;
+  });
+  for (BatchRun& run : runs) {
+    const auto found = drawn.find(run.sample);
+    if (found != drawn.end()) run.noise = &found->second;
+  }
+}
+
 /// Runs a block. Stores each result at its row's index in `slots`, or the error in `failures`.
 void run_block(const Model& model, const std::vector<NamedGains>& gains,
                const std::vector<Scenario>& scenarios, std::uint64_t seed,
@@ -206,8 +237,10 @@ void run_block(const Model& model, const std::vector<NamedGains>& gains,
   // The controller has the nominal values, not the drawn ones.
   const auto controller = make_controller(plants.nominal, model.vehicle, set.gains);
   const YawMode mode = kYawModes[block.mode];
-  const std::vector<BatchRun> runs = runs_of(plants, controller, block, mode, seed);
+  std::vector<BatchRun> runs = runs_of(plants, controller, block, mode, seed);
+  share_noise(scenario, model.vehicle.sample_time_s, block, runs);
   auto metrics = simulate_batch(runs, scenario, model.vehicle.sample_time_s, arithmetic);
+  block.noise->remove_user();
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     const std::size_t index = layout.row(block.place(i));
     if (!metrics[i]) {

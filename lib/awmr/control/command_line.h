@@ -20,23 +20,10 @@
 
 #include <stdint.h>
 
+#include "awmr/control/command_word.h"
 #include "awmr/control/crc.h"
 
 namespace awmr {
-
-enum class CommandWord : uint8_t {
-  kNone,
-  kArm,      ///< ARM: motors can turn
-  kStop,     ///< STOP: motors off until the next ARM
-  kKeep,     ///< KEEP, or K: continue; resets the command time-out
-  kGo,       ///< G: start the route or the run
-  kNext,     ///< N: skip this run
-  kYes,      ///< Y: the answer yes
-  kHeading,  ///< H: heading, deg
-  kSpeed,    ///< S: speed, m/s
-  kMode,     ///< M: YawMode, 0, 1 or 2
-  kForce     ///< T: wheel force, over F_max
-};
 
 enum class CommandVerdict : uint8_t {
   kNone,       ///< no complete line yet
@@ -160,7 +147,7 @@ class CommandReader {
       name[letters++] = *text++;
     }
     name[letters] = '\0';
-    const CommandWord found = find(name, letters);
+    const CommandWord found = find_command(name, letters);
     if (found == CommandWord::kNone) return CommandVerdict::kUnknown;
     float number = 0.0F;
     if (found >= CommandWord::kHeading) {
@@ -171,38 +158,6 @@ class CommandReader {
     word = found;
     value = number;
     return CommandVerdict::kTaken;
-  }
-
-  static CommandWord find(const char* name, uint8_t letters) {
-    if (letters == 1) {
-      switch (name[0]) {
-        case 'K':
-          return CommandWord::kKeep;
-        case 'G':
-          return CommandWord::kGo;
-        case 'N':
-          return CommandWord::kNext;
-        case 'Y':
-          return CommandWord::kYes;
-        case 'H':
-          return CommandWord::kHeading;
-        case 'S':
-          return CommandWord::kSpeed;
-        case 'M':
-          return CommandWord::kMode;
-        case 'T':
-          return CommandWord::kForce;
-        default:
-          return CommandWord::kNone;
-      }
-    }
-    if (letters == 3 && name[0] == 'A' && name[1] == 'R' && name[2] == 'M') {
-      return CommandWord::kArm;
-    }
-    if (letters == 4 && name[0] == 'K' && name[1] == 'E' && name[2] == 'E' && name[3] == 'P') {
-      return CommandWord::kKeep;
-    }
-    return CommandWord::kNone;
   }
 
   /// Reads [+-]d*[.d*] up to the end of the text, with one to eight digits. False: the text has

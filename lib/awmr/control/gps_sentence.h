@@ -4,50 +4,10 @@
 /// sentence arrives. Freestanding C++14.
 #pragma once
 
-#include <stdint.h>
+#include "awmr/control/gps_fix.h"
+#include "awmr/control/gps_number.h"
 
 namespace awmr {
-
-/// One position fix.
-struct GpsFix {
-  uint32_t utc_ms;  ///< time of day, ms since midnight UTC
-  int32_t lat_e7;   ///< 1e-7 deg, north positive
-  int32_t lon_e7;   ///< 1e-7 deg, east positive
-  float speed_mps;  ///< speed over ground, >= 0, without a sign
-};
-
-enum class GpsSentence : uint8_t {
-  kOther,    ///< complete, but not RMC
-  kDamaged,  ///< check sum missing or wrong, a field empty or malformed
-  kNoFix,    ///< complete, but the receiver has no fix, or a fix that is not measured
-  kFix       ///< complete, with a usable fix
-};
-
-/// A GPS speed below this, m/s, can be the noise of a receiver at rest.
-constexpr float kStandstill_mps = 0.3F;
-/// Seconds and milliseconds of a day.
-constexpr uint32_t kDay_s = 86400;
-constexpr uint32_t kDay_ms = 1000 * kDay_s;
-/// Units of GpsFix::lat_e7 in a degree.
-constexpr uint32_t kDegree_e7 = 10000000;
-
-/// A number of a sentence. `whole`: the digits before the decimal point. `part`: the digits after
-/// it, in units of the last decimal place that is kept. Hours or degrees, minutes and seconds are
-/// combined with base 60: the digits 1234 of 12 deg 34 min become 12 * 60 + 34.
-struct RmcNumber {
-  uint32_t whole;
-  uint32_t part;
-};
-
-/// The numbers of a sentence before they are converted.
-struct RmcNumbers {
-  RmcNumber utc;    ///< in s since midnight, and ms
-  RmcNumber lat;    ///< in minutes of arc, and 1e-7 minutes of arc
-  RmcNumber lon;    ///< in minutes of arc, and 1e-7 minutes of arc
-  RmcNumber knots;  ///< in knots, and 1e-3 knots
-  bool is_south;
-  bool is_west;
-};
 
 namespace detail {
 
@@ -61,30 +21,11 @@ inline uint8_t hex_value(char c) {
   return 16;
 }
 
-/// Converts minutes of arc to 1e-7 deg: 1e7 (whole + 1e-7 part)/60. Degrees and minutes are
-/// converted separately to stay within 32 bits.
-inline int32_t degrees_e7(const RmcNumber& minutes, bool is_negative) {
-  const uint16_t whole = static_cast<uint16_t>(minutes.whole);
-  const uint16_t degrees = static_cast<uint16_t>(whole / 60U);
-  const uint32_t rest = static_cast<uint16_t>(whole - degrees * 60U);
-  const int32_t size =
-      static_cast<int32_t>(degrees * kDegree_e7 + (rest * kDegree_e7 + minutes.part) / 60U);
-  return is_negative ? -size : size;
-}
-
 }  // namespace detail
-
-/// Converts the numbers of a sentence for which RmcReader::kind() is kFix to a fix.
-inline GpsFix to_fix(const RmcNumbers& numbers) {
-  return {numbers.utc.whole * 1000U + numbers.utc.part,
-          detail::degrees_e7(numbers.lat, numbers.is_south),
-          detail::degrees_e7(numbers.lon, numbers.is_west),
-          static_cast<float>(numbers.knots.whole * 1000U + numbers.knots.part) * 0.514444444e-3F};
-}
 
 /// Reads $xxRMC,time,A,lat,N,lon,E,knots,course,date,variation,E,mode*hh from the characters of a
 /// port, and ignores everything else; xx are two characters of the talker, as in $GPRMC and $GNRMC.
-class RmcReader {
+class RmcReader : RmcNumberReader {
  public:
   /// True: this character ended a sentence (each starts with $); kind() and numbers() are valid
   /// until the next $. A sentence that is too long is dropped.
@@ -146,23 +87,15 @@ class RmcReader {
   enum SumPlace : uint8_t { kSummed, kHighDigit, kLowDigit, kComplete, kTooMuch };
 
   RmcNumbers numbers_ = {};
-  RmcNumber* number_ = 0;  // number that this field fills in; 0: the field is not a number
-  uint32_t value_ = 0;     // value of the field's digits since its start or its point
   uint8_t field_ = kTalker;
-  uint8_t size_ = 0;         // characters of this field
-  uint8_t digits_left_ = 0;  // digits still expected before the point
-  uint8_t places_left_ = 0;  // digits still kept behind the point
-  uint8_t sixties_ = 0;      // bit 0: the next digit is the first of two that are below 60, such as
-                             // minutes; bit 1: the same for the digit after it; and so on
+  uint8_t size_ = 0;  // characters of this field
   uint8_t length_ = 0;
   uint8_t sum_ = 0;
   SumPlace sum_place_ = kSummed;
   char status_ = 0;
   char mode_ = 0;
-  bool has_point_ = false;
   bool is_open_ = false;
   bool is_rmc_ = false;
-  bool is_malformed_ = false;
 
   void begin_sentence() {
     length_ = 1;
@@ -239,51 +172,12 @@ class RmcReader {
     if (field_ == kLon) begin_number(numbers_.lon, 5, 7, 0x08);
     if (field_ == kKnots) begin_number(numbers_.knots, 5, 3, 0x00);
   }
-  void begin_number(RmcNumber& number, uint8_t digits, uint8_t places, uint8_t sixties) {
-    number_ = &number;
-    value_ = 0;
-    digits_left_ = digits;
-    places_left_ = places;
-    sixties_ = sixties;
-    has_point_ = false;
-  }
-
-  void take_digit(uint8_t digit) {
-    bool is_sixties = false;
-    if (has_point_) {
-      if (places_left_ == 0) return;
-      --places_left_;
-    } else {
-      if (digits_left_ == 0) is_malformed_ = true;
-      --digits_left_;
-      is_sixties = (sixties_ & 1U) != 0;
-      sixties_ = static_cast<uint8_t>(sixties_ >> 1U);
-      if (is_sixties && digit > 5) is_malformed_ = true;
-    }
-    append(digit, is_sixties);
-  }
-  /// value = 10 value + digit, or 6 value + digit if `is_sixties`. By shifts, because a product
-  /// takes an AVR 50 cycles.
-  void append(uint8_t digit, bool is_sixties) {
-    const uint32_t twice = value_ << 1U;
-    uint32_t rest = twice << 1U;
-    if (!is_sixties) rest <<= 1U;
-    value_ = rest + twice + digit;
-  }
-  void end_whole() {
-    number_->whole = value_;
-    value_ = 0;
-    has_point_ = true;
-  }
-
   void end_field() {
     if (field_ == kTalker && size_ != 5) is_rmc_ = false;
     if ((field_ == kNorth || field_ == kEast) && size_ != 1) is_malformed_ = true;
     if (number_ == 0) return;
     const bool has_point = has_point_;
-    if (!has_point) end_whole();
-    for (; places_left_ > 0; --places_left_) append(0, false);
-    number_->part = value_;
+    end_number();
     if (field_ == kKnots ? digits_left_ > 4 : digits_left_ > 0) is_malformed_ = true;
     if (field_ == kUtc && number_->whole >= kDay_s) is_malformed_ = true;
     if (field_ == kLat || field_ == kLon) {

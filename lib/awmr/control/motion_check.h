@@ -2,30 +2,15 @@
 /// the command and the heading. Freestanding C++14.
 #pragma once
 
+#include "awmr/control/course_check.h"
 #include "awmr/control/displacement.h"
-#include "awmr/control/gps_sentence.h"
+#include "awmr/control/motion_limits.h"
 #include "awmr/control/sensor_fault.h"
 
 namespace awmr {
 
-/// Heading and command of the vehicle at the time of a fix.
-struct GpsContext {
-  float psi_rad;      ///< heading
-  float psi_ref_rad;  ///< commanded heading
-  int8_t direction;   ///< sign of the commanded speed: 1, 0 or -1
-  /// False: of ten consecutive fixes that the vehicle cannot have reached (2 s at 5 Hz), the tenth
-  /// is accepted. True: none is.
-  bool is_armed;
-};
-
-/// Displacement in the world frame and time from one fix to the next.
-struct GpsMotion {
-  float dx_m, dy_m, time_s;
-  float speed_mps;  ///< measured speed at the second fix, without a sign
-};
-
 /// Checks of the motion between fixes. A fault lasts until restart().
-class MotionCheck {
+class MotionCheck : MotionLimits {
  public:
   /// Starts the four comparisons of check() for this motion.
   void take(const GpsMotion& motion, const GpsContext& at) {
@@ -60,7 +45,7 @@ class MotionCheck {
         break;
       case Due::kCourse:
         due_ = Due::kNothing;
-        compare_with_reference(limits);
+        if (course_.is_off(limits, motion_, context_)) note(kOffCourse);
         break;
       case Due::kNothing:
         break;
@@ -77,7 +62,7 @@ class MotionCheck {
     same_m_ = against_m_ = 0.0F;
     against_fixes_ = 0;
     fault_ = kSensorGood;
-    off_course_mrad_ = 0.0F;
+    course_.restart();
     restart_track();
   }
 
@@ -85,58 +70,9 @@ class MotionCheck {
   /// Next comparison of the last motion.
   enum class Due : uint8_t { kNothing, kDirection, kSpeed, kTrack, kCourse };
 
-  /// Maximum time between two fixes whose motion is evaluated, s. The first fix after a longer gap
-  /// calls restart(), which also clears the fault.
-  static constexpr float kGap_s = 4.0F;
-  /// A window in which displacement and measured speed are compared ends after this distance
-  /// travelled, m, or after this time, s.
-  static constexpr float kWindow_m = 12.0F;
-  static constexpr float kWindow_s = 90.0F;
-  /// Displacement along the heading that is permitted in addition to 1.25 times the distance
-  /// travelled, m. It covers the drift of the fixes: an error of 1.5 m RMS with a correlation time
-  /// of 60 s changes in the time t by
-  ///   1.5 sqrt(2 (1 - exp(-t/60 s))) m RMS
-  /// which is 1.9 m in a window of kWindow_s.
-  static constexpr float kFurther_m = 6.0F;
-  /// Displacement that is required in a window, as a fraction of the distance travelled (integral
-  /// of the measured speed). A healthy vehicle reaches 0.39 even with a compass error of 30 deg and
-  /// three times the RMS drift above.
-  static constexpr float kNotFurther = 0.25F;
-  /// At u_ref = 0, longest window in which displacement and measured speed are compared, s. In a
-  /// longer one, the noise of the unsigned speed alone can add up to kWindow_m.
-  static constexpr float kMoving_s = kWindow_m / kStandstill_mps;
-  /// Maximum integral of the measured speed while the position does not change, m. While a motion
-  /// is commanded, a speed of at most kStandstill_mps counts as kStill_mps, m/s. So a receiver that
-  /// froze at rest is detected after 10 s.
-  static constexpr float kSame_m = 1.5F;
-  static constexpr float kStill_mps = 0.15F;
-  /// Maximum displacement against the commanded direction, m: a fault if kAgainstFixes consecutive
-  /// fixes exceed it. Up to kAhead_m of earlier displacement in the commanded direction is
-  /// subtracted. The maximum is larger than the drift of the fixes while the vehicle moves.
-  static constexpr float kAgainst_m = 2.0F;
-  static constexpr float kAhead_m = 1.0F;
-  static constexpr uint8_t kAgainstFixes = 3;
-  /// The direction of travel is compared with the heading after a displacement |ahead| + |left| of
-  /// kTrack_m plus kTrack_mps times the time. The sideways part that is a fault (kOffTrack) is then
-  /// at least 3.5 times the RMS drift of the fixes (kFurther_m), also at low speed.
-  static constexpr float kTrack_m = 10.0F;
-  static constexpr float kTrack_mps = 0.1F;
-  /// Maximum |left|/|ahead| of the displacement: tan 30 deg. This angle exceeds the sideslip of a
-  /// vehicle plus the change of heading in 0.5 s of latency in a turn of kStraight_rad per fix.
-  static constexpr float kOffTrack = 0.577F;
-  /// Largest change of the heading between two fixes whose displacement is compared with the
-  /// heading, rad.
-  static constexpr float kStraight_rad = 0.1F;
-  /// A change of the commanded heading between two fixes by more than this, rad, is a new command:
-  /// the integral of the heading error (GpsLimits::off_course_mrad) then restarts at 0.
-  static constexpr float kNewCourse_rad = 0.35F;
-  /// After a change of the commanded direction, the vehicle may brake for this time, s, while its
-  /// speed increases by at most kFaster_mps.
-  static constexpr float kBraking_s = 10.0F;
-  static constexpr float kFaster_mps = 0.5F;
-
   GpsMotion motion_ = {0.0F, 0.0F, 0.0F, 0.0F};  // valid if a comparison is due
   GpsContext context_ = {0.0F, 0.0F, 0, false};
+  CourseCheck course_;
   float window_s_ = 0.0F;            // time since the window began
   float window_m_ = 0.0F;            // displacement along the heading in the window
   float window_left_m_ = 0.0F;       // displacement to the left in the window's straight motions
@@ -148,8 +84,6 @@ class MotionCheck {
   float track_ahead_m_ = 0.0F;       // displacement of these motions along the heading
   float track_left_m_ = 0.0F;        // displacement of these motions to the left of the heading
   float track_psi_rad_ = 0.0F;       // heading at the previous fix
-  float off_course_mrad_ = 0.0F;     // integral of the heading error beyond e0 over the distance
-  float course_rad_ = 0.0F;          // commanded heading at the previous fix
   float braking_s_ = 0.0F;           // time left for braking
   float braked_from_mps_ = 0.0F;     // speed when the commanded direction changed
   int8_t direction_ = 0;             // GpsContext::direction of the last motion
@@ -249,27 +183,6 @@ class MotionCheck {
     if (ahead_m + left_m < kTrack_m + kTrack_mps * track_s_) return;
     if (left_m > kOffTrack * ahead_m) note(kOffHeading);
     restart_track();
-  }
-
-  /// Integral over the distance driven of the heading error beyond e0, m rad:
-  ///   off = max(0, off + int (|psi_d - psi| - e0) |u| dt),  e0 = on_course_rad
-  /// It keeps growing while the vehicle does not turn to the commanded heading, for any reason:
-  /// a gyroscope with the wrong sign, a failed or reversed servo or motor, a target inside the
-  /// turning circle. A turn by 180 deg with the radius R adds
-  ///   R int_e0^pi (e - e0) de = R (pi - e0)^2/2
-  template <class Limits>
-  AWMR_CALLED_MEMBER void compare_with_reference(const Limits& limits) {
-    const float turned_rad = float_math::wrapped(context_.psi_ref_rad - course_rad_);
-    course_rad_ = context_.psi_ref_rad;
-    if (direction_ == 0 || detail::size_of(turned_rad) > kNewCourse_rad) {
-      off_course_mrad_ = 0.0F;
-      return;
-    }
-    const float error_rad = float_math::wrapped(context_.psi_ref_rad - context_.psi_rad);
-    off_course_mrad_ +=
-        (detail::size_of(error_rad) - limits.on_course_rad) * (motion_.speed_mps * motion_.time_s);
-    if (off_course_mrad_ < 0.0F) off_course_mrad_ = 0.0F;
-    if (off_course_mrad_ > limits.off_course_mrad) note(kOffCourse);
   }
 };
 

@@ -21,21 +21,12 @@
 
 #include <stdint.h>
 
-#include "awmr/control/guidance/position.h"
 #include "awmr/control/measurement.h"
 #include "awmr/control/position_filter.h"
 #include "awmr/model/quick_sin.h"
 #include "awmr/model/scalar_math.h"
 
 namespace awmr {
-
-/// A fix: a position that a GPS receiver has measured.
-template <class T>
-struct PositionFix {
-  Position<T> position_m;
-  T age_s;      ///< time since the fix was taken, s, >= 0
-  bool is_new;  ///< no step has processed the fix yet
-};
 
 /// Estimates the position. `Filter`: PositionFilter, or a type with the same names as constants.
 template <class T, class Filter = PositionFilter<T>>

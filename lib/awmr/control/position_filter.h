@@ -1,9 +1,19 @@
-/// Constants of the position estimate (position_estimate.h). Freestanding C++14.
+/// Input and constants of the position estimate (position_estimate.h). Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
 
+#include "awmr/control/guidance/position.h"
+
 namespace awmr {
+
+/// A fix: a position that a GPS receiver has measured.
+template <class T>
+struct PositionFix {
+  Position<T> position_m;
+  T age_s;      ///< time since the fix was taken, s, >= 0
+  bool is_new;  ///< no step has processed the fix yet
+};
 
 /// q, m^2/s: rate at which the variance of the dead-reckoned position grows because of heading and
 /// speed errors.

@@ -142,13 +142,16 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   using math::sin;
   const T cos_psi = cos(s.psi_rad);
   const T sin_psi = sin(s.psi_rad);
+  // Products with reciprocals of constants: divisions would take most of the time of a batch.
+  const T per_mass = T(1.0) / p.mass_norm;
+  const T per_inertia = T(1.0) / p.inertia_norm;
   State<T> d{};
   d.x_m = s.u_mps * cos_psi - s.v_mps * sin_psi;
   d.y_m = s.u_mps * sin_psi + s.v_mps * cos_psi;
   d.psi_rad = s.r_radps;
-  d.u_mps = (surge_force - p.surge(s.u_mps)) / p.mass_norm + s.r_radps * s.v_mps;
-  d.v_mps = (sway_force - p.sway_alpha * s.v_mps) / p.mass_norm - s.r_radps * s.u_mps;
-  d.r_radps = (yaw_moment_m - p.yaw(s.r_radps)) / p.inertia_norm;
+  d.u_mps = (surge_force - p.surge(s.u_mps)) * per_mass + s.r_radps * s.v_mps;
+  d.v_mps = (sway_force - p.sway_alpha * s.v_mps) * per_mass - s.r_radps * s.u_mps;
+  d.r_radps = (yaw_moment_m - p.yaw(s.r_radps)) * per_inertia;
   d.steering_rad = steering_rate_radps;
   return d;
 }
@@ -174,8 +177,8 @@ AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
 template <class T>
 T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_command_rad) {
   const T target = math::saturate(steering_command_rad, p.steering_max_rad);
-  return math::saturate((target - steering_rad) / p.steering_time_constant_s,
-                        p.steering_max_rate_radps);
+  const T per_time_constant = T(1.0) / p.steering_time_constant_s;
+  return math::saturate(T((target - steering_rad) * per_time_constant), p.steering_max_rate_radps);
 }
 
 namespace detail {
@@ -316,7 +319,8 @@ State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForce
                            const T& steering_command_rad) {
   const GeneralisedForces<T> tau =
       generalised_forces(p.front_axle_m, p.half_track_m, f, s.steering_rad);
-  return detail::rates(p, s, tau.tau_speed, tau.tau_steering_m / p.front_axle_m,
+  const T per_lever = T(1.0) / p.front_axle_m;
+  return detail::rates(p, s, tau.tau_speed, T(tau.tau_steering_m * per_lever),
                        tau.tau_steering_m + tau.tau_diff_m,
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }

@@ -45,10 +45,12 @@ struct Resistance {
     using math::select;
     const T magnitude = abs(speed);
     if (!MaskOf<T>::kOneLane) {
-      // A batch has one vehicle per lane and therefore no branches. speed/reached is 1 or -1 beyond
-      // the chord; on the chord, it is speed/rest_speed.
-      const T reached = larger(larger(magnitude, rest_speed), T(1e-30));
-      return at(reached) * (speed / reached);
+      // A batch has one vehicle per lane and therefore no branches. The quotient is the same in
+      // every step, so that the compiler can compute it once for several calls.
+      const T chord = larger(rest_speed, T(1e-30));
+      const T sign = select(speed < T(0.0), T(-1.0), T(1.0));
+      const T share = select(magnitude < chord, T(speed * (T(1.0) / chord)), sign);
+      return at(larger(magnitude, chord)) * share;
     }
     if (!any(magnitude > T(0.0))) return T(0.0);
     if (any(magnitude < rest_speed)) return at(rest_speed) / rest_speed * speed;

@@ -72,15 +72,16 @@ struct Resolution {
 };
 
 /// Declared here because advance_by_halves() calls it; defined below. `body`, here and below: a
-/// Plant, or another type that has a fastest_rate(), such as FourWheels (tyres.h).
-template <class Body, class T, class Rates>
-State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
+/// Plant, or another type that has a fastest_rate(), such as FourWheels (tyres.h). `step(from, h)`:
+/// the state after one integration step, without step control.
+template <class Body, class T, class Step>
+State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);
 
 /// Replaces one step of h seconds by two steps of h/2 in the lanes of `requested`. A lane that
 /// exceeds kMaxHalvings or kMaxHalves keeps its state and is marked as unresolved.
-template <class Body, class T, class Rates>
-AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates, Mask<T> requested,
+template <class Body, class T, class Step>
+AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Step step, Mask<T> requested,
                                      int halvings, Resolution<T>& resolution) {
   using math::any;
   using math::select;
@@ -91,16 +92,16 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Rates rates,
   if (!any(halved)) return from;
   resolution.halves = select(halved, T(resolution.halves + T(1.0)), resolution.halves);
   const T half = h / T(2.0);
-  const State<T> middle = advance(body, from, half, rates, halved, halvings + 1, resolution);
-  const State<T> end = advance(body, middle, half, rates, halved, halvings + 1, resolution);
+  const State<T> middle = advance(body, from, half, step, halved, halvings + 1, resolution);
+  const State<T> end = advance(body, middle, half, step, halved, halvings + 1, resolution);
   return blend(halved, end, from);
 }
 
-/// Makes one step of h seconds by the classical Runge-Kutta method if fastest_rate() times h is at
+/// Makes one step of h seconds if fastest_rate() times h is at
 /// most kMaxRateTimesStep at both ends of the step; else two steps of half the length. Lanes
 /// outside `requested` are undefined.
-template <class Body, class T, class Rates>
-State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates& rates,
+template <class Body, class T, class Step>
+State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution) {
   using math::all;
   using math::any;
@@ -108,12 +109,12 @@ State<T> advance(const Body& body, const State<T>& from, const T& h, const Rates
   Mask<T> fits = fastest_rate(body, from) * h <= most;
   State<T> to = from;
   if (any(fits)) {
-    to = rk4_step(from, h, rates);
+    to = step(from, h);
     fits = fits && fastest_rate(body, to) * h <= most;
     if (all(fits || !requested)) return to;
   }
   return blend(fits, to,
-               advance_by_halves(body, from, h, rates, requested && !fits, halvings, resolution));
+               advance_by_halves(body, from, h, step, requested && !fits, halvings, resolution));
 }
 
 /// True in the lanes in which every number of the state is finite. The sum of 0 times each number
@@ -138,8 +139,8 @@ T settled(const T& speed) {
 /// Integrates the lanes of `requested` by `substeps` steps of h seconds at constant commands. A
 /// lane in which no step is short enough, or a number is not finite, keeps its state and is marked
 /// in `resolution`.
-template <class Body, class T, class Rates>
-void integrate(const Body& body, const T& h, const T& substeps, const Rates& rates,
+template <class Body, class T, class Step>
+void integrate(const Body& body, const T& h, const T& substeps, const Step& step,
                const Mask<T>& requested, State<T>& state, Resolution<T>& resolution) {
   using math::all;
   using math::any;
@@ -147,7 +148,7 @@ void integrate(const Body& body, const T& h, const T& substeps, const Rates& rat
   for (int i = 0;; ++i) {
     const Mask<T> steps = requested && resolution.resolved && T(i) < substeps;
     if (!any(steps)) break;
-    const State<T> next = advance(body, moved, h, rates, steps, 0, resolution);
+    const State<T> next = advance(body, moved, h, step, steps, 0, resolution);
     moved = all(steps) ? next : blend(steps, next, moved);
   }
   resolution.resolved = resolution.resolved && (is_finite(moved) || !requested);

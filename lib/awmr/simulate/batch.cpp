@@ -18,11 +18,13 @@ using lanes::Kernel;
 static_assert(kBatchRuns == kRunsOf<lanes::Row>);
 
 DrivenRun one_by_one(const BatchRun& run, const Scenario& scenario, double sample_time_s) {
-  DrivenRun driven{
-      .run = simulate(
-          run.plant, run.controller, scenario, run.mode,
-          {.sample_time_s = sample_time_s, .substeps = {}, .seed = run.seed, .sample = run.sample}),
-      .metrics = {}};
+  DrivenRun driven{.run = simulate(run.plant, run.controller, scenario, run.mode,
+                                   {.sample_time_s = sample_time_s,
+                                    .substeps = {},
+                                    .seed = run.seed,
+                                    .sample = run.sample,
+                                    .noise = run.noise}),
+                   .metrics = {}};
   driven.metrics = metrics_of(driven.run, scenario, run.controller);
   return driven;
 }

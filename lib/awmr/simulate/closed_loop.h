@@ -202,7 +202,9 @@ void ClosedLoop<Row>::follow(std::size_t run, const GuidanceOutput& output) {
   put(output.reference, run, runs_->reference);
   put(output.path.psi_goal_rad, run, runs_->goal_rad);
   put(output.path.cross_track_m, run, runs_->cross_track_m);
-  put(distance_m(output.path.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
+  if (runs_->time.is_in_second_half) {  // the only samples whose metrics use the distance
+    put(distance_m(output.path.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
+  }
   if (output.no_passage && std::abs(state.u_mps) < kStopped_mps) {
     parts.ending = RunEnd::kNoPassage;
   } else if (output.finished) {

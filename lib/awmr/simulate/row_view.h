@@ -17,9 +17,11 @@
 
 namespace awmr {
 
-/// View of the row of a single run (Row = double): the numbers themselves.
-struct OneRun {
-  using Number = double;
+/// View of the row of a single run (Row = T): the numbers themselves. T: double, or a scalar type
+/// of the same size, which tests/bench uses to count operations.
+template <class T>
+struct OneRunOf {
+  using Number = T;
   template <class Numbers>
   const Numbers& operator()(const Numbers& numbers) const {
     return numbers;
@@ -34,6 +36,7 @@ struct OneRun {
     if (mask) to = from;
   }
 };
+using OneRun = OneRunOf<double>;
 
 /// Number of runs in a row.
 template <class Row>

@@ -17,6 +17,11 @@ enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 constexpr double kTimeRounding = 1e-9;
 constexpr double kTimeRounding_s = 1e-9;
 
+/// Number of whole samples in a latency.
+std::size_t whole_samples(double latency_s, double sample_time_s) {
+  return static_cast<std::size_t>(latency_s / sample_time_s + kTimeRounding);
+}
+
 bool is_noisy(const Channel& channel) { return channel.noise > 0.0 || channel.noise < 0.0; }
 
 /// The reading of a sensor for the true value `truth`: with bias, noise and quantisation.
@@ -52,7 +57,7 @@ DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std
 Sensing::Sensor::Sensor(const Channel& its_channel, double sample_time_s, const Random& its_random,
                         const std::vector<double>* its_normals)
     : channel(its_channel),
-      latency(static_cast<std::size_t>(its_channel.latency_s / sample_time_s + kTimeRounding)),
+      latency(whole_samples(its_channel.latency_s, sample_time_s)),
       part(its_channel.latency_s / sample_time_s - static_cast<double>(latency)),
       correlation(noise_correlation(its_channel.correlation_s, sample_time_s)),
       random(its_random),
@@ -81,7 +86,11 @@ Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, co
       speed_(sensors ? sensors->speed : Channel{}, sample_time_s, seed.random(kSpeed),
              noise ? &noise->speed : nullptr),
       gps_(seed.random(kGps)),
-      motion_(2 + std::max({heading_.latency, yaw_rate_.latency, speed_.latency})) {}
+      motion_(2 + std::max({heading_.latency, yaw_rate_.latency, speed_.latency})),
+      // A fix is the position of the sample before it is taken, and arrives at the sample after
+      // its latency.
+      kept_(4 + whole_samples(sensors && sensors->gps ? sensors->gps->latency_s : 0.0,
+                              sample_time_s)) {}
 
 double Sensing::truth_at(std::size_t k, const Sensor& sensor,
                          double Measurement<double>::*quantity) const {
@@ -110,7 +119,8 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
 /// lost in a drop-out also takes its random numbers.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
-  true_m_.push_back({truth.x_m, truth.y_m});
+  if (k < kept_) true_m_.emplace_back();
+  true_m_[k % kept_] = {truth.x_m, truth.y_m};
   if (k == 0) {
     fix_m_ = true_m_.front();
     fix_taken_s_ = -1.0 / gps.rate_hz;
@@ -124,8 +134,9 @@ void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& s
     const auto sample = std::min(
         k, static_cast<std::size_t>(std::floor(taken_s / sample_time_s_ + kTimeRounding_s)));
     const auto next_normal = [this] { return gps_.normal(); };
-    const Position<double> fix{read(gps.x, true_m_[sample].x_m, next_normal),
-                               read(gps.y, true_m_[sample].y_m, next_normal)};
+    const Position<double>& true_m = true_m_[sample % kept_];
+    const Position<double> fix{read(gps.x, true_m.x_m, next_normal),
+                               read(gps.y, true_m.y_m, next_normal)};
     if (lost) continue;
     fix_m_ = fix;
     fix_taken_s_ = static_cast<double>(sample) * sample_time_s_;

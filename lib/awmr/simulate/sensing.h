@@ -61,7 +61,8 @@ class Sensing {
   Sensor heading_, yaw_rate_, speed_;
   Random gps_;
   std::vector<Measurement<double>> motion_;  ///< true motion of the samples within the latency
-  std::vector<Position<double>> true_m_;     ///< true positions, by sample
+  std::size_t kept_;                         ///< number of samples within the latency of the GPS
+  std::vector<Position<double>> true_m_;     ///< true position of sample k at k modulo kept_
   Position<double> fix_m_{};                 ///< the last fix
   double fix_taken_s_ = 0.0;
   std::size_t next_fix_ = 0;  ///< number of the next fix to arrive

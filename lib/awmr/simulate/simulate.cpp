@@ -194,7 +194,7 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
   const double sample_s = options.sample_time_s;
   const bool too_much = !check_work(plant, "", scenario, sample_s) && !options.substeps.has_value();
   const auto samples = too_much ? std::size_t{0} : samples_in(scenario.duration_s, sample_s);
-  const BatchRun only{plant, controller, mode, options.seed, options.sample};
+  const BatchRun only{plant, controller, mode, options.seed, options.sample, options.noise};
   ClosedLoop<double> loop(std::span(&only, 1), scenario, kOneRunSteps,
                           {.sample_time_s = sample_s,
                            .samples = samples,

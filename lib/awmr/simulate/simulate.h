@@ -17,6 +17,8 @@
 
 namespace awmr {
 
+struct DrawnNoise;
+
 /// Guidance columns of a row of run.csv, in addition to the vehicle's state; unused in open loop.
 struct PathRow {
   double psi_goal_rad = 0.0;    ///< heading of the guidance, before avoidance and shaping
@@ -81,6 +83,8 @@ struct SimulateOptions {
   std::uint64_t seed = 0;
   /// Number of the draw (0, 1, 2, ...) for several runs with one seed.
   std::uint64_t sample = 0;
+  /// As BatchRun::noise.
+  const DrawnNoise* noise = nullptr;
 };
 
 /// Limits of a run: rows that take half a gigabyte, and RK4 steps that take about a minute.

@@ -128,10 +128,19 @@ AWMR_WHOLE void actuate(const View& view, Vehicles<Row>& v) {
   view.store(force, v.arriving);
 }
 
+/// The stepper of the simulation. tests/bench compares it with another one.
+struct RungeKutta4 {
+  template <class T, class Rates>
+  State<T> operator()(const State<T>& from, const T& h, const Rates& rates) const {
+    return rk4_step(from, h, rates);
+  }
+};
+
 /// Integrates the active vehicles over a sample. `rates(body, state, steering command)` returns the
 /// time derivatives of the state with constant forces.
-template <bool kIsOnTyres, class View, class Row, class Rates>
-AWMR_WHOLE void move_by(const View& view, Vehicles<Row>& v, const Rates& rates) {
+template <bool kIsOnTyres, class View, class Row, class Rates, class Stepper>
+AWMR_WHOLE void move_by(const View& view, Vehicles<Row>& v, const Rates& rates,
+                        const Stepper& stepper) {
   using math::select;
   using T = typename View::Number;
   const auto& body = body_of<kIsOnTyres>(view, v);
@@ -141,15 +150,20 @@ AWMR_WHOLE void move_by(const View& view, Vehicles<Row>& v, const Rates& rates) 
   Resolution<T> resolution{view(v.halves), Mask<T>(true)};
   integrate(
       body, T(view(v.step_s)), T(view(v.substeps)),
-      [&](const State<T>& at) __attribute__((always_inline)) { return rates(body, at, command); },
+      [&](const State<T>& from, const T& h) __attribute__((always_inline)) {
+        return stepper(
+            from, h, [&](const State<T>& at) __attribute__((always_inline)) {
+              return rates(body, at, command);
+            });
+      },
       requested, state, resolution);
   view.store(state, v.state);
   view.store(resolution.halves, v.halves);
   view.store(select(requested && resolution.resolved, T(1.0), T(0.0)), v.active);
 }
 
-template <bool kIsOnTyres, class View, class Row, class Forces>
-void move_pushed(const View& view, Vehicles<Row>& v, const Forces& force) {
+template <bool kIsOnTyres, class View, class Row, class Forces, class Stepper>
+void move_pushed(const View& view, Vehicles<Row>& v, const Forces& force, const Stepper& stepper) {
   using T = typename View::Number;
   const ExternalForces<double>& common = v.setup.push;
   const ExternalForces<T> push{view(v.load), common.is_loaded, common.is_sloped,
@@ -157,39 +171,41 @@ void move_pushed(const View& view, Vehicles<Row>& v, const Forces& force) {
   move_by<kIsOnTyres>(
       view, v,
       [&](const auto& body, const State<T>& at, const T& command)
-          __attribute__((always_inline)) { return pushed_rates(body, push, at, force, command); });
+          __attribute__((always_inline)) { return pushed_rates(body, push, at, force, command); },
+      stepper);
 }
-template <class View, class Row>
-void move_alone(const View& view, Vehicles<Row>& v,
-                const SideForces<typename View::Number>& force) {
+template <class View, class Row, class Stepper>
+void move_alone(const View& view, Vehicles<Row>& v, const SideForces<typename View::Number>& force,
+                const Stepper& stepper) {
   using T = typename View::Number;
   move_by<false>(
       view, v,
       [&](const Plant<T>& plant, const State<T>& at, const T& command)
-          __attribute__((always_inline)) { return side_driven_rates(plant, at, force, command); });
+          __attribute__((always_inline)) { return side_driven_rates(plant, at, force, command); },
+      stepper);
 }
 
 /// Integrates the vehicles. The functions that compute the state's derivatives contain only the
 /// terms that at least one vehicle needs, because a branch inside them would stall the processor in
 /// every step.
-template <class View, class Row>
-void move(const View& view, Vehicles<Row>& v) {
+template <class View, class Row, class Stepper = RungeKutta4>
+void move(const View& view, Vehicles<Row>& v, const Stepper& stepper = {}) {
   using T = typename View::Number;
   const VehicleSetup& setup = v.setup;
   const SideForces<T> force = view(v.arriving);
   if (setup.is_on_tyres) {
     if (setup.is_by_wheel) {
-      move_pushed<true>(view, v, WheelForces<T>(view(v.wheels)));
+      move_pushed<true>(view, v, WheelForces<T>(view(v.wheels)), stepper);
     } else {
-      move_pushed<true>(view, v, force);
+      move_pushed<true>(view, v, force, stepper);
     }
   } else if (setup.is_by_wheel) {
-    move_pushed<false>(view, v, WheelForces<T>(view(v.wheels)));
+    move_pushed<false>(view, v, WheelForces<T>(view(v.wheels)), stepper);
   } else if (setup.has_back_emf || setup.has_scrub || setup.is_front_driven ||
              setup.push.is_loaded) {
-    move_pushed<false>(view, v, force);
+    move_pushed<false>(view, v, force, stepper);
   } else {
-    move_alone(view, v, beyond_dead_zone(force, T(view(v.plant.wheel_dead_zone))));
+    move_alone(view, v, beyond_dead_zone(force, T(view(v.plant.wheel_dead_zone))), stepper);
   }
 }
 

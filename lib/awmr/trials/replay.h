@@ -191,7 +191,10 @@ bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
         const auto rates = [&](const State<double>& at) {
           return state_rates(vehicle, at, force, steering);
         };
-        return advance(vehicle, from, h, rates, true, 0, resolution);
+        return advance(
+            vehicle, from, h,
+            [&](const State<double>& at, double length) { return rk4_step(at, length, rates); },
+            true, 0, resolution);
       });
   return resolution.resolved;
 }

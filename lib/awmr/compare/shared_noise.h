@@ -1,0 +1,42 @@
+/// Sensor noise that runs of the same samples and scenario share. Private to compare/.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <map>
+#include <mutex>
+
+#include "awmr/simulate/batch.h"
+#include "awmr/simulate/simulate.h"
+
+namespace awmr {
+
+/// Noise of some samples of a scenario, for several blocks of runs, which can be on different
+/// threads. The first block draws it, the last one frees it.
+class SharedNoise {
+ public:
+  /// By sample.
+  using Drawn = std::map<std::size_t, DrawnNoise>;
+
+  /// Adds a block. Call it for all blocks before the first of them starts.
+  void add_user() { ++users_; }
+
+  /// The noise; `draw()` returns it in the first call.
+  template <class Draw>
+  const Drawn& drawn(const Draw& draw) {
+    std::call_once(once_, [&] { drawn_ = draw(); });
+    return drawn_;
+  }
+
+  /// Ends the use by a block.
+  void remove_user() {
+    if (--users_ == 0) drawn_.clear();
+  }
+
+ private:
+  std::once_flag once_;
+  std::atomic<std::size_t> users_ = 0;
+  Drawn drawn_;
+};
+
+}  // namespace awmr
