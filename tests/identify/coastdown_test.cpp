@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "awmr/identify/planning/synthetic.h"
@@ -270,6 +271,149 @@ TEST(CoastDown, CorrelatedNoiseWidensTheInterval) {
   EXPECT_TRUE(std::any_of(result->model.record.findings.begin(),
                           result->model.record.findings.end(),
                           [](const Finding& f) { return f.code == "coloured-residuals"; }));
+}
+
+/// A sensor of the speed.
+struct SpeedSensor {
+  double lag_s = 0.0;       ///< time constant of a filter; 0: none
+  double lead_s = 0.0;      ///< record before motors-off
+  double lowest_mps = 0.0;  ///< lower speeds read 0
+  int hold = 1;             ///< rows for which a reading is repeated
+  double noise_mps = 0.01;
+};
+
+/// Curve recorded at 50 Hz for `duration_s` from motors-off. `speed(t)`: speed after the time t.
+template <class Speed>
+CoastCurve recorded(Speed speed, double duration_s, const SpeedSensor& sensor, std::uint64_t run) {
+  constexpr double kRow_s = 0.02;
+  constexpr int kSteps = 40;
+  constexpr double kStep_s = kRow_s / kSteps;
+  Random random(11, run);
+  CoastCurve curve{"curve.csv", 2, {}, {}};
+  double y = speed(0.0);
+  for (int i = 0; i * kRow_s < sensor.lead_s + duration_s; ++i) {
+    double reading = y + sensor.noise_mps * random.normal();
+    if (reading < sensor.lowest_mps) reading = 0.0;
+    if (i % sensor.hold != 0) reading = curve.speed_mps.back();
+    curve.t_s.push_back(kRow_s * i);
+    curve.speed_mps.push_back(reading);
+    for (int n = 0; n < kSteps; ++n) {
+      const double middle_s = kRow_s * i + kStep_s * (n + 0.5) - sensor.lead_s;
+      const double u = speed(std::max(0.0, middle_s));
+      y = sensor.lag_s > 0.0 ? u + (y - u) * std::exp(-kStep_s / sensor.lag_s)
+                             : speed(std::max(0.0, middle_s + 0.5 * kStep_s));
+    }
+  }
+  return curve;
+}
+
+/// Surge runs and three curves of the vehicle `t`.
+TrialData with_sensor(const Truth& t, const SpeedSensor& sensor, std::uint64_t seed = 1) {
+  TrialData data = surge_only(t, 0.01, seed);
+  for (const double u0 : {1.6, 1.5, 1.4}) {
+    data.curves.push_back(recorded([&](double s) { return closed_form(t, u0, s); }, 2.0, sensor,
+                                   10 * seed + data.curves.size()));
+  }
+  return data;
+}
+
+bool reports(const Model& model, const std::string& code) {
+  return std::ranges::any_of(model.record.findings,
+                             [&](const Finding& f) { return f.code == code; });
+}
+
+/// Expects that m' is within `errors` standard errors of the truth.
+void expect_mass(const Model& model, const Truth& t, double errors) {
+  const Estimate& mass = model[ParameterId::kMassNorm];
+  ASSERT_TRUE(mass.value && mass.std_error);
+  EXPECT_NEAR(*mass.value, t.mass_norm, errors * *mass.std_error);
+  EXPECT_LT(*mass.std_error, 0.05 * t.mass_norm);
+}
+
+TEST(CoastDown, FindsTheFilterOfTheSpeed) {
+  const Truth& t = kTruths[1];  // m'/a1 = 0.56 s
+  for (const SpeedSensor& sensor : {SpeedSensor{.lag_s = 0.05, .lead_s = 0.5}, SpeedSensor{0.2}}) {
+    const TrialData data = with_sensor(t, sensor);
+    IdentifyOptions options;
+    options.joint = sensor.lead_s == 0.0;
+    const auto result = identify(vehicle(), data, options, {});
+    ASSERT_TRUE(result);
+    EXPECT_TRUE(reports(result->model, "sensor-lag")) << sensor.lag_s;
+    expect_mass(result->model, t, 3.0);
+    const auto* lag = found(result->model, "", "lag.speed_mps");
+    ASSERT_TRUE(lag);
+    EXPECT_NEAR(lag->value, sensor.lag_s, 3.0 * *lag->std_error);
+  }
+}
+
+TEST(CoastDown, FindsNoFilterInUnfilteredCurves) {
+  const Truth& t = kTruths[1];
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const auto result = identify(
+        vehicle(), with_sensor(t, {.lead_s = 0.1 * static_cast<double>(seed % 3)}, seed), {}, {});
+    ASSERT_TRUE(result);
+    EXPECT_FALSE(reports(result->model, "sensor-lag")) << seed;
+    EXPECT_FALSE(reports(result->model, "model-inadequate")) << seed;
+    expect_mass(result->model, t, 3.0);
+  }
+}
+
+TEST(CoastDown, FindsMotorsOffAfterThreeRows) {
+  const Truth& t = kTruths[1];
+  const auto result = identify(vehicle(), with_sensor(t, {.lead_s = 0.07}), {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(reports(result->model, "sensor-lag"));
+  expect_mass(result->model, t, 3.0);
+}
+
+TEST(CoastDown, WithdrawsTheIntervalIfFilterAndMotionCanBeExchanged) {
+  // u = e^(-t/0.5), filtered with T = 0.2 s, is the same curve as u = e^(-t/0.2) with T = 0.5 s.
+  const Truth t{1.0, 1.0, 0.2, 1.2, 0.5};
+  TrialData data = surge_only(t, 0.01, 3);
+  for (const std::size_t run : {0, 1, 2}) {
+    data.curves.push_back(recorded([](double s) { return 1.5 * std::exp(-2.0 * s); }, 2.5,
+                                   {.lag_s = 0.2, .lead_s = 0.5}, run));
+  }
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(reports(result->model, "sensor-lag"));
+  EXPECT_TRUE(result->model[ParameterId::kMassNorm].value);
+  EXPECT_FALSE(result->model[ParameterId::kMassNorm].ci95);
+  EXPECT_FALSE(result->model[ParameterId::kInertiaNorm].ci95);
+}
+
+TEST(CoastDown, UsesEachReadingOfASlowSensorOnce) {
+  const Truth& t = kTruths[1];
+  const auto result = identify(vehicle(), with_sensor(t, {.lead_s = 0.5, .hold = 6}), {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(reports(result->model, "held-samples"));
+  EXPECT_FALSE(reports(result->model, "sensor-lag"));
+  expect_mass(result->model, t, 3.0);
+}
+
+TEST(CoastDown, DoesNotTakeASpeedCutOffForAStop) {
+  const Truth& t = kTruths[1];
+  const auto result = identify(vehicle(), with_sensor(t, {.lowest_mps = 0.3}), {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(reports(result->model, "speed-cut-off"));
+  expect_mass(result->model, t, 3.0);
+  const auto whole = identify(vehicle(), with_sensor(t, {.lowest_mps = 0.02}), {}, {});
+  ASSERT_TRUE(whole);
+  EXPECT_FALSE(reports(whole->model, "speed-cut-off"));
+}
+
+TEST(CoastDown, WithdrawsTheIntervalOfCurvesThatTheLawDoesNotDescribe) {
+  // The speed falls along a straight line, as with a brake.
+  TrialData data = surge_only(kTruths[1], 0.01, 4);
+  for (const std::size_t run : {0, 1, 2}) {
+    data.curves.push_back(
+        recorded([](double s) { return 1.5 - 0.75 * s; }, 1.9, {.lead_s = 0.5}, run));
+  }
+  const auto result = identify(vehicle(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(reports(result->model, "model-inadequate"));
+  EXPECT_TRUE(result->model[ParameterId::kMassNorm].value);
+  EXPECT_FALSE(result->model[ParameterId::kMassNorm].ci95);
 }
 
 }  // namespace

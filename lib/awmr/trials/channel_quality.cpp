@@ -98,30 +98,6 @@ std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   return fresh;
 }
 
-/// Sets `repeats`, `fresh` and `quantum`. With fewer than 8 changes of the value, every row counts
-/// as a measurement.
-void classify_repeats(std::span<const double> value, ChannelQuality& quality) {
-  const Changes changes = changes_of(value);
-  quality.fresh.assign(value.size(), true);
-  constexpr std::size_t kMinChanges = 8;
-  if (changes.row.size() < kMinChanges) return;
-  const double moving = static_cast<double>(changes.row.back() - changes.row.front());
-  const double repeated = moving - static_cast<double>(changes.row.size() - 1);
-  const double quantum = quantum_of(changes);
-  const bool often = repeated > kRepeatedShare * moving;
-  // The sensor is slower than the log if 95 % of the changes are at least two rows apart.
-  const bool own_rate =
-      often && quantile(gaps_of(changes), 0.05) >= 2.0 && !changes_step_by_step(changes, quantum);
-  if (own_rate) {
-    quality.repeats = Repeats::kSlow;
-    quality.fresh = slow_readings(changes, value.size());
-    quality.quantum = quantum;
-  } else if (quantum > 0.0 && repeated > kSomeRepeats * moving) {
-    quality.repeats = Repeats::kCoarse;
-    quality.quantum = quantum;
-  }
-}
-
 /// Each reading minus the median of itself and its two neighbours on either side. The result is
 /// large for a jump away and back within two readings, and small for a step. 0 for the first and
 /// last two readings.
@@ -334,10 +310,33 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
 
 }  // namespace
 
+ChannelQuality find_repeats(std::span<const double> value) {
+  ChannelQuality quality;
+  const Changes changes = changes_of(value);
+  quality.fresh.assign(value.size(), true);
+  constexpr std::size_t kMinChanges = 8;
+  if (changes.row.size() < kMinChanges) return quality;
+  const double moving = static_cast<double>(changes.row.back() - changes.row.front());
+  const double repeated = moving - static_cast<double>(changes.row.size() - 1);
+  const double quantum = quantum_of(changes);
+  const bool often = repeated > kRepeatedShare * moving;
+  // The sensor is slower than the log if 95 % of the changes are at least two rows apart.
+  const bool own_rate =
+      often && quantile(gaps_of(changes), 0.05) >= 2.0 && !changes_step_by_step(changes, quantum);
+  if (own_rate) {
+    quality.repeats = Repeats::kSlow;
+    quality.fresh = slow_readings(changes, value.size());
+    quality.quantum = quantum;
+  } else if (quantum > 0.0 && repeated > kSomeRepeats * moving) {
+    quality.repeats = Repeats::kCoarse;
+    quality.quantum = quantum;
+  }
+  return quality;
+}
+
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity) {
-  ChannelQuality quality;
-  classify_repeats(value, quality);
+  ChannelQuality quality = find_repeats(value);
   find_spikes(value, quality);
   find_stuck(t_s, value, activity, quality);
   if (quality.repeats == Repeats::kNone && quality.stuck.empty())

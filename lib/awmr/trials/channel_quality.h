@@ -31,6 +31,10 @@ struct ChannelQuality {
   double saturated_at = 0.0;        ///< the value in these rows
 };
 
+/// Reason why `value` repeats its readings: sets `repeats`, `fresh` and `quantum` as
+/// channel_quality() does. With fewer than 8 changes of the value, every row is a measurement.
+ChannelQuality find_repeats(std::span<const double> value);
+
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any scale. A signal that is constant while `activity` changes is stuck.
 ///

@@ -13,12 +13,13 @@
 namespace awmr {
 namespace {
 
-/// Computes d ln m' / d theta for the free coordinates theta of the surge law. J is the Jacobian of
-/// the residuals e by ln m' and the initial states. At the optimum J^T e = 0 for every theta, so
-/// d(ln m', initial states)/d theta = -J^+ d e/d theta. The dead zone has no effect: motors off.
-std::optional<Eigen::VectorXd> by_surge_law(CoastProblem& problem, const Eigen::MatrixXd& j,
+/// Computes d x / d theta for the free coordinates theta of the surge law. J is the Jacobian of the
+/// residuals e by x: ln m', the filter if there is one, and the initial states. At the optimum
+/// J^T e = 0 for every theta, so d x/d theta = -J^+ d e/d theta. The dead zone has no effect:
+/// motors off.
+std::optional<Eigen::MatrixXd> by_surge_law(CoastProblem& problem, const Eigen::MatrixXd& j,
                                             const SteadyFit& surge) {
-  Eigen::VectorXd derivative = Eigen::VectorXd::Zero(rows_of(surge.free));
+  Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(j.cols(), rows_of(surge.free));
   std::vector<double*> blocks;
   std::vector<Eigen::Index> places;
   for (std::size_t i = 0; i < surge.free.size(); ++i) {
@@ -31,7 +32,9 @@ std::optional<Eigen::VectorXd> by_surge_law(CoastProblem& problem, const Eigen::
   const Eigen::MatrixXd by_theta = all->leftCols(rows_of(blocks));
   const Eigen::MatrixXd moves = -PivotedQr(j).solve(by_theta);
   if (!moves.allFinite()) return std::nullopt;
-  for (std::size_t i = 0; i < places.size(); ++i) derivative(places[i]) = moves(0, eigen_index(i));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    derivative.col(places[i]) = moves.col(eigen_index(i));
+  }
   return derivative;
 }
 
@@ -98,25 +101,52 @@ void add_shapes(CoastProblem& problem, const std::vector<TransformedParameter>& 
 
 }  // namespace
 
-CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge) {
+CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
+                   const CoastStart& start) {
   const bool terms = surge.law().coulomb > 0.0 || surge.law().quadratic > 0.0;
-  CoastProblem problem(curves, surge.theta, guess_log_mass(curves, surge.law()), terms);
+  CoastProblem problem(curves, surge.theta, start, terms);
   problem.solve();
   CoastFit fit;
   fit.log_mass_norm = *problem.log_mass();
   fit.stop_reason = stop_reason(problem.summary());
   fit.beta = surge[TransformedParameter::kBeta];
   const std::optional<Eigen::VectorXd> e = problem.residuals();
-  const std::optional<Eigen::MatrixXd> j = problem.jacobian({problem.log_mass()});
+  const std::optional<Eigen::MatrixXd> j = problem.jacobian(problem.own_blocks());
   if (!e || !j) return not_finite(std::move(fit), problem);
-  const Eigen::MatrixXd covariance = add_coast_noise(*j, *e, problem.sizes(), fit);
+  const Eigen::MatrixXd covariance = add_coast_noise(*j, *e, curves, fit);
   if (covariance.size() == 0 || !converged(problem.summary())) return fit;
   fit.variance = covariance(0, 0);
-  std::optional<Eigen::VectorXd> by_surge = by_surge_law(problem, *j, surge);
+  const std::optional<Eigen::MatrixXd> by_surge = by_surge_law(problem, *j, surge);
   if (!by_surge || !is_finite(fit)) return not_finite(std::move(fit), problem);
-  fit.by_surge = std::move(*by_surge);
+  fit.by_surge = by_surge->row(0);
+  if (start.lag_s > 0.0) fit.lag = {*problem.lag_s(), covariance(1, 1), by_surge->row(1)};
   fit.usable = true;
   return fit;
+}
+
+std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
+                                         const SteadyFit& surge, const CoastFit& fit) {
+  constexpr double kStandardErrors = 3.0;
+  constexpr double kShare = 0.5;  // of the predicted rise
+  const bool terms = surge.law().coulomb > 0.0 || surge.law().quadratic > 0.0;
+  double best = 0.0;
+  for (const std::vector<double>& run : fit.residuals) {
+    for (const double e : run) best += e * e;
+  }
+  double least = best + kShare * std::pow(kStandardErrors * fit.residual_std_mps, 2);
+  std::optional<CoastStart> flat;
+  for (const double side : {-kStandardErrors, kStandardErrors}) {
+    CoastProblem problem(curves, surge.theta,
+                         {fit.log_mass_norm + side * std::sqrt(fit.variance), fit.lag->value_s},
+                         terms);
+    problem.problem().SetParameterBlockConstant(problem.log_mass());
+    problem.solve();
+    const std::optional<Eigen::VectorXd> e = problem.residuals();
+    if (!e || e->squaredNorm() > least) continue;
+    least = e->squaredNorm();
+    flat = CoastStart{*problem.log_mass(), *problem.lag_s()};
+  }
+  return flat;
 }
 
 CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& beta_range,
@@ -125,7 +155,7 @@ CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& 
   const TransformedParameters start = start_of(family, beta_range);
   const Resistance<double> law{1.0, start[1], 0.0, start[2], start[3]};
   const FamilyTerms terms = terms_of(family);
-  CoastProblem problem(curves, start, guess_log_mass(curves, law),
+  CoastProblem problem(curves, start, {guess_log_mass(curves, law)},
                        terms.coulomb || terms.quadratic);
   for (const TransformedParameter c : free) {
     const Interval range = range_of(c, beta_range);
@@ -149,7 +179,7 @@ CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& 
   const std::optional<Eigen::MatrixXd> j = problem.jacobian(blocks);
   const std::optional<Eigen::VectorXd> e = problem.residuals();
   if (!e || !j) return not_finite(std::move(fit), problem);
-  const Eigen::MatrixXd covariance = add_coast_noise(*j, *e, problem.sizes(), fit);
+  const Eigen::MatrixXd covariance = add_coast_noise(*j, *e, curves, fit);
   if (covariance.size() == 0 || !converged(problem.summary())) return fit;
   add_shapes(problem, free, inside, covariance, fit);
   const std::size_t on_a_bound = free.size() - inside.size();

@@ -11,6 +11,12 @@
 
 namespace awmr {
 
+/// Starting point of a search.
+struct CoastStart {
+  double log_mass = 0.0;
+  double lag_s = 0.0;  ///< time constant T of a filter of the speed; 0: no filter
+};
+
 /// Ratio of a resistance term to a1. Without a surge law, curves determine only such ratios.
 struct TermOverAlpha {
   TransformedParameter term{};  ///< c1 or q1
@@ -18,11 +24,19 @@ struct TermOverAlpha {
   double variance = 0.0;        ///< variance of `value`; 0 if `value` is 0, its lower bound
 };
 
+/// Time constant T of a low-pass filter that the speed of the curves has passed.
+struct FittedLag {
+  double value_s = 0.0;
+  double variance = 0.0;     ///< by the noise of the curves alone
+  Eigen::VectorXd by_surge;  ///< d T / d theta, as CoastFit::by_surge
+};
+
 /// Fit of coast-down curves to
 ///   m' u_dot = -g1(u), u(0) = u0:
 ///   u(t)^(1-b) = u0^(1-b) - (1-b) (a/m') t,   u = u0 exp(-(a/m') t) for b -> 1       [paper (58)]
 /// for a power law, with a = a1, b = b1 and the time t since motors-off; other families are
-/// integrated numerically. Each run has its own u0. A run whose record begins before motors-off
+/// integrated numerically. If the speed has passed a low-pass filter, the curve is that of its
+/// output. Each run has its own u0. A run whose record begins before motors-off
 /// also has its own time of motors-off.
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
@@ -30,6 +44,7 @@ struct CoastFit {
   double dof = 0.0;            ///< degrees of freedom of `variance`, fewer if autocorrelated
   /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
+  std::optional<FittedLag> lag;      ///< present if the start has a filter
   double beta = 0.0;                 ///< b1: fitted or given
   double beta_variance = 0.0;        ///< 0 if b1 was not fitted or is at a bound
   Family family = Family::kPower;    ///< without a surge law: the family that was fitted
@@ -46,8 +61,17 @@ struct CoastFit {
   std::string stop_reason;
 };
 
-/// Fits m' and each run's initial speed (and time of motors-off) for a given surge law.
-CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge);
+/// Fits m', the filter's time constant if `start` has one, and each run's initial speed (and time
+/// of motors-off) for a given surge law.
+CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
+                   const CoastStart& start);
+
+/// Checks the standard error of ln m' of a fit with a filter: the sum of squares at 3 standard
+/// errors from the optimum, minimised over the other parameters, must rise at least half as much as
+/// its curvature predicts. Returns ln m' and the filter of the lower one of both points if it does
+/// not.
+std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
+                                         const SteadyFit& surge, const CoastFit& fit);
 
 /// Fits curves without a surge law. The curves then determine only m'/a1, b1, c1/a1 and q1/a1:
 ///   (m'/a1) u_dot = -(c1/a1 + |u|^b1 + (q1/a1) u^2)

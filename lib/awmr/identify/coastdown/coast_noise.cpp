@@ -1,40 +1,40 @@
 #include "awmr/identify/coastdown/coast_noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "awmr/core/distributions.h"
+#include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
+#include "awmr/identify/logs/whitener.h"
 
 namespace awmr {
 namespace {
 
-/// Lag-one correlation of the residuals, pooled over the runs.
-double lag_one(const Eigen::VectorXd& e, const std::vector<int>& sizes) {
-  double products = 0.0;
-  double squares = 0.0;
-  Eigen::Index row = 0;
-  for (const int size : sizes) {
-    for (int i = 0; i < size; ++i, ++row) {
-      squares += e(row) * e(row);
-      if (i > 0) products += e(row) * e(row - 1);
-    }
-  }
-  return squares > 0.0 ? products / squares : 0.0;
-}
-
-/// J^T Sigma J/sigma^2 for errors with the covariance Sigma: variance sigma^2, correlation
-/// phi^|i - j| between samples i and j of a run, 0 between runs. With the rows J_i, by recursion:
-///   y_i = phi (y_{i-1} + J_{i-1}),  sum_i J_i J_i^T + J_i y_i^T + y_i J_i^T
-Eigen::MatrixXd correlated_information(const Eigen::MatrixXd& j, const std::vector<int>& sizes,
-                                       double phi) {
+/// J^T R J for errors with the correlation matrix R: white noise and a drift by `noise`,
+/// independent from curve to curve. With the rows J_i, the share s of the drift in the variance,
+/// its transition matrix F_i (DriftStep) and the first unit vector e_0, by recursion:
+///   Y_i = F_i (Y_{i-1} + e_0 J_{i-1}),
+///   sum_i J_i^T J_i + s (J_i^T (e_0^T Y_i) + (e_0^T Y_i)^T J_i)
+Eigen::MatrixXd correlated_information(const Eigen::MatrixXd& j,
+                                       const std::vector<CoastCurve>& curves,
+                                       const ChannelNoise& noise) {
   Eigen::MatrixXd sum = j.transpose() * j;
+  if (!(noise.drift_std > 0.0)) return sum;
+  const double share = std::pow(noise.drift_std / noise.std(), 2);
   Eigen::Index row = 0;
-  for (const int size : sizes) {
-    Eigen::RowVectorXd y = Eigen::RowVectorXd::Zero(j.cols());
-    for (int i = 0; i < size; ++i, ++row) {
-      if (i > 0) y = phi * (y + j.row(row - 1));
-      sum += j.row(row).transpose() * y + y.transpose() * j.row(row);
+  for (const CoastCurve& curve : curves) {
+    Eigen::MatrixXd y = Eigen::MatrixXd::Zero(2, j.cols());
+    for (std::size_t i = 0; i < curve.t_s.size(); ++i, ++row) {
+      if (i > 0) {
+        const DriftStep step(noise, curve.t_s[i] - curve.t_s[i - 1]);
+        y.row(0) += j.row(row - 1);
+        y = Eigen::MatrixXd(
+            Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(&step.f[0][0]) * y);
+      }
+      const Eigen::MatrixXd across = share * j.row(row).transpose() * y.row(0);
+      sum += across + across.transpose();
     }
   }
   return sum;
@@ -57,32 +57,58 @@ void add_rank(const Eigen::MatrixXd& j, CoastFit& fit) {
 
 }  // namespace
 
-std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e, const std::vector<int>& sizes) {
+std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e,
+                                        const std::vector<CoastCurve>& curves) {
   std::vector<std::vector<double>> runs;
   const double* first = e.data();
-  for (const int size : sizes) {
-    runs.emplace_back(first, first + size);
-    first += size;
+  for (const CoastCurve& curve : curves) {
+    runs.emplace_back(first, first + curve.t_s.size());
+    first += curve.t_s.size();
   }
   return runs;
 }
 
-Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
-                                const std::vector<int>& sizes, CoastFit& fit) {
+ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
+                                int free, double sensor_mps) {
+  std::vector<std::vector<double>> runs = by_run(e, curves);
+  std::vector<ErrorSeries> series;
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    series.push_back({std::move(runs[run]), {0.0}});
+    const std::vector<double>& t_s = curves[run].t_s;
+    for (std::size_t i = 1; i < t_s.size(); ++i)
+      series.back().since_s.push_back(t_s[i] - t_s[i - 1]);
+  }
   const auto n = static_cast<double>(e.size());
+  const double free_share = (n - static_cast<double>(free)) / n;
+  return likeliest_noise(series, free_share,
+                         {.sensor_std = sensor_mps, .count = static_cast<int>(e.size())});
+}
+
+double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& curves) {
+  Eigen::Index rows = 0;
+  for (const CoastCurve& curve : curves) rows += rows_of(curve.t_s);
+  const double variance =
+      correlated_information(Eigen::MatrixXd::Ones(rows, 1), curves, noise)(0, 0) /
+      static_cast<double>(rows);
+  return noise.std() * std::sqrt(std::max(1.0, variance));
+}
+
+Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
+                                const std::vector<CoastCurve>& curves, CoastFit& fit) {
+  const auto n = static_cast<double>(e.size());
+  const double dof = n - static_cast<double>(j.cols());
   fit.rows = static_cast<int>(e.size());
-  fit.residuals = by_run(e, sizes);
+  fit.residuals = by_run(e, curves);
   add_rank(j, fit);
-  if (fit.rank < j.cols() || n <= static_cast<double>(j.cols())) return {};
-  const double variance = e.squaredNorm() / (n - static_cast<double>(j.cols()));
-  fit.residual_std_mps = std::sqrt(variance);
-  double phi = lag_one(e, sizes);
-  fit.autocorrelated = phi * std::sqrt(n) > kNormalQuantile995;
-  if (!fit.autocorrelated) phi = 0.0;
-  fit.dof = (n - static_cast<double>(j.cols())) * (1.0 - phi) / (1.0 + phi);
+  if (fit.rank < j.cols() || dof <= 0.0) return {};
+  const ChannelNoise noise = noise_of_residuals(e, curves, static_cast<int>(j.cols()), 0.0);
+  fit.residual_std_mps = std::sqrt(e.squaredNorm() / dof);
+  fit.autocorrelated = noise.drift_std > 0.0;
+  fit.dof = dof * std::pow(noise.std() / effective_std(noise, curves), 2);
   const Eigen::MatrixXd inverse =
       solve_ldlt(j.transpose() * j, Eigen::MatrixXd::Identity(j.cols(), j.cols()));
-  return variance * inverse * correlated_information(j, sizes, phi) * inverse;
+  return std::pow(fit.residual_std_mps, 2) * inverse * correlated_information(j, curves, noise) *
+         inverse;
 }
 
 }  // namespace awmr

@@ -5,18 +5,30 @@
 #include <vector>
 
 #include "awmr/identify/coastdown/coast_fit.h"
+#include "awmr/identify/logs/channel_noise.h"
 
 namespace awmr {
 
-/// Splits the residuals `e` of all runs by run. `sizes`: number of samples of each run.
-std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e, const std::vector<int>& sizes);
+/// Splits the residuals `e` of all curves by curve.
+std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e,
+                                        const std::vector<CoastCurve>& curves);
+
+/// Most likely noise of the residuals `e`: white noise and, if significant, a drift
+/// (likeliest_noise()). `free`: number of fitted parameters. `sensor_mps`: white noise of the
+/// readings.
+ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
+                                int free, double sensor_mps);
+
+/// Standard deviation of white noise that gives the mean of all errors the variance that it has
+/// with `noise`; at least noise.std().
+double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& curves);
 
 /// Sets the residuals, their standard deviation and autocorrelation, the rank and the degrees of
 /// freedom of `fit`, from the Jacobian `j` and the residuals `e` at the optimum. Returns the
-/// covariance of the parameters of the columns of `j`, which allows for errors that are correlated
-/// from sample to sample. The covariance is 0 x 0 if `j` has no full rank or there are no degrees
+/// covariance of the parameters of the columns of `j`, which allows for a drift of the errors
+/// (noise_of_residuals()). The covariance is 0 x 0 if `j` has no full rank or there are no degrees
 /// of freedom.
 Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
-                                const std::vector<int>& sizes, CoastFit& fit);
+                                const std::vector<CoastCurve>& curves, CoastFit& fit);
 
 }  // namespace awmr

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "awmr/core/linear_algebra.h"
 #include "awmr/identify/ceres_solve.h"
 
 namespace awmr {
@@ -45,50 +46,91 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
 /// search that needs more steps, because its t0 diverges, is rejected.
 constexpr double kMaximumSteps = 1e6;
 
-/// Residuals of one curve as a function of ln a, b, c, q, ln m' and (u0, t0).
+/// Speed after the filter T y' = u - y over the time h, in which u changes linearly from u to next.
+template <class T>
+T filtered(const T& y, const T& u, const T& next, const T& h, const T& lag_s) {
+  using std::exp;
+  const T behind = (next - u) * (lag_s / h);
+  return next - behind + (y - u + behind) * exp(-h / lag_s);
+}
+
+/// Residuals of one curve as a function of ln a, b, c, q, ln m', T and (u0, t0).
 struct CoastResidual {
   const CoastCurve* curve;
   double longest_step_s;
+  /// True: derivatives by c or q are needed, which the closed form does not have.
+  bool derivative_wanted = false;
+  bool has_filter = false;
 
   template <class T>
   bool operator()(const T* log_alpha, const T* beta, const T* coulomb, const T* quadratic,
-                  const T* log_mass, const T* initial, T* residual) const {
+                  const T* log_mass, const T* lag_s, const T* initial, T* residual) const {
     using std::exp;
-    const bool closed =
-        value_of(*coulomb) == 0.0 && value_of(*quadratic) == 0.0 && !derivative_wanted;
+    const bool closed = value_of(*coulomb) == 0.0 && value_of(*quadratic) == 0.0 &&
+                        !derivative_wanted && !has_filter;
     const T k = exp(*log_alpha - *log_mass);
     const Resistance<T> law{exp(*log_alpha), *beta, T(0.0), *coulomb, *quadratic};
     const T mass = exp(*log_mass);
     T u = initial[0];
+    T y = u;
     T at_s = initial[1];
     for (std::size_t i = 0; i < curve->t_s.size(); ++i) {
       const double t_s = curve->t_s[i];
       if (T(t_s) > initial[1]) {
         if (closed) {
-          u = coasted(initial[0], *beta, k, T(T(t_s) - initial[1]));
+          y = coasted(initial[0], *beta, k, T(T(t_s) - initial[1]));
         } else {
           const double count = (t_s - value_of(at_s)) / longest_step_s;
           if (!(count < kMaximumSteps)) return false;  // Ceres rejects this point
           const int steps = 1 + static_cast<int>(count);
           const T h = (T(t_s) - at_s) / static_cast<double>(steps);
-          for (int n = 0; n < steps; ++n) u = coast_step(law, mass, u, h);
+          for (int n = 0; n < steps; ++n) {
+            const T next = coast_step(law, mass, u, h);
+            y = has_filter ? filtered(y, u, next, h, *lag_s) : next;
+            u = next;
+          }
           at_s = T(t_s);
         }
       }
-      residual[i] = u - curve->speed_mps[i];
+      residual[i] = y - curve->speed_mps[i];
     }
     return true;
   }
-
-  /// True: derivatives by c or q are needed, which the closed form does not have.
-  bool derivative_wanted = false;
 };
 
-using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 1, 1, 1, 1, 2>;
+using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 1, 1, 1, 1, 1, 2>;
+
+/// Prior about the surge law: residuals root (theta - given), theta the coordinates `free`.
+struct LawPrior {
+  Eigen::MatrixXd root;
+  std::vector<TransformedParameter> free;
+  TransformedParameters given;
+
+  template <class T>
+  bool operator()(const T* log_alpha, const T* beta, const T* coulomb, const T* quadratic,
+                  T* residual) const {
+    const T* theta[] = {log_alpha, beta, coulomb, quadratic};
+    for (Eigen::Index i = 0; i < root.rows(); ++i) {
+      residual[i] = T(0.0);
+      for (Eigen::Index j = 0; j < root.cols(); ++j) {
+        const std::size_t c = at(free[at(j)]);
+        residual[i] += root(i, j) * (*theta[c] - given[c]);
+      }
+    }
+    return true;
+  }
+};
+
+using LawCost = ceres::AutoDiffCostFunction<LawPrior, ceres::DYNAMIC, 1, 1, 1, 1>;
 
 /// Longest step h of the Runge-Kutta method. Its error over one time constant T of the motion is
 /// (h/T)^4/120 of the speed: 2e-8 for T = 0.05 s.
 constexpr double kLongestStep_s = 2e-3;
+/// Longest step with a filter, relative to the time constant T of the motion, because the filter
+/// takes the speed as linear within a step: (h/T)^2/8 = 1e-5 of the speed.
+constexpr double kFilterStep = 0.01;
+/// Smallest time constant of a filter in a search.
+constexpr double kShortestLag_s = 1e-4;
 
 /// Finds the plateau of the speed before motors-off. It ends at the last sample within 4 standard
 /// deviations of the mean of the samples before it; a plateau needs more than eight samples. The
@@ -113,52 +155,141 @@ CoastInitialState initial_state_of(const CoastCurve& curve) {
     }
   }
   constexpr std::size_t kShortestPlateau = 8;
-  const bool plateau = end >= kShortestPlateau && end + kShortestPlateau < u.size();
-  if (!plateau) return {{u[0], curve.t_s[0]}, false};
-  return {{level, curve.t_s[end]}, true};
+  constexpr std::size_t kFewestFalling = 3;  // with u0, t0 and m'
+  if (end >= kShortestPlateau && end + kShortestPlateau < u.size())
+    return {{level, curve.t_s[end]}, true, {}};
+  CoastInitialState state{{u[0], curve.t_s[0]}, false, {}};
+  if (end + kFewestFalling < u.size()) {
+    state.short_lead_s = 0.5 * (curve.t_s[end] + curve.t_s[end + 1]);
+  }
+  return state;
 }
 
 }  // namespace
 
 CoastProblem::CoastProblem(const std::vector<CoastCurve>& curves,
-                           const TransformedParameters& surge, double log_mass, bool terms_free)
-    : curves_(&curves), theta_(surge), log_mass_(log_mass) {
+                           const TransformedParameters& surge, const CoastStart& start,
+                           bool terms_free)
+    : curves_(&curves), theta_(surge), at_(start), given_law_(surge) {
+  const bool has_filter = start.lag_s > 0.0;
+  const Resistance<double> law{std::exp(surge[0]), surge[1], 0.0, surge[2], surge[3]};
+  const double step_s =
+      has_filter ? std::max(kLongestStep_s, kFilterStep * fall_time_s(curves, law, start.log_mass))
+                 : kLongestStep_s;
   initial_.reserve(curves.size());
   for (const CoastCurve& curve : curves) {
     initial_.push_back(initial_state_of(curve));
-    auto* cost = new CoastCost(
-        new CoastResidual{
-            .curve = &curve, .longest_step_s = kLongestStep_s, .derivative_wanted = terms_free},
-        static_cast<int>(curve.t_s.size()));
-    double* initial = initial_.back().block;
+    auto* cost = new CoastCost(new CoastResidual{.curve = &curve,
+                                                 .longest_step_s = step_s,
+                                                 .derivative_wanted = terms_free,
+                                                 .has_filter = has_filter},
+                               static_cast<int>(curve.t_s.size()));
     problem_.AddResidualBlock(cost, nullptr, &theta_[0], &theta_[1], &theta_[2], &theta_[3],
-                              &log_mass_, initial);
-    if (!initial_.back().free_time) {
-      problem_.SetManifold(initial, new ceres::SubsetManifold(2, {1}));
-    }
-    sizes_.push_back(static_cast<int>(curve.t_s.size()));
+                              &at_.log_mass, &at_.lag_s, initial_.back().block);
+    if (!initial_.back().free_time) fix_time(initial_.size() - 1);
+    rows_ += rows_of(curve.t_s);
   }
   for (std::size_t i = 0; i < 4; ++i) problem_.SetParameterBlockConstant(&theta_[i]);
+  if (has_filter) {
+    problem_.SetParameterLowerBound(&at_.lag_s, 0, kShortestLag_s);
+  } else {
+    problem_.SetParameterBlockConstant(&at_.lag_s);
+  }
 }
 
-void CoastProblem::solve() {
+std::vector<double*> CoastProblem::own_blocks() {
+  if (at_.lag_s > 0.0) return {log_mass(), lag_s()};
+  return {log_mass()};
+}
+
+void CoastProblem::free_law(const std::vector<TransformedParameter>& free,
+                            const Eigen::MatrixXd& covariance, double noise_mps) {
+  const SymmetricEigen parts = symmetric_eigen(covariance);
+  law_root_ = parts.values.cwiseSqrt().cwiseInverse().asDiagonal() * parts.vectors.transpose();
+  law_free_ = free;
+  for (const TransformedParameter c : free) {
+    problem_.SetParameterBlockVariable(block(c));
+    if (c != TransformedParameter::kLogAlpha) problem_.SetParameterLowerBound(block(c), 0, 0.0);
+  }
+  problem_.AddResidualBlock(new LawCost(new LawPrior{noise_mps * law_root_, free, given_law_},
+                                        static_cast<int>(free.size())),
+                            nullptr, &theta_[0], &theta_[1], &theta_[2], &theta_[3]);
+}
+
+double CoastProblem::law_distance() const {
+  Eigen::VectorXd moved(rows_of(law_free_));
+  for (std::size_t i = 0; i < law_free_.size(); ++i) {
+    moved(eigen_index(i)) = theta_[at(law_free_[i])] - given_law_[at(law_free_[i])];
+  }
+  return law_free_.empty() ? 0.0 : (law_root_ * moved).squaredNorm();
+}
+
+void CoastProblem::fix_time(std::size_t run) {
+  initial_[run].free_time = false;
+  initial_[run].block[1] = (*curves_)[run].t_s.front();
+  problem_.SetManifold(initial_[run].block, new ceres::SubsetManifold(2, {1}));
+}
+
+void CoastProblem::search() {
   ceres::Solve(exact_options(), &problem_, &summary_);
   // A run whose fitted motors-off time is before its first sample has no plateau. Its t0 is fixed
   // at the first sample, because it cannot be separated from u0.
   bool again = false;
   for (std::size_t i = 0; i < initial_.size(); ++i) {
-    CoastInitialState& initial = initial_[i];
-    const double first_s = (*curves_)[i].t_s.front();
-    if (!initial.free_time || initial.block[1] > first_s) continue;
-    initial = {{(*curves_)[i].speed_mps.front(), first_s}, false};
-    problem_.SetManifold(initial.block, new ceres::SubsetManifold(2, {1}));
+    if (!initial_[i].free_time || initial_[i].block[1] > (*curves_)[i].t_s.front()) continue;
+    initial_[i].block[0] = (*curves_)[i].speed_mps.front();
+    fix_time(i);
     again = true;
   }
   if (again) ceres::Solve(exact_options(), &problem_, &summary_);
 }
 
+void CoastProblem::solve() {
+  search();
+  free_short_leads();
+}
+
+/// Fits t0 of the runs without a long plateau. Goes back to the fit with fixed t0 if AIC is lower.
+void CoastProblem::free_short_leads() {
+  constexpr double kOfAic = 2.0;  // for each t0
+  const std::vector<CoastInitialState> fixed = initial_;
+  const TransformedParameters theta = theta_;
+  const CoastStart at = at_;
+  const ceres::Solver::Summary summary = summary_;
+  for (CoastInitialState& run : initial_) {
+    if (!run.short_lead_s) continue;
+    run.block[1] = *run.short_lead_s;
+    run.free_time = true;
+    problem_.SetManifold(run.block, nullptr);
+  }
+  const auto free_times = [](const std::vector<CoastInitialState>& runs) {
+    return std::ranges::count_if(runs, &CoastInitialState::free_time);
+  };
+  if (free_times(initial_) == free_times(fixed)) return;
+  search();
+  const auto more = static_cast<double>(free_times(initial_) - free_times(fixed));
+  const double gain =
+      static_cast<double>(rows_) * std::log(summary.final_cost / summary_.final_cost);
+  if (more > 0.0 && gain > kOfAic * more && summary_.IsSolutionUsable()) return;
+  theta_ = theta;
+  at_ = at;
+  summary_ = summary;
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (!fixed[i].free_time) fix_time(i);
+    initial_[i] = fixed[i];
+  }
+}
+
+int CoastProblem::free_count() const {
+  auto count = static_cast<int>(initial_.size()) + (at_.lag_s > 0.0 ? 2 : 1);
+  for (const CoastInitialState& run : initial_) count += run.free_time ? 1 : 0;
+  return count;
+}
+
 std::optional<Eigen::VectorXd> CoastProblem::residuals() {
-  return evaluated_residuals(problem_, {});
+  std::optional<Eigen::VectorXd> all = evaluated_residuals(problem_, {});
+  if (all) all->conservativeResize(rows_);  // without those of the prior
+  return all;
 }
 
 std::optional<Eigen::MatrixXd> CoastProblem::jacobian(const std::vector<double*>& first) {
@@ -172,11 +303,21 @@ std::optional<Eigen::MatrixXd> CoastProblem::jacobian(const std::vector<double*>
 void CoastProblem::step(const std::vector<TransformedParameter>& free, const Eigen::VectorXd& by) {
   Eigen::Index next = 0;
   for (const TransformedParameter c : free) *block(c) += by(next++);
-  log_mass_ += by(next++);
+  for (double* own : own_blocks()) *own += by(next++);
+  if (at_.lag_s > 0.0) at_.lag_s = std::max(at_.lag_s, kShortestLag_s);
   for (CoastInitialState& initial : initial_) {
     initial.block[0] += by(next++);
     if (initial.free_time) initial.block[1] += by(next++);
   }
+}
+
+double fall_time_s(const std::vector<CoastCurve>& curves, const Resistance<double>& law,
+                   double log_mass) {
+  double top_mps = 0.0;
+  for (const CoastCurve& curve : curves) {
+    top_mps = std::max(top_mps, std::ranges::max(curve.speed_mps));
+  }
+  return std::exp(log_mass) * top_mps / law.at(top_mps);
 }
 
 double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law) {

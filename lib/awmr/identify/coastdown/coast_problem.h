@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/coastdown/coast_fit.h"
 #include "awmr/identify/tables/steady_fit.h"
 #include "awmr/trials/trials.h"
 
@@ -15,29 +16,44 @@ namespace awmr {
 
 /// Speed u0 and time t0 of motors-off of a run. If the record begins before motors-off, the speed
 /// begins with a plateau; its mean and its end are the initial guesses of u0 and t0. Otherwise u0
-/// starts at the first sample's speed, and t0 is fixed at the first sample's time.
+/// starts at the first sample's speed, and t0 is fixed at the first sample's time, unless a later
+/// t0 lowers AIC: the plateau may be short.
 struct CoastInitialState {
-  double block[2];         ///< u0 in m/s, t0 in s
-  bool free_time = false;  ///< true if t0 is fitted
+  double block[2];                     ///< u0 in m/s, t0 in s
+  bool free_time = false;              ///< true if t0 is fitted
+  std::optional<double> short_lead_s;  ///< guess of t0 after a short plateau, if t0 may be fitted
 };
 
 /// Residuals u(t) - measured of every sample, run after run. Parameters: the surge law (ln a, b, c,
-/// q), ln m' and each run's (u0, t0). The surge law is constant unless the caller sets its
-/// parameter blocks variable. Not movable, because the problem has pointers to its members.
-/// `curves` must outlive this object.
+/// q), ln m', T and each run's (u0, t0). The surge law is constant unless the caller sets its
+/// parameter blocks variable. With a filter of the sensor the residuals are y(t) - measured:
+///
+///     T y' = u - y,   y = u0 until t0
+///
+/// Not movable, because the problem has pointers to its members. `curves` must outlive this object.
 class CoastProblem {
  public:
   /// `terms_free`: true if c or q will be fitted. The curve is then integrated numerically, because
   /// its closed form has no derivative by c or q.
   CoastProblem(const std::vector<CoastCurve>& curves, const TransformedParameters& surge,
-               double log_mass, bool terms_free);
+               const CoastStart& start, bool terms_free);
   CoastProblem(const CoastProblem&) = delete;
   CoastProblem& operator=(const CoastProblem&) = delete;
 
   ceres::Problem& problem() { return problem_; }
   double* block(TransformedParameter c) { return &theta_[at(c)]; }
-  double* log_mass() { return &log_mass_; }
+  double* log_mass() { return &at_.log_mass; }
+  double* lag_s() { return &at_.lag_s; }
+  /// ln m', and T if there is a filter.
+  std::vector<double*> own_blocks();
   const TransformedParameters& theta() const { return theta_; }
+
+  /// Frees the coordinates `free` of the surge law, with a prior: normal about the given law with
+  /// this covariance. `noise_mps`: standard deviation of the curves' noise, which scales the prior.
+  void free_law(const std::vector<TransformedParameter>& free, const Eigen::MatrixXd& covariance,
+                double noise_mps);
+  /// Squared distance of the law from the given one by the covariance of free_law().
+  double law_distance() const;
 
   void solve();
   const ceres::Solver::Summary& summary() const { return summary_; }
@@ -48,21 +64,32 @@ class CoastProblem {
   /// run's u0, and t0 if free. Empty if a derivative is not finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<double*>& first);
 
-  /// Adds the step `by` to the coordinates `free`, ln m' and each run's initial state, in that
-  /// order.
+  /// Adds the step `by` to the coordinates `free`, own_blocks() and each run's initial state, in
+  /// that order.
   void step(const std::vector<TransformedParameter>& free, const Eigen::VectorXd& by);
 
-  const std::vector<int>& sizes() const { return sizes_; }  ///< number of samples, by run
+  int free_count() const;  ///< ln m', T if there is a filter, u0 and t0 of each run
 
  private:
+  void search();
+  void free_short_leads();
+  void fix_time(std::size_t run);
+
   const std::vector<CoastCurve>* curves_;
   TransformedParameters theta_;
-  double log_mass_;
+  CoastStart at_;
+  std::vector<TransformedParameter> law_free_;
+  TransformedParameters given_law_;
+  Eigen::MatrixXd law_root_;  ///< R, the inverse of the covariance is R^T R
   std::vector<CoastInitialState> initial_;
-  std::vector<int> sizes_;
+  Eigen::Index rows_ = 0;
   ceres::Problem problem_;
   ceres::Solver::Summary summary_;
 };
+
+/// Time constant m' u0/g(u0) of the deceleration at the highest speed of the curves.
+double fall_time_s(const std::vector<CoastCurve>& curves, const Resistance<double>& law,
+                   double log_mass);
 
 /// Initial guess of ln m' from the first curve that falls from 90 % to 50 % of its highest speed,
 /// du in the time dt: m' ~ g(u) dt/|du|, with u at 70 %. Without such a curve: ln 0.1.

@@ -25,10 +25,10 @@ struct BySet {
 };
 
 /// Columns of the curves' Jacobian for the parameters in common with the surge rows (the surge law
-/// without the dead zone, which does not act in a coast-down), then for ln m'.
+/// without the dead zone, which does not act in a coast-down), then for CoastProblem::own_blocks().
 struct SharedColumns {
-  std::vector<double*> blocks;         ///< parameter blocks of CoastProblem; the last one is ln m'
-  std::vector<Eigen::Index> of_surge;  ///< column of each block but the last in the surge Jacobian
+  std::vector<double*> blocks;         ///< parameter blocks of CoastProblem
+  std::vector<Eigen::Index> of_surge;  ///< column of each block of the law in the surge Jacobian
 };
 
 /// Residuals and Jacobians of the surge rows and of the curves, at one point.
@@ -53,7 +53,7 @@ SharedColumns shared_columns(CoastProblem& problem, const std::vector<Transforme
     shared.blocks.push_back(problem.block(free[i]));
     shared.of_surge.push_back(eigen_index(i));
   }
-  shared.blocks.push_back(problem.log_mass());
+  for (double* own : problem.own_blocks()) shared.blocks.push_back(own);
   return shared;
 }
 
@@ -134,14 +134,17 @@ double mean_square(const Eigen::VectorXd& e) {
 
 /// Stores the fit at the current point, converged or not.
 void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet& variance,
-          const BySet& dof, JointFit& joint) {
+          const BySet& dof, const std::vector<CoastCurve>& curves, JointFit& joint) {
   const Eigen::Index count = rows_of(joint.surge.free) + 1;
   joint.covariance = s.covariance.topLeftCorner(count, count);
   joint.dof = satterthwaite(s, variance, dof, count);
   joint.log_mass_norm = *problem.log_mass();
-  joint.coast.residuals = by_run(rows.coast_residuals, problem.sizes());
+  joint.coast.residuals = by_run(rows.coast_residuals, curves);
   joint.coast.residual_std_mps = std::sqrt(variance.coast);
   joint.coast.rows = static_cast<int>(rows.coast_residuals.size());
+  if (*problem.lag_s() > 0.0) {
+    joint.coast.lag = {*problem.lag_s(), s.covariance(count, count), {}};
+  }
   joint.surge.covariance = joint.covariance.topLeftCorner(count - 1, count - 1);
 }
 
@@ -168,12 +171,11 @@ JointFit not_finite(JointFit joint) {
 }  // namespace
 
 JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
-                   const std::vector<CoastCurve>& curves) {
+                   const std::vector<CoastCurve>& curves, const CoastStart& start) {
   JointFit joint;
   joint.surge = alone;
   const FamilyTerms terms = terms_of(surge.family);
-  CoastProblem problem(curves, alone.theta, fit_coast(curves, alone).log_mass_norm,
-                       terms.coulomb || terms.quadratic);
+  CoastProblem problem(curves, alone.theta, start, terms.coulomb || terms.quadratic);
   problem.solve();  // ln m' and each run's initial state, under the given surge law
   const SharedColumns shared = shared_columns(problem, alone.free);
   const std::optional<Eigen::VectorXd> initial = problem.residuals();
@@ -190,7 +192,7 @@ JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
     const Eigen::VectorXd step = gauss_newton_step(s, rows, variance);
     const BySet dof = degrees_of_freedom(s, rows, variance);
     if (!s.covariance.allFinite() || !step.allFinite()) return not_finite(std::move(joint));
-    keep(s, rows, problem, variance, dof, joint);
+    keep(s, rows, problem, variance, dof, curves, joint);
     const BySet next = variance_components(rows, dof);
     if (length(step, s) < kTolerance && change(variance, next) < kTolerance) {
       joint.coast.usable = true;

@@ -17,9 +17,10 @@ struct JointFit {
   CoastFit coast;              ///< residuals and noise of the curves; stop reason; usable or not
 };
 
-/// Fits surge rows and curves together. `alone`: fit of the surge rows alone, the initial guess. If
+/// Fits surge rows and curves together. `alone`: fit of the surge rows alone, the initial guess.
+/// `start`: initial guess of m', and of the filter's time constant if there is a filter. If
 /// the search fails, `coast.usable` is false and the stop reasons are set.
 JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
-                   const std::vector<CoastCurve>& curves);
+                   const std::vector<CoastCurve>& curves, const CoastStart& start);
 
 }  // namespace awmr

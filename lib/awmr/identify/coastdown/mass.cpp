@@ -5,34 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/coastdown/coast_alone.h"
+#include "awmr/identify/coastdown/coast_model.h"
+#include "awmr/identify/logs/log_report.h"
+#include "awmr/model/log_term_names.h"
 
 namespace awmr {
 namespace {
 
 /// Smallest decrease of the mean speed that counts as a deceleration, in standard deviations.
 constexpr double kMinimumFall = 5.0;
-
-/// Standard deviation of a curve's speed noise, estimated from the distance e_i of each speed u_i
-/// from the line through its neighbours in time:
-///
-///     e_i = u_i - (1 - w) u_(i-1) - w u_(i+1),   w = (t_i - t_(i-1))/(t_(i+1) - t_(i-1))
-///     std^2 = mean of e_i^2/(1 + w^2 + (1 - w)^2)
-double noise_of(const CoastCurve& curve) {
-  const std::vector<double>& t = curve.t_s;
-  const std::vector<double>& u = curve.speed_mps;
-  double squares = 0.0;
-  for (std::size_t i = 1; i + 1 < u.size(); ++i) {
-    const double w = (t[i] - t[i - 1]) / (t[i + 1] - t[i - 1]);
-    const double e = u[i] - (1.0 - w) * u[i - 1] - w * u[i + 1];
-    squares += e * e / (1.0 + w * w + (1.0 - w) * (1.0 - w));
-  }
-  return std::sqrt(squares / static_cast<double>(u.size() - 2));
-}
 
 /// True if the speed falls significantly: the mean of the curve's last fifth is below the mean of
 /// its first fifth by more than kMinimumFall standard deviations of such a mean. Precondition:
@@ -52,6 +39,14 @@ bool falls(const CoastCurve& curve) {
 std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResult& result) {
   std::vector<CoastCurve> kept;
   for (const CoastCurve& curve : curves) {
+    if (curve.t_s.size() < kFewestRows) {
+      result.findings.push_back(
+          {curve.file, curve.line, Severity::kWarning, "no-deceleration",
+           fmt::format("only {} rows of this coast-down have a speed above 0, so the curve is not "
+                       "used for m'; record the speed at a higher rate",
+                       curve.t_s.size())});
+      continue;
+    }
     if (falls(curve)) {
       kept.push_back(curve);
       continue;
@@ -85,15 +80,40 @@ std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
   return estimate;
 }
 
+/// The filter's time constant for /estimates, with its standard error `error`.
+EstimatorParameter report_of_lag(const FittedLag& lag, double error, double dof) {
+  const double half = t_quantile_95(dof) * error;
+  return {std::string(kSensorLagPrefix) + "speed_mps",
+          lag.value_s,
+          error,
+          Interval{std::max(0.0, lag.value_s - half), lag.value_s + half},
+          {}};
+}
+
+/// The finding `sensor-lag`.
+Finding lag_finding(const CoastModel& model, double value_s, double error_s,
+                    const std::string& file) {
+  const std::string also =
+      model.other ? fmt::format(
+                        ", or of {:.2g} s with mass_norm {:.3g}: the curves do not tell these "
+                        "apart, and the interval of mass_norm is withdrawn. ",
+                        model.other->lag_s, std::exp(model.other->log_mass))
+                  : "; the fit compensates this. ";
+  return {file, 0, Severity::kWarning, "sensor-lag",
+          fmt::format("the speed of the coast-downs is low-pass filtered with a time constant of "
+                      "{:.3g} +- {:.2g} s{}Log the unfiltered speed, or make the filter faster",
+                      value_s, error_s, also)};
+}
+
 /// Estimates m' from the curves and adds the report to `result`. If that fails, `result` has the
 /// reason.
 std::optional<MassEstimate> by_curves(const SteadyFit& surge, const std::vector<CoastCurve>& curves,
-                                      MassResult& result) {
+                                      const std::optional<CoastModel>& model, MassResult& result) {
   if (curves.empty()) {
     if (result.reason.empty()) result.reason = "no coast-down shows a deceleration";
     return std::nullopt;
   }
-  const CoastFit fit = fit_coast(curves, surge);
+  const CoastFit fit = fit_coast(curves, surge, model->start);
   const std::string& file = curves.front().file;
   if (!fit.usable) {
     result.reason = "the fit of the coast-down curve failed: " + fit.stop_reason;
@@ -103,6 +123,13 @@ std::optional<MassEstimate> by_curves(const SteadyFit& surge, const std::vector<
   const MassEstimate estimate = from_curve(fit);
   result.reports.push_back(report_of(estimate, surge, Estimator::kCurve, "speed"));
   add_curve_figures(result.reports.back(), fit);
+  if (fit.lag) {
+    const double surge_variance =
+        surge.has_covariance() ? fit.lag->by_surge.dot(surge.covariance * fit.lag->by_surge) : 0.0;
+    const double error = std::sqrt(fit.lag->variance + surge_variance);
+    result.reports.back().parameters.push_back(report_of_lag(*fit.lag, error, fit.dof));
+    result.findings.push_back(lag_finding(*model, fit.lag->value_s, error, file));
+  }
   if (fit.autocorrelated) {
     result.findings.push_back({file, 0, Severity::kNote, "coloured-residuals",
                                "neighbouring residuals of the coast-down are correlated, and the "
@@ -134,6 +161,10 @@ EstimatorReport report_of(const JointFit& joint, std::size_t surge_rows) {
   report.parameters.push_back(by_logarithm("mass_norm", std::exp(joint.log_mass_norm),
                                            std::sqrt(joint.covariance(last, last)),
                                            t_quantile_95(joint.dof(last))));
+  if (joint.coast.lag) {
+    report.parameters.push_back(
+        report_of_lag(*joint.coast.lag, std::sqrt(joint.coast.lag->variance), joint.dof(last)));
+  }
   report.rows_used = joint.coast.rows + static_cast<int>(surge_rows);
   report.residual_std = joint.coast.residual_std_mps;
   report.rank = static_cast<int>(joint.covariance.rows());
@@ -147,9 +178,10 @@ EstimatorReport report_of(const JointFit& joint, std::size_t surge_rows) {
 std::optional<MassEstimate> estimate_under(const SteadyFit& law,
                                            const std::optional<TrialSet<StopTimeRow>>& stops,
                                            const std::vector<CoastCurve>& curves,
+                                           const std::optional<CoastModel>& model,
                                            MassResult& result) {
   const std::optional<MassEstimate> stop = by_stop_time(law, stops, result);
-  const std::optional<MassEstimate> curve = by_curves(law, curves, result);
+  const std::optional<MassEstimate> curve = by_curves(law, curves, model, result);
   if (!stop || !curve || !law.has_covariance()) return curve ? curve : stop;
   std::ranges::move(disagreement(*stop, *curve, law, curves.front().file),
                     std::back_inserter(result.findings));
@@ -183,14 +215,15 @@ Posterior::Alternative with_mass(const NoiseAlternative& law, const MassEstimate
 /// the chosen law is already in `result`.
 void add_alternatives(const std::vector<NoiseAlternative>& laws,
                       const std::optional<TrialSet<StopTimeRow>>& stops,
-                      const std::vector<CoastCurve>& curves, MassResult& result) {
+                      const std::vector<CoastCurve>& curves, const std::optional<CoastModel>& model,
+                      MassResult& result) {
   if (!result.estimate || laws.empty() || !laws.front().fit.has_covariance()) return;
   const std::size_t own_report = result.reports.size() - 1;
   result.posterior.alternatives = {with_mass(laws.front(), *result.estimate)};
   double sum = laws.front().weight;
   for (std::size_t k = 1; k < laws.size(); ++k) {
     MassResult under;
-    const auto mass = estimate_under(laws[k].fit, stops, curves, under);
+    const auto mass = estimate_under(laws[k].fit, stops, curves, model, under);
     if (!mass) continue;
     Posterior::Alternative joint = with_mass(laws[k], *mass);
     if (!Posterior{{joint}}.is_proper(joint.centre.size() - 1)) continue;
@@ -246,6 +279,28 @@ std::optional<double> demanded_by_grip(const SteadyFit& surge,
   return mass_norm_by_grip(surge.law(), fastest_mps);
 }
 
+/// Fits surge rows and curves together and adds the report; sets `result.joint` if it converges.
+void add_joint(const SteadyProblem& surge, const SteadyFit& law,
+               const std::vector<CoastCurve>& curves, const CoastStart& start, MassResult& result) {
+  JointFit fit = fit_joint(surge, law, curves, start);
+  if (fit.covariance.size() > 0) result.reports.push_back(report_of(fit, surge.points.size()));
+  if (fit.coast.usable) {
+    result.joint = std::move(fit);
+  } else {
+    result.findings.push_back(
+        {curves.front().file, 0, Severity::kWarning, "not-converged",
+         "the joint fit of the surge runs and the coast-down failed: " + fit.coast.stop_reason});
+  }
+}
+
+/// Removes the standard error and interval of m'.
+void withdraw_mass(MassResult& result) {
+  result.posterior = {};
+  for (EstimatorReport& report : result.reports) {
+    for (EstimatorParameter& parameter : report.parameters) withdraw(parameter);
+  }
+}
+
 /// The note `back-emf-assumed`. For motors with back-EMF k_e, the surge runs give g1 + 4 k_e u
 /// instead of g1, while only g1 brakes a coast-down. m' = g1/|u_dot| would then be too large.
 Finding assumed_back_emf(const std::string& file) {
@@ -284,28 +339,25 @@ MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<S
                          const std::vector<CoastCurve>& all_curves, const Vehicle& vehicle,
                          const FamilyChoice& family, bool joint) {
   MassResult result;
-  const std::vector<CoastCurve> curves = falling(all_curves, result);
+  CoastReadings readings = measured_rows(all_curves, result.findings);
+  readings.curves = falling(readings.curves, result);
+  const std::vector<CoastCurve>& curves = readings.curves;
   if (!surge) return without_surge(curves, vehicle, family, std::move(result));
   const SteadyFit& law = *surge->chosen;
-  result.estimate = estimate_under(law, stops, curves, result);
-  add_alternatives(surge->alternatives, stops, curves, result);
-  if (joint && !curves.empty()) {
-    JointFit fit = fit_joint(surge->problem, law, curves);
-    if (fit.covariance.size() > 0) {
-      result.reports.push_back(report_of(fit, surge->problem.points.size()));
-    }
-    if (fit.coast.usable) {
-      result.joint = std::move(fit);
-    } else {
-      result.findings.push_back(
-          {curves.front().file, 0, Severity::kWarning, "not-converged",
-           "the joint fit of the surge runs and the coast-down failed: " + fit.coast.stop_reason});
-    }
+  std::optional<CoastModel> model;
+  if (!curves.empty()) model = choose_coast_model(readings, law);
+  result.estimate = estimate_under(law, stops, curves, model, result);
+  add_alternatives(surge->alternatives, stops, curves, model, result);
+  if (model) {
+    std::ranges::move(inadequacy(*model, curves.front().file), std::back_inserter(result.findings));
   }
+  const bool withdraws = model && model->withdraws_intervals();
+  if (joint && model && !withdraws) add_joint(surge->problem, law, curves, model->start, result);
   const std::string stop_file = stops ? stops->file : std::string();
   if (!result.joint) {
     check_noise(surge->alternatives, curves.empty() ? stop_file : curves.front().file, result);
   }
+  if (withdraws) withdraw_mass(result);
   check(law, stops, curves, vehicle, result);
   return result;
 }

@@ -30,8 +30,10 @@ struct MassResult {
 
 /// Estimates m' by stop times, curves or both. `surge` is null if the surge law is not identified.
 /// Then `family` is fitted to the curves alone, and compared with the other families unless the
-/// user requested it (`power-law-inadequate`). Excludes curves without a deceleration
-/// (`no-deceleration`). Further findings: `estimates-disagree`, `noise-model`,
+/// user requested it (`power-law-inadequate`). Excludes rows and curves that do not measure a
+/// deceleration (measured_rows(), `no-deceleration`). If the model of the curves is inadequate or
+/// not unique (CoastModel::withdraws_intervals()), m' has no posterior, and there is no joint fit.
+/// Further findings: `sensor-lag`, `model-inadequate`, `estimates-disagree`, `noise-model`,
 /// `coloured-residuals`, `not-converged`, `back-emf-assumed`, those of check_mass(). Precondition:
 /// at least one stop time or curve.
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,

@@ -35,18 +35,18 @@ struct ChannelNoise {
   /// Number of estimated noise parameters: 1 (sigma_w), plus 2 of a first-order drift or 3 of a
   /// second-order drift.
   int numbers() const { return drift_std > 0.0 ? (second_order() ? 4 : 3) : 1; }
-  /// True if the drift is above half of the sensor noise and lasts half a second or more, or above
-  /// one and a half times the noise for a quarter of a second. It is then a model error or a sensor
-  /// drift; sensor filters are faster.
-  bool of_the_model() const {
-    return (drift_std > 0.5 * sensor_std && correlation_s >= 0.5) ||
-           (drift_std > 1.5 * sensor_std && correlation_s >= 0.25);
+  /// True if the drift is above half of the sensor noise and lasts `longest_s` or more, or above
+  /// one and a half times the noise for half of that. It is then a model error or a sensor drift;
+  /// sensor filters are faster.
+  bool of_the_model(double longest_s = 0.5) const {
+    return (drift_std > 0.5 * sensor_std && correlation_s >= longest_s) ||
+           (drift_std > 1.5 * sensor_std && correlation_s >= 0.5 * longest_s);
   }
   /// True if of_the_model() and the drift is above 2.5 times the sensor noise: the model is
   /// inadequate.
-  bool overwhelms_sensor() const {
+  bool overwhelms_sensor(double longest_s = 0.5) const {
     constexpr double kMany = 2.5;
-    return of_the_model() && drift_std > kMany * sensor_std;
+    return of_the_model(longest_s) && drift_std > kMany * sensor_std;
   }
   /// True if the drift is above a quarter of the sensor noise and lasts over 0.2 s: a missing term
   /// of the model may cause such a drift.

@@ -1,0 +1,214 @@
+#include "awmr/identify/coastdown/coast_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "awmr/identify/coastdown/coast_noise.h"
+#include "awmr/identify/coastdown/derived.h"
+
+namespace awmr {
+namespace {
+
+/// Difference of AICc that decides: the likelihoods differ by a factor of 150.
+constexpr double kClose = 10.0;
+
+/// The data of all candidates.
+struct CoastData {
+  const std::vector<CoastCurve>& curves;
+  const SteadyFit& surge;
+  double sensor_mps = 0.0;  ///< white noise of the readings
+};
+
+/// One model with its best parameters.
+struct CoastCandidate {
+  CoastStart at;
+  ChannelNoise noise;
+  double aicc = std::numeric_limits<double>::infinity();
+};
+
+double top_mps(const std::vector<CoastCurve>& curves) {
+  double top = 0.0;
+  for (const CoastCurve& curve : curves) top = std::max(top, std::ranges::max(curve.speed_mps));
+  return top;
+}
+
+/// Root mean square of noise_of() over all rows.
+double pooled_noise(const std::vector<CoastCurve>& curves) {
+  double squares = 0.0;
+  double rows = 0.0;
+  for (const CoastCurve& curve : curves) {
+    const auto n = static_cast<double>(curve.t_s.size());
+    squares += n * std::pow(noise_of(curve), 2);
+    rows += n;
+  }
+  return std::sqrt(squares / rows);
+}
+
+/// Frees the coordinates of the surge law that act in a coast-down, with the fit's covariance.
+void free_within_errors(const CoastData& data, double prior_mps, CoastProblem& problem) {
+  if (!data.surge.has_covariance() || !(prior_mps > 0.0)) return;
+  std::vector<TransformedParameter> free;
+  std::vector<Eigen::Index> places;
+  for (std::size_t i = 0; i < data.surge.free.size(); ++i) {
+    if (data.surge.free[i] == TransformedParameter::kDeadZone) continue;
+    free.push_back(data.surge.free[i]);
+    places.push_back(eigen_index(i));
+  }
+  problem.free_law(free, data.surge.covariance(places, places), prior_mps);
+}
+
+/// Fits one model. `prior_mps`: noise that scales the prior of the surge law; 0: the law is fixed.
+CoastCandidate fit_once(const CoastData& data, const CoastStart& start, double prior_mps) {
+  const Resistance<double> law = data.surge.law();
+  CoastProblem problem(data.curves, data.surge.theta, start,
+                       law.coulomb > 0.0 || law.quadratic > 0.0);
+  free_within_errors(data, prior_mps, problem);
+  problem.solve();
+  CoastCandidate fit{{*problem.log_mass(), *problem.lag_s()}, {}};
+  const std::optional<Eigen::VectorXd> e = problem.residuals();
+  if (!e || !problem.summary().IsSolutionUsable()) return fit;
+  const auto n = static_cast<double>(e->size());
+  if (n <= problem.free_count()) return fit;
+  fit.noise = noise_of_residuals(*e, data.curves, problem.free_count(), data.sensor_mps);
+  const double k = problem.free_count() + fit.noise.numbers();
+  if (n <= k + 1.0) return fit;
+  fit.aicc =
+      fit.noise.cost + problem.law_distance() + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+  return fit;
+}
+
+/// Fits one model, with a surge law within its errors. The scale of the noise, which weighs the
+/// curves against the surge rows, is that of the readings at first, then that of the residuals.
+CoastCandidate fit_candidate(const CoastData& data, const CoastStart& start) {
+  constexpr int kRounds = 4;
+  constexpr double kSame = 0.3;
+  CoastCandidate best;
+  double prior_mps = pooled_noise(data.curves);
+  for (int round = 0; round < kRounds; ++round) {
+    const CoastCandidate fit = fit_once(data, start, prior_mps);
+    if (round == 0 || fit.aicc < best.aicc) best = fit;
+    const double std = effective_std(fit.noise, data.curves);
+    if (!(std::abs(std / prior_mps - 1.0) > kSame)) break;
+    prior_mps = std;
+  }
+  return best;
+}
+
+constexpr double kFast = 0.2;  ///< fast filter, relative to the time constant of the motion
+
+/// Start of a search for a filter, from the fit `plain` without a filter.
+CoastStart fast_filter(const CoastData& data, const CoastStart& plain) {
+  return {plain.log_mass + std::log1p(-kFast),
+          kFast * fall_time_s(data.curves, data.surge.law(), plain.log_mass)};
+}
+
+/// Fits a filter from two starts: a fast filter, and the optimum found from there with the filter
+/// and the motion exchanged. Returns the better fit first.
+std::vector<CoastCandidate> fit_filters(const CoastData& data, const CoastStart& plain) {
+  CoastCandidate fast = fit_candidate(data, fast_filter(data, plain));
+  const double found_s = fall_time_s(data.curves, data.surge.law(), fast.at.log_mass);
+  const double ratio = std::max(kFast, fast.at.lag_s / found_s);
+  CoastCandidate slow = fit_candidate(data, {fast.at.log_mass + std::log(ratio), found_s});
+  if (slow.aicc < fast.aicc) return {slow, fast};
+  return {fast, slow};
+}
+
+/// True if the filter is slower than the motion.
+bool is_slow(const CoastStart& at, const CoastData& data) {
+  return at.lag_s > fall_time_s(data.curves, data.surge.law(), at.log_mass);
+}
+
+/// Another m' and filter that describe the curves nearly as well as `best`, if any:
+///   - the other optimum, if its AICc is close and tyres can give its deceleration;
+///   - no filter in place of a slow one, if the residuals are correlated;
+///   - the optimum `best` if that under the surge law as given, `fixed`, has filter and motion
+///     exchanged;
+///   - a value of ln m' at which the sum of squares is lower than its curvature predicts.
+std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCandidate& other,
+                                     const CoastCandidate& best, const CoastFit& fixed,
+                                     const CoastData& data) {
+  constexpr double kDifferent = 0.1;  // of ln m'
+  const auto differs = [&](const CoastStart& at) {
+    return std::abs(at.log_mass - best.at.log_mass) > kDifferent;
+  };
+  if (other.aicc < best.aicc + kClose && differs(other.at) &&
+      !is_implausible(data.surge.law(), top_mps(data.curves), std::exp(other.at.log_mass))) {
+    return other.at;
+  }
+  const bool slow = is_slow(best.at, data);
+  if (slow && best.noise.drift_std > 0.0) return plain.at;
+  const CoastStart given{fixed.log_mass_norm, fixed.lag->value_s};
+  if (differs(given) && is_slow(given, data) != slow) return best.at;
+  return flat_direction(data.curves, data.surge, fixed);
+}
+
+/// Limit of the duration of drifts: that of logs, or the time constant of the motion if shorter.
+double longest_drift_s(const CoastData& data, const CoastStart& at) {
+  constexpr double kLongest_s = 0.5;
+  return std::min(kLongest_s, fall_time_s(data.curves, data.surge.law(), at.log_mass));
+}
+
+/// Adds the filter to the model of the fit `plain` if it is significant.
+void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& model) {
+  constexpr double kMargin = 4.0;  // of AICc
+  constexpr double kStandardErrors = 2.0;
+  constexpr double kOverLag = 3.0;  // noise that has passed the filter is correlated over T
+  const std::vector<CoastCandidate> filters = fit_filters(data, plain.at);
+  const CoastCandidate& best = filters[0];
+  const double margin = is_slow(best.at, data) ? kClose : kMargin;
+  if (!(best.aicc + margin < plain.aicc)) return;
+  const CoastFit fit = fit_coast(data.curves, data.surge, best.at);
+  const bool is_significant =
+      fit.usable && fit.lag->value_s > kStandardErrors * std::sqrt(fit.lag->variance);
+  if (!is_significant) return;
+  model.start = best.at;
+  model.noise = best.noise;
+  model.longest_s = std::max(kOverLag * best.at.lag_s, longest_drift_s(data, best.at));
+  model.other = competitor(plain, filters[1], best, fit, data);
+}
+
+/// True if the residuals of the fit `given` under the given surge law are white, and a filter does
+/// not lower its AICc.
+bool is_described(const CoastData& data, const CoastCandidate& given) {
+  return !(given.noise.drift_std > 0.0) &&
+         !(fit_once(data, fast_filter(data, given.at), 0.0).aicc < given.aicc);
+}
+
+}  // namespace
+
+CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge) {
+  constexpr double kExact = 1e-4;  // of the speed: smaller errors are those of the integration
+  const std::vector<CoastCurve>& curves = readings.curves;
+  const double exact_mps = kExact * top_mps(curves);
+  const CoastData data{curves, surge,
+                       std::max({pooled_noise(curves), readings.quantum_mps, exact_mps})};
+  const CoastCandidate given = fit_once(data, {guess_log_mass(curves, surge.law())}, 0.0);
+  CoastModel model{.start = given.at, .other = {}, .noise = {}};
+  if (!std::isfinite(given.aicc) || given.noise.std() < exact_mps || is_described(data, given)) {
+    return model;
+  }
+  const CoastCandidate plain = fit_candidate(data, given.at);
+  if (!std::isfinite(plain.aicc)) return model;
+  model.noise = plain.noise;
+  model.longest_s = longest_drift_s(data, given.at);
+  if (std::ranges::none_of(curves, &CoastCurve::of_bins)) add_filter(data, plain, model);
+  return model;
+}
+
+std::vector<Finding> inadequacy(const CoastModel& model, const std::string& file) {
+  if (!model.is_inadequate()) return {};
+  return {{file, 0, Severity::kWarning, "model-inadequate",
+           fmt::format("the coast-down curves deviate from the fitted curve by {:.2g} m/s for "
+                       "{:.2g} s at a time, compared with a sensor noise of {:.2g} m/s: the "
+                       "resistance differs from that of the surge runs (family, slope, brakes), or "
+                       "the sensor distorts the speed. {}",
+                       model.noise.drift_std, model.noise.correlation_s, model.noise.sensor_std,
+                       model.withdraws_intervals()
+                           ? "The interval of mass_norm is withdrawn"
+                           : "The interval of mass_norm does not include this model error")}};
+}
+
+}  // namespace awmr
