@@ -65,16 +65,17 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
     return input_error(ErrorCode::kConflict, option_text("method"),
                        fmt::format("log-linear supports only the power law and the squared loss; "
-                                   "with {} use nonlinear",
+                                   "with {} use the method nonlinear",
                                    option_text(other_family ? "family" : "loss")));
   }
   if (options.method == Method::kTrajectory && data.logs.empty()) {
     return input_error(ErrorCode::kMissing, option_text("method"),
-                       fmt::format("trajectory needs a driving log ({})", option_text("log")));
+                       fmt::format("the method trajectory needs a driving log; give one with {}",
+                                   option_text("log")));
   }
   if (options.joint && (!data.surge || data.curves.empty())) {
     return input_error(ErrorCode::kMissing, option_text("joint"),
-                       "needs surge runs and a coast-down curve");
+                       "needs surge runs and a coast-down curve; give both, or remove this option");
   }
   return {};
 }

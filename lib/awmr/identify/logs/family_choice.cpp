@@ -85,7 +85,7 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                  fmt::format("these logs do not decide between {} and {}: the AIC of the latter is "
                              "lower by {:.1f}, which is not significant, but {} changes by {:.1f} "
                              "standard errors. The intervals are valid for {} only; record a log "
-                             "with more different speeds",
+                             "at more different speeds",
                              families_in_words(best.surge, best.yaw),
                              families_in_words(alternative.surge, alternative.yaw), gain, name,
                              apart, families_in_words(best.surge, best.yaw))};

@@ -117,14 +117,15 @@ void refuse_dependent(Eigen::Index stopped, const std::vector<FreeQuantity>& qua
         !(std::abs(correlation) > kDependent))
       continue;
     found.refusal_reason[at(i)] = fmt::format(
-        "it depends on {} (correlation {:.2f}), whose search ended at a limit of its range",
+        "it depends on {} (correlation {:.2f}), whose search ended at a limit of the accepted "
+        "range",
         quantities[at(stopped)].name(), correlation);
   }
 }
 
 std::string why_stopped(const FreeQuantity& q, double coordinate) {
   std::string why =
-      fmt::format("the search ended at a limit of the range, {:.4g}", q.value(coordinate));
+      fmt::format("the search ended at {:.4g}, a limit of the accepted range", q.value(coordinate));
   if (q.is(ParameterId::kSurgeBeta)) why += "; widen surge_beta_range in the vehicle file";
   if (q.is(ParameterId::kYawBeta)) why += "; widen yaw_beta_range in the vehicle file";
   return why;

@@ -85,7 +85,8 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
                      one.withdraws ? "The fit uses one value for all logs, so all intervals are "
                                      "withdrawn; identify each log separately"
                      : one.refuses
-                         ? "An interval for all logs would be too wide, so this quantity is refused"
+                         ? "An interval for all logs would be too wide, so this quantity gets no "
+                           "value; identify each log separately"
                      : withdrawn ? "Its interval is withdrawn"
                                  : "Its interval is widened: it covers the mean over such logs, "
                                    "not an individual log")});

@@ -26,7 +26,7 @@ void announce(const IdentifyOptions& options, double numbers, const std::string&
   const double about_s = numbers / kNumbersPerSecond;
   if (!options.notice || about_s <= kLong_s) return;
   options.notice(fmt::format(
-      "{} may take up to about {:.0f} s of one processor; use a part of the logs ({}) to save time",
+      "{} may take up to about {:.0f} s on one processor; use a part of the logs ({}) to save time",
       what, about_s, option_text("from S")));
 }
 

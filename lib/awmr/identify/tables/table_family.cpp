@@ -40,8 +40,8 @@ FamilyCandidate candidate_from(const Subject& subject, const SteadyProblem& prob
   candidate.report.aicc = squared ? aicc(fit) : std::nullopt;
   if (problem.noise == wanted && squared && fit.has_covariance() && fit.usable) {
     if (rows_of(problem.points) > kMaximumProfileRows) {
-      candidate.report.stop_reason +=
-          fmt::format("; no profile intervals above {} rows", kMaximumProfileRows);
+      candidate.report.stop_reason += fmt::format(
+          "; no profile intervals, because there are more than {} rows", kMaximumProfileRows);
     } else {
       add_profiles(candidate);
     }
