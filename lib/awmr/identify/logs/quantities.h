@@ -91,8 +91,8 @@ FreeQuantity motor_lag();
 /// Steering angle at a command of 0, rad; positive to the left.
 FreeQuantity steering_trim();
 
-/// Largest rate of the steering angle, rad/s, in place of the vehicle file's. `begin_radps`: initial
-/// guess, > 0.
+/// Largest rate of the steering angle, rad/s, in place of the vehicle file's. `begin_radps`:
+/// initial guess, > 0.
 FreeQuantity servo_rate(double begin_radps);
 
 /// Force imbalance e: the left motors push with 1 - e times their command, the right with 1 + e
@@ -157,10 +157,10 @@ std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities,
 /// Free quantities of a fit, in the order of FreeQuantity::Kind.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
-/// By quantity: coordinate of the initial guess; 0 for a bias.
+/// One per quantity: coordinate of its initial guess; 0 for a bias.
 std::vector<double> initial_coordinates(const LogFitOptions& options);
 
-/// By quantity: bounds of the coordinate. `initial`: coordinates of the initial guess.
+/// One per quantity: bounds of its coordinate. `initial`: coordinates of the initial guess.
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,
                                         const std::vector<double>& initial, const Vehicle& vehicle);
 
@@ -170,7 +170,7 @@ ParameterValues<double> parameters_at(ParameterValues<double> held,
                                       const std::vector<FreeQuantity>& quantities,
                                       const std::vector<double>& coordinates);
 
-/// By quantity: value at its coordinate.
+/// One per quantity: its value at the given coordinate.
 std::vector<double> values_at(const std::vector<FreeQuantity>& quantities,
                               const std::vector<double>& coordinates);
 

@@ -50,8 +50,8 @@ struct SteadyFit {
   std::vector<TransformedParameter> free;
   std::vector<TransformedParameter> at_bound;  ///< coordinates whose search ended at a bound
   Eigen::MatrixXd covariance;  ///< free x free, positive definite; 0 x 0 without degrees of freedom
-  Eigen::VectorXd residuals;   ///< curve - measured, by point, in the unit of the noise
-  Eigen::VectorXd leverages;   ///< by point, in [0, 1]; empty without full rank
+  Eigen::VectorXd residuals;   ///< one per point: curve - measured, in the unit of the noise
+  Eigen::VectorXd leverages;   ///< one per point, in [0, 1]; empty without full rank
   double residual_std = 0.0;   ///< in the unit of the noise; 0 without degrees of freedom
   int degrees_of_freedom = 0;  ///< points - free; may be negative
   int rank = 0;                ///< of the Jacobian by the coordinates in `free`
@@ -97,7 +97,7 @@ bool is_physical(const Resistance<double>& law);
 
 /// Residuals of a table and their derivatives, without the weights of a robust loss.
 struct SteadyRows {
-  Eigen::VectorXd residuals;  ///< by point
+  Eigen::VectorXd residuals;  ///< one per point
   Eigen::MatrixXd jacobian;   ///< points x coordinates
 };
 /// Residuals at the coordinates `theta`, and their derivatives by the coordinates `by`. Empty if a
