@@ -216,10 +216,10 @@ std::vector<Finding> constant_error_findings(const LogFit& fit, const std::strin
   return findings;
 }
 
-/// Loss of force up to which the forces count as proportional to the commands.
+/// Relative loss of force up to which the forces count as proportional to the commands.
 constexpr double kLinear = 0.05;
 
-/// Sharpness of the saturation in the fit.
+/// Sharpness n of the saturation (force_saturation()): the fitted one, or the default if not free.
 double sharpness_of(const LogFit& fit) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];

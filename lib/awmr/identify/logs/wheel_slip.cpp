@@ -9,7 +9,7 @@ namespace {
 struct Side {
   double SideForces<double>::*force;
   double offset_m;  ///< to the left of the centre; w = u - offset r
-  double share;     ///< of its slip in the reading
+  double share;     ///< weight of its slip in the reading
 };
 
 /// Force of a wheel of one side on the ground, with derivatives.

@@ -16,8 +16,8 @@
 namespace awmr {
 namespace {
 
-/// AICc difference from which on another family is significantly better (a likelihood ratio of
-/// e^5).
+/// Decrease of AICc from which on another family is significantly better than the power law (a
+/// likelihood ratio of e^5).
 constexpr double kTablesPlainlyBetter = 10.0;
 
 /// Smallest number n of runs with an AICc, whose denominator n - p - 2 must be positive. The

@@ -16,8 +16,8 @@ namespace {
 /// With more runs, the interval from the standard error is nearly the same.
 constexpr Eigen::Index kMaximumProfileRows = kExactRows;
 
-/// Adds the profile interval of every parameter that has a standard error to the report. Skips
-/// intervals that the data do not bound at both ends.
+/// Adds to the report the profile-likelihood interval of every parameter that has a standard error.
+/// Skips intervals that the data do not bound at both ends.
 void add_profiles(FamilyCandidate& candidate) {
   const std::vector<TransformedParameter> coordinates = coordinates_of(candidate.problem.family);
   for (std::size_t i = 0; i < candidate.report.parameters.size(); ++i) {
