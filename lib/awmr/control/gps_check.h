@@ -78,7 +78,8 @@ class GpsCheck {
     return true;
   }
 
-  /// Does the next comparison of MotionCheck::check(), for the last accepted fix.
+  /// Does the next comparison of MotionCheck::check(), for the last accepted fix. Returns false
+  /// once all are done.
   bool check_motion() { return motion_.check(limits_); }
   void finish_motion() {
     while (check_motion()) {

@@ -50,7 +50,7 @@ class Sensing {
     double correlation;   ///< rho: correlation of the noise of two successive samples
     double noise = 0.0;   ///< n_{k-1}: noise of the previous sample, over its standard deviation
     Random random;
-    const std::vector<double>* normals;  ///< w_k by sample; null: drawn from `random`
+    const std::vector<double>* normals;  ///< one w_k per sample; null: drawn from `random`
   };
   /// The true value of the quantity at the time of the k-th sample minus the latency of the sensor,
   /// interpolated linearly between samples. Before the first sample, the value of the first sample.
@@ -61,7 +61,7 @@ class Sensing {
   Sensor heading_, yaw_rate_, speed_;
   Random gps_;
   std::vector<Measurement<double>> motion_;  ///< true motion of the samples within the latency
-  std::vector<Position<double>> true_m_;     ///< true positions, by sample
+  std::vector<Position<double>> true_m_;     ///< true positions, one per sample
   Position<double> fix_m_{};                 ///< the last fix
   double fix_taken_s_ = 0.0;
   std::size_t next_fix_ = 0;  ///< number of the next fix to arrive

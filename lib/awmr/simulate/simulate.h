@@ -102,14 +102,14 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
 /// A controller with the estimates of the model; a scenario's corner does not change them. If the
-/// model only has parameters for straight motion, so has the controller. Errors (input): as
-/// Model::plant and check_observer_rate.
+/// model only has parameters for straight motion, so has the controller. Errors (input): those of
+/// Model::plant() and check_observer_rate().
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
 /// Simulates the model with the controller of controller_for(), at the vehicle's sample time. The
 /// scenario's corner changes the plant, but not the controller. A model without turning parameters
-/// (Model::simulated_motion) can only drive straight. Errors (input): as plant_for, Model::plant,
-/// check_mode, failure_of and check_straight (straight.h).
+/// (Model::simulated_motion) can only drive straight. Errors (input): those of plant_for(),
+/// Model::plant(), check_mode(), failure_of() and check_straight() (straight.h).
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 
