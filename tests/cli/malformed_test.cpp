@@ -200,7 +200,7 @@ class Malformed : public ::testing::TestWithParam<Kind> {
   /// Runs within 10 s of CPU time and 2 GiB, far more than any refusal needs.
   static ProcessResult run_bounded(const std::string& arguments) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    const std::string bounds = "ulimit -t 60; ";  // these reserve terabytes of addresses
+    const std::string bounds = "ulimit -t 60; ";  // sanitizers reserve terabytes of addresses
 #else
     const std::string bounds = "ulimit -t 10; ulimit -v 2097152; ";
 #endif

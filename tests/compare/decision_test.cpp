@@ -166,7 +166,7 @@ TEST(Decision, DoesNotDependOnThreadsAndIsInTheFile) {
   const Json& decision = json.at("scenarios").at(0).at("decision");
   EXPECT_EQ(decision.at("changes").size(), 4U);  // weights, plant, slower, faster
   const Json& counts = json.at("decisions");
-  // Both have the same runs: one scenario.
+  // Both entries have the same runs, so they count as one scenario.
   EXPECT_EQ(counts.at("decided").get<int>() + counts.at("level").get<int>() +
                 counts.at("undecided").get<int>(),
             1);

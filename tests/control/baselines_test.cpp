@@ -44,7 +44,7 @@ TEST(PurePursuit, TakesSideslipOffOnlyWhereRequested) {
 }
 
 TEST(PurePursuit, TheGoalTurnsTheCornerBeforeTheVehicleWithoutAJump) {
-  const P points[] = {{0, 0}, {10, 0}, {10, 0}, {10, 10}};  // one segment has no length
+  const P points[] = {{0, 0}, {10, 0}, {10, 0}, {10, 10}};  // the second segment has length 0
   const Pursued line{points, 4, 0.0, {2.0, false}};
   auto progress = start_polyline(0.0);
   EXPECT_NEAR(guide(line, P{7.999, 0.0}, kStraight, progress).psi_rad, 0.0, 1e-12);

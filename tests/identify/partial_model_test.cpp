@@ -80,8 +80,8 @@ TEST(PartialModel, IsRecoveredFromItsOwnTables) {
     for (const RecoveredParameter& p : recovery->parameters) {
       names.push_back(info(p.id).name);
       EXPECT_EQ(p.truth, *model[p.id].value);
-      // 40 runs: the mean errs by rmse/sqrt(40); 4 of those are practically never exceeded by
-      // chance.
+      // The mean of 40 runs has a standard error of rmse/sqrt(40), four of which are practically
+      // never exceeded by chance.
       EXPECT_LT(std::abs(p.bias), 4.0 * p.rmse / std::sqrt(40.0)) << names.back();
       EXPECT_GE(p.coverage95, 0.8) << names.back();
     }

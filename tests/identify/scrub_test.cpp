@@ -131,7 +131,8 @@ TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   }
   RecordProperty("held", held);
   EXPECT_EQ(findings, kTables);
-  // Both ends of the reported range must be right, each with a probability of 97.5 %.
+  // Both ends of the reported range must be right. Each is, with a probability of 97.5 %, so both
+  // are in at least 95 % of the tables.
   EXPECT_GT(held / double(kTables), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
 }
 

@@ -133,7 +133,8 @@ TEST(Losses, RobustOnesIgnoreABadRunThatSquaresFollow) {
     const auto result = identify(vehicle(), data, options, {});
     ASSERT_TRUE(result);
     const Estimate& beta = result->model[ParameterId::kSurgeBeta];
-    // The other eleven runs fix b1 to about 0.004; a squared loss is pulled away by ten times that.
+    // The other eleven runs determine b1 to about 0.004. With a squared loss, the outlier changes
+    // b1 by ten times that.
     EXPECT_NEAR(*beta.value, law.beta, 0.02) << static_cast<int>(loss);
     EXPECT_LT(std::abs(*beta.value - law.beta), 0.3 * std::abs(by_squares - law.beta));
     EXPECT_TRUE(beta.ci95->contains(law.beta)) << static_cast<int>(loss);
@@ -300,7 +301,7 @@ SteadyProblem steeper_than_its_range(Family family) {
 }
 
 TEST(Bounds, AFitAtTheEndOfARangeIsTheBestOfTheRemainingCoordinates) {
-  // f = alpha w: alpha = sum(f w)/sum(w^2)
+  // With the exponent at its bound 1, the curve is f = alpha w with alpha = sum(f w)/sum(w^2).
   const SteadyProblem problem = steeper_than_its_range(Family::kPower);
   double force_rate = 0.0;
   double rate_squared = 0.0;

@@ -95,7 +95,7 @@ TEST(ReferenceIntegrator, OpenLoopPositionsAgreeAfterAMinuteInEveryMode) {
   }
 }
 
-/// Equations and integrator are both independent here.
+/// In this test, both the equations and the integrator are independent of the library.
 TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
   const Plant<double> plant = paper_plant();
   Vehicle vehicle{};
@@ -109,7 +109,8 @@ TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
         const awmr::Run run =
             simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
         const RunRow& first = run.rows.front();
-        // The chord at rest is part of the equations.
+        // The reference also uses the chord that replaces each resistance near rest, because it is
+        // part of the equations.
         const Plant<double> resolved = resolved_at_rest(plant, scenario, 0.01 / run.substeps);
         const State<double> expected = reference(
             {resolved, first.force, first.steering_command_rad, scenario.tyres}, {}, 60.0);

@@ -250,7 +250,7 @@ TEST(Validity, WarnsOfATurnFasterThanTheTrials) {
   std::vector<Finding> findings;
   EXPECT_FALSE(measured_yaw_rate_degps(model));
   note_extrapolation(model, 100.0, "run", findings);
-  EXPECT_TRUE(findings.empty());  // given numbers have no known range of validity
+  EXPECT_TRUE(findings.empty());  // a model without turning trials has no measured range
   const auto trial = [](TrialKind kind, double measured) {
     TrialPoint point;
     point.kind = kind;
@@ -314,7 +314,7 @@ TEST(Validity, WarnsOfTyresThatContradictTheTurningTrials) {
   Model model = fitted_paper_model();
   Scenario on_tyres = kSteps;
   on_tyres.tyres = Tyres<double>{};
-  EXPECT_FALSE(tyres_differ(on_tyres, model));  // its turning was not measured
+  EXPECT_FALSE(tyres_differ(on_tyres, model));  // the model has no measured yaw rate to compare at
   model.vehicle.yaw_rate_max_degps = 15.0;
   const auto finding = tyres_differ(on_tyres, model);
   ASSERT_TRUE(finding);

@@ -98,8 +98,7 @@ TEST(Disturbances, AreTheSameForTheSameSampleAndOtherForAnother) {
 }
 
 TEST(Wheels, ADeadWheelCostsAQuarterOfTheThrust) {
-  // Open loop, straight, differential with equal sides: a failure of the front pair halves the
-  // force.
+  // In open loop with equal left and right forces, a failure of both front motors halves the force.
   Scenario s = straight(20.0);
   s.guidance = OpenLoop{1.0, 0.0};
   s.faults = {{.wheels = {Wheel::kFrontLeft, Wheel::kFrontRight}, .window = {}, .share = 0.0}};
@@ -186,7 +185,8 @@ TEST(Battery, SagsUnderTheMotorsCurrent) {
 }
 
 TEST(Battery, SagIsTheVoltageThatTheCurrentsLeave) {
-  // Two sides with different speeds, two motors each: Kirchhoff's law by iteration.
+  // Expected value by Kirchhoff's law, solved by iteration: two sides with different speeds and two
+  // motors each.
   const SideForces<double> command{0.8, -0.3};
   State<double> at{};
   at.u_mps = 1.2;

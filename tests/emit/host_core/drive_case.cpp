@@ -31,8 +31,8 @@ void start_and_arm(double armed_s, double start_s = 3) {
   world.run(armed_s);
 }
 
-/// When the vehicle was first disarmed with its motors off, and the first sensor fault. Called once
-/// per ms.
+/// Records when the vehicle was first disarmed with its motors off, and the first sensor fault.
+/// Call it once per ms.
 struct FirstStop {
   double t = 0;
   double stopped_s = -1;  ///< -1: never
@@ -77,7 +77,8 @@ void run_case(const Failure& one) {
       one.name, drove, stop.stopped_s, is_off, drives_again, stop.cause, away, fastest, rearmed);
 }
 
-/// At rest, armed at speed 0: pushed by hand, or only GPS noise.
+/// Arms the vehicle at rest with a commanded speed of 0. It is then pushed by hand at `pushed_mps`,
+/// or only its GPS has noise.
 void hold_still(double pushed_mps, double noise_mps) {
   World& w = world;
   w.gps_speed_noise = noise_mps;
@@ -115,8 +116,8 @@ void stand_on_slope(double pull, bool drives_first) {
          safety.is_armed());
 }
 
-/// A fault from the start: the compass is off by `offset_deg`, or the servo reversed. Drives, then
-/// heads 90 deg away.
+/// Drives with a fault from the start: the compass is off by `offset_deg`, or the servo is
+/// reversed. Then a heading 90 deg away is commanded.
 void drive_wrong(double offset_deg, double servo_sign) {
   World& w = world;
   w.compass_offset = offset_deg / 57.29578;
