@@ -218,7 +218,7 @@ TEST(Awl, IsReadAsALogByItselfAndAsItsCsv) {
   const std::string bytes = awl_log(60);
   const auto direct = accepted(read_log, bytes);
   const auto csv = accepted(read_log, log_csv(*read_awl(bytes, "a.awl")));
-  EXPECT_EQ(direct.set.rows(), 61U);  // with the row of rest before the first
+  EXPECT_EQ(direct.set.rows(), 61U);  // including the added row of rest before the first one
   EXPECT_EQ(direct.set.t_s, csv.set.t_s);
   EXPECT_EQ(direct.set.force_left, csv.set.force_left);
   EXPECT_EQ(direct.set[LogChannel::kSpeed]->value, csv.set[LogChannel::kSpeed]->value);
@@ -245,13 +245,13 @@ TEST(LogRing, KeepsRowsInOrderAndCountsThoseItHasNoRoomFor) {
   EXPECT_EQ(take(false), 0);  // no complete block yet
   put();
   EXPECT_EQ(take(false), 8);
-  for (int i = 0; i < 20; ++i) put();  // there is room for 16
+  for (int i = 0; i < 20; ++i) put();  // more rows than the 16 that fit
   EXPECT_EQ(take(false), 8);
   EXPECT_EQ(take(false), 8);
   for (int i = 0; i < 3; ++i) put();
   EXPECT_EQ(take(true), 3);  // the rest of a file
   for (int i = 0; i < 5; ++i) put();
-  EXPECT_EQ(take(false), 5);  // up to the block's end: blocks are not split
+  EXPECT_EQ(take(false), 5);  // a call returns rows up to the end of a block only
   for (int turn = 0; turn < 100; ++turn) {
     for (int i = 0; i < 8; ++i) put();
     EXPECT_EQ(take(false), 8);

@@ -46,7 +46,7 @@ TEST(Log, ReadsChannelsInSi) {
   EXPECT_NEAR(log.median_step_s(), 0.1, 1e-9);
 }
 
-/// A log with twelve rows at 10 Hz, forces of 0.2 and these speeds.
+/// Reads a log with twelve rows at 10 Hz, forces of 0.2 and these speeds.
 Read<DrivingLog> log_with_speeds(const std::function<double(int)>& speed_mps) {
   return accepted_log(log_text("speed_mps", [&](int i) { return std::to_string(speed_mps(i)); }));
 }
@@ -204,10 +204,10 @@ TEST(Log, ACourseAtRestIsSetAside) {
 TEST(Log, ACompassAtRestIsKept) {
   const auto compass = [](int) { return 90.0; };
   EXPECT_THAT(codes(accepted_log(with_rests(compass))), Not(Contains("course-at-rest")));
-  // turned on the spot until it drives
+  // the vehicle turns on the spot before it drives
   const auto spun = [](int i) { return i < 10 ? 9.0 * i : 90.0; };
   EXPECT_THAT(codes(accepted_log(with_rests(spun))), Not(Contains("course-at-rest")));
-  // turned by hand during the second rest
+  // the vehicle is turned by hand during the second rest
   const auto turned = [](int i) { return i < 10 ? 90.0 : 90.0 + 9.0 * (i - 30); };
   EXPECT_THAT(codes(accepted_log(with_rests(turned, 180.0))), Not(Contains("course-at-rest")));
 }
@@ -363,7 +363,7 @@ TEST(InitialState, OfPositionsAndHeadingHasTheSpeedAlongTheHeading) {
   log[LogChannel::kHeading] = Measured{.value = std::vector<double>(log.rows(), kPsi),
                                        .fresh = std::vector<bool>(log.rows(), true)};
   for (auto* const forces : {&log.force_left, &log.force_right}) {
-    forces->assign(log.rows(), 0.3);  // brakes, still driving backward
+    forces->assign(log.rows(), 0.3);  // the forces brake while the vehicle still drives backward
   }
   const State<double> state = measured_initial_state({&log, 0, log.rows()});
   EXPECT_NEAR(state.u_mps, -0.8, 1e-9);

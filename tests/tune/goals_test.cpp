@@ -91,7 +91,7 @@ TEST(Goal, OfADrawHoldsWhereAllItsScenariosKeepIt) {
   const TuningGoal goal = quick_and_calm(0.5);
   const GoalInMode one{&goal, YawMode::kCombined};
   const std::vector<Scenario> scenarios{kScenario, held_out_scenario(paper_model()).value()};
-  // Two draws; the first fails in its second scenario.
+  // Two drawn vehicles; the first one fails in the second scenario.
   const std::vector<ModeScore> scores{run_with(1.0, 0.0), run_with(3.0, 0.0), run_with(1.0, 0.0),
                                       run_with(1.6, 0.0)};
   const EvaluatedGoal evaluated = evaluate_goal(one, {"robust", outcomes_of(scores, scenarios)}, 2);
