@@ -235,7 +235,7 @@ TEST_F(Check, ContradictionsOfTheTrialsNameTheUnitFix) {
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("surge.csv:2: tau_speed is"), HasSubstr("8-bit PWM counts"),
                     HasSubstr("`columns` 'wheel_force="), HasSubstr("[contradiction]")));
-  EXPECT_THAT(result.err, Not(HasSubstr("--column")));  // an option that check does not have
+  EXPECT_THAT(result.err, Not(HasSubstr("--column")));  // `check` has no option --column
 }
 
 TEST_F(Check, MillisecondsOfEveryTrialAreNamed) {

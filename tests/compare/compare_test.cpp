@@ -266,7 +266,7 @@ TEST(ComparisonCsv, HasTheContractsColumns) {
   EXPECT_EQ(first[2], "0");
   EXPECT_EQ(first[3], "1");
   EXPECT_EQ(first[7], "");   // no line for a cross-track error
-  EXPECT_EQ(first[13], "");  // no obstacle
+  EXPECT_EQ(first[13], "");  // empty, because there is no obstacle
 }
 
 TEST(ComparisonCsv, LeavesHeadingMetricsEmptyInOpenLoop) {

@@ -130,7 +130,7 @@ TEST(Decision, ChangesAreRunsOnTheOtherPlantAndWithOtherGains) {
   const auto comparison = compared({scenario, short_open_loop()}, 3);
   ASSERT_TRUE(comparison) << to_text(comparison.error());
   ASSERT_THAT(comparison->changes,
-              SizeIs(3));  // of the heading scenario only: in open loop nothing is ranked
+              SizeIs(3));  // modes of the heading scenario only: open loop has no ranking
   Scenario tyres = scenario;
   tyres.tyres.emplace();
   Gains<double> slower = kPaperGains;

@@ -188,9 +188,9 @@ struct Edit {
 
 TEST_P(CompiledHeader, DoesNotCompileWhenEditedAgainstARelation) {
   const std::vector<Edit> edits = {
-      // T2 = 100/(2*50) = 1 s, T1 = 1/3 s
+      // violated: T2 = 100/(2*50) = 1 s is above T1 = 1/3 s
       {"AWMR_T2_IS_BELOW_T1", {{"AWMR_HEADING_EPSILON", "100.0f"}}},
-      // T2 = 12/(2*18) = T1 = 1/3 s
+      // violated: T2 = 12/(2*18) = 1/3 s equals T1
       {"AWMR_T2_IS_BELOW_T1", {{"AWMR_HEADING_MU", "18.0f"}}},
       {"AWMR_T2_IS_BELOW_T1", {{"AWMR_HEADING_LAMBDA", "8.34f"}}},
       {"AWMR_WHEEL_FORCE_MIN_IS_BELOW_MAX", {{"AWMR_WHEEL_FORCE_MIN", "1.0f"}}},

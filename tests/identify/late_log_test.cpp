@@ -19,7 +19,7 @@
 namespace awmr::testing {
 namespace {
 
-constexpr double kStep_s = 0.01;  // of drive()
+constexpr double kStep_s = 0.01;  // row spacing of drive()
 
 /// Returns the log with the steering command moved to `rows` rows earlier: the steering acts late.
 DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
@@ -437,7 +437,7 @@ INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(-0.1));
 /// The log with commands F' that push with F'/(1 + s (F'/F'm)^n)^(1/n), s = (1 - L)^(-n) - 1, F'm
 /// the largest of them.
 DrivingLog saturated(DrivingLog log, double loss, double n) {
-  double most = 0.0;  // of the forces after the saturation
+  double most = 0.0;  // largest force after the saturation
   for (const auto* const forces : {&log.force_left, &log.force_right}) {
     for (const double force : *forces) most = std::max(most, std::abs(force));
   }

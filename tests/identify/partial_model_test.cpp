@@ -23,7 +23,7 @@ RecoverOptions runs_of(RecoverPlan plan, int runs) {
   return options;
 }
 
-/// Model identified from the remaining trials.
+/// Model identified from surge runs only or, if `coastdown`, from surge runs and coast-downs.
 Model partial_model(bool coastdown) {
   Vehicle v = paper_vehicle();
   v.sway_alpha.reset();

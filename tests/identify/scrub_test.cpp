@@ -103,7 +103,7 @@ TEST(Scrub, NeedsThreeTurns) {
 
 TEST(Scrub, RefusesANegativeScrub) {
   TrialData data = turns(0.0, 0.01, 1);
-  for (TurningRow& row : data.turning->by_sides) row.yaw_rate_radps *= 57.29578;  // left in deg/s
+  for (TurningRow& row : data.turning->by_sides) row.yaw_rate_radps *= 57.29578;  // in deg/s
   const Model model = identified(data);
   EXPECT_FALSE(model.yaw_scrub);
   EXPECT_THAT(codes(model), Contains("negative-scrub"));

@@ -354,10 +354,10 @@ TEST(Tables, SubtractsTheDeadZoneFromEachSidesCommand) {
     const auto points = turning_points({row}, 0.05);
     return points.empty() ? 0.0 : points[0].force;
   };
-  EXPECT_DOUBLE_EQ(moment(-0.1, 0.3), 0.4 * 0.3 / 0.4);  // 0.25 and -0.05 remain
-  EXPECT_DOUBLE_EQ(moment(0.1, 0.3), 0.4);               // both lose the same
-  EXPECT_DOUBLE_EQ(moment(0.0, 0.2), 0.4 * 0.15 / 0.2);  // the left one has nothing to lose
-  EXPECT_EQ(moment(-0.04, 0.04), 0.0);                   // nothing moves
+  EXPECT_DOUBLE_EQ(moment(-0.1, 0.3), 0.4 * 0.3 / 0.4);  // 0.25 and -0.05 remain of them
+  EXPECT_DOUBLE_EQ(moment(0.1, 0.3), 0.4);               // both lose 0.05: same difference
+  EXPECT_DOUBLE_EQ(moment(0.0, 0.2), 0.4 * 0.15 / 0.2);  // the left force has nothing to lose
+  EXPECT_EQ(moment(-0.04, 0.04), 0.0);                   // both are within the dead zone
 }
 
 }  // namespace

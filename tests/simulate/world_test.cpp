@@ -56,10 +56,10 @@ TEST(Disturbances, AStepActsFromItsTimeOn) {
 TEST(Disturbances, ASlopePullsDownhillForEveryHeading) {
   Scenario s = straight();
   s.disturbance.slope = Slope{radians(5.0), radians(-90.0)};
-  EXPECT_LT(run_of(s).rows.back().state.y_m, -0.1);  // sideways
+  EXPECT_LT(run_of(s).rows.back().state.y_m, -0.1);  // the vehicle is pushed sideways
   s.guidance = HeadingSteps{{{0.0, radians(-90.0)}}};
   s.initial.psi_rad = radians(-90.0);
-  EXPECT_GT(run_of(s).rows.back().state.u_mps, 1.05);  // downhill
+  EXPECT_GT(run_of(s).rows.back().state.u_mps, 1.05);  // the vehicle is faster downhill
 }
 
 TEST(Disturbances, BandLimitedNoiseHasItsDeviationAndMemory) {
@@ -222,7 +222,7 @@ TEST(SensorChannels, HaveTheirNoiseBiasAndSteps) {
   for (const RunRow& row : run.rows) {
     sum += row.measured.psi_rad - row.state.psi_rad;
     square += std::pow(row.measured.psi_rad - row.state.psi_rad - 0.1, 2);
-    EXPECT_EQ(row.measured.r_radps, 0.5);  // 0.26 to the nearest half
+    EXPECT_EQ(row.measured.r_radps, 0.5);  // bias 0.26, rounded to the quantum 0.5
     EXPECT_EQ(row.measured.u_mps, row.state.u_mps);
   }
   const double n = static_cast<double>(run.rows.size());

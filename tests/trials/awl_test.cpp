@@ -146,7 +146,7 @@ TEST(Awl, RowsThatMeasureNothingAreSetAside) {
   std::string bytes = awl_header(awl_json());
   for (std::uint32_t i = 0; i < 40; ++i) {
     LogRow row = awl_row(i);
-    if (i < 5) row.fault = 0x08;                                       // no heading yet
+    if (i < 5) row.fault = 0x08;  // fault kFaultHeadingStale: no heading yet
     if (i == 20) row.u_mps = std::numeric_limits<float>::quiet_NaN();  // no number
     if (i == 25) row.psi_rad = std::numeric_limits<float>::infinity();
     if (i == 30) row.fault = 0x20;  // an old command is not a measurement fault
@@ -249,7 +249,7 @@ TEST(LogRing, KeepsRowsInOrderAndCountsThoseItHasNoRoomFor) {
   EXPECT_EQ(take(false), 8);
   EXPECT_EQ(take(false), 8);
   for (int i = 0; i < 3; ++i) put();
-  EXPECT_EQ(take(true), 3);  // the rest of a file
+  EXPECT_EQ(take(true), 3);  // at the end of a file, also rows of an incomplete block
   for (int i = 0; i < 5; ++i) put();
   EXPECT_EQ(take(false), 5);  // a call returns rows up to the end of a block only
   for (int turn = 0; turn < 100; ++turn) {

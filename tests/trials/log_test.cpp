@@ -280,7 +280,7 @@ TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   vehicle.drive = Drive::kDifferential;
   std::string text = "t_s,force_left,force_right,speed_mps,yaw_rate_radps\n";
   for (int i = 0; i < 120; ++i) {
-    const bool turn = i >= 60;  // to the right, on the spot
+    const bool turn = i >= 60;  // then turns to the right on the spot
     const double wiggle = i % 2 == 0 ? 1e-3 : -1e-3;
     text += std::to_string(0.1 * i) + (turn ? ",0.2,-0.2," : ",0.3,0.3,") +
             std::to_string((turn ? 0.0 : 1.0) + wiggle) + "," +

@@ -311,7 +311,7 @@ TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
   const auto width = [&](double wider = 0.0) {
     return with_friction_width(gains, context, wider).heading.friction_width_radps;
   };
-  EXPECT_EQ(width(), 0.02);  // no limit
+  EXPECT_EQ(width(), 0.02);  // default width, because there is no limit of the steering rate
   context.limits.steering_rate_rms_degps = 1.01 * rate_at(0.02);
   EXPECT_EQ(width(), 0.02);
   context.limits.steering_rate_rms_degps = 0.5 * (rate_at(0.02) + rate_at(widest));
@@ -748,7 +748,7 @@ TEST(Constraints, AreThoseOfThePlantWithTheSmallestMargin) {
 
 TEST(Constraints, IncludeTheDifferenceOfADrawToTheModel) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
-  Plant<double> loaded = context.plant;  // with a load of 150 % of its own mass
+  Plant<double> loaded = context.plant;  // the vehicle with a load of 150 % of its mass
   loaded.mass_norm *= 2.5;
   loaded.inertia_norm *= 2.5;
   Plant<double> light = context.plant;

@@ -57,7 +57,7 @@ struct MetricsTime {
   double since_last_s = 0.0;  ///< time since the previous row; 0 in the first row
   bool is_first = false;
   bool starts_step = false;        ///< the commanded heading differs from that of the previous row
-  bool is_in_second_half = false;  ///< only for a timed path: in the second half of the run
+  bool is_in_second_half = false;  ///< in the second half of the run; false without a timed path
 };
 
 /// Sums over the rows so far. All members are of type T; flags are 0 or 1.

@@ -70,7 +70,7 @@ struct LinePath {
   AnyLineLaw law{};
   double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m; 0 for a law without corner
                                       ///< rounding
-  std::optional<double> slow_down_m;  ///< see WaypointPath; along the last segment
+  std::optional<double> slow_down_m;  ///< see WaypointPath; distance along the last segment
 };
 
 /// A timed path: a point that moves along a curve. If the scenario's speed_mps is 0, the commanded

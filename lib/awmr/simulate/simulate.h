@@ -34,7 +34,7 @@ struct RunRow {
   double steering_command_rad = 0.0;  ///< d_ro: commanded steering angle, rad, left positive
   double tau_speed = 0.0;             ///< output of the speed law minus the estimated disturbance,
                                       ///< before any limit, dimensionless
-  double tau_turn_m = 0.0;            ///< the same of the heading law: yaw moment, m
+  double tau_turn_m = 0.0;            ///< like tau_speed, of the heading law: yaw moment, m
   double psi_ref_rad = 0.0;           ///< psi_d: heading reference of the law; 0 in open loop
   double u_ref_mps = 0.0;             ///< u_d: speed reference of the law; 0 in open loop
   PathRow path = {};

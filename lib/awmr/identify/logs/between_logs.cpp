@@ -58,7 +58,7 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 /// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double std_error = 0.0;    ///< of the mean over logs, with the variance tau^2 between them
+  double std_error = 0.0;    ///< standard error of the mean over logs, incl. tau^2
   double mean_square = 0.0;  ///< Q/(L - 1), about 1 if the L logs agree
 };
 

@@ -169,7 +169,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
   constexpr double kBeyondDoubt = 20.0;
   LowestAic lowest(settled);
-  std::optional<NoiseIteration> strongest;  // of the first candidate, if its test is beyond doubt
+  std::optional<NoiseIteration> strongest;  // first candidate, if above kBeyondDoubt
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);

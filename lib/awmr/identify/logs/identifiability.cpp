@@ -89,10 +89,10 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Widens a standard error to that from the scatter of the scores, if the scores scatter more than
-/// the noise model predicts between blocks, or significantly more between three or more logs.
+/// Raises standard errors to those computed from the scatter of the scores, if the scores of blocks
+/// scatter more than the noise model predicts, or those of three or more logs significantly more.
 void widen(const Scores& scores, Identifiability& found) {
-  constexpr double kManyDegrees = 1e6;  // Student's t is then the normal distribution
+  constexpr double kManyDegrees = 1e6;  // with these, Student's t is the normal distribution
   constexpr std::size_t kEnoughLogs = 3;
   found.degrees_of_freedom.assign(at(found.covariance.rows()), kManyDegrees);
   found.factor.assign(at(found.covariance.rows()), 1.0);

@@ -28,7 +28,7 @@ struct LogFit {
   /// One per term in LogFitOptions::candidate_terms: decrease of -2 ln L if the term were also
   /// estimated, predicted by a score test, >= 0.
   std::vector<double> candidate_gain;
-  double widened = 1.0;    ///< see Identifiability::widened()
+  double widened = 1.0;    ///< largest widening factor: Identifiability::widened()
   EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
   bool usable = false;     ///< true if the final search converged
 

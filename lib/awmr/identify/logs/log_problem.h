@@ -27,8 +27,8 @@ struct LogProblem {
   std::vector<double> initial;   ///< one per quantity: coordinate of its initial guess
   std::vector<Interval> bounds;  ///< one per quantity: bounds of its coordinate
   int threads = 0;               ///< 0: every core
-  std::optional<std::chrono::steady_clock::time_point> deadline;  ///< of all searches
-  std::shared_ptr<Effort> effort;                                 ///< of all searches
+  std::optional<std::chrono::steady_clock::time_point> deadline;  ///< end of all searches
+  std::shared_ptr<Effort> effort;                                 ///< work of all searches
   bool ends_at_limit = true;  ///< true: a search stops at the limit of effort
 
   /// Number of unknowns: the quantities, and the free initial states of all windows.

@@ -40,20 +40,20 @@ struct FreeQuantity {
     kSwayAngle             ///< angle by which the sway sensor is turned to the left
   };
   Kind kind = Kind::kParameter;
-  ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
+  ParameterId id = ParameterId::kMassNorm;  ///< for kParameter
   LogChannel channel =
-      LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kWheelSlip, kBias
-  ExtraForce force = ExtraForce::kSlopeX;  ///< of kExtraForce
+      LogChannel::kX;  ///< for kSensorDelay (kX: x and y), kSensorLag, kWheelSlip, kBias
+  ExtraForce force = ExtraForce::kSlopeX;  ///< for kExtraForce
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
   /// a bias (SI); 0.2 for a term of a family or Stribeck friction; 0.1 for a delay or lag (s), trim
   /// or angle (rad), imbalance, saturation, wheel slip or offset (m); 0.5 for a slope (m/s^2).
   /// Standard deviations of priors and limits of identifiability are multiples of this change.
   double large_change = 1.0;
-  double full_command = 1.0;  ///< of kForceSaturation: F'm of force_saturation(), > 0
-  double fastest = 1.0;       ///< of a Stribeck speed: largest speed of the logs
-  bool is_at_rows = false;    ///< of kSensorLag: the filter of sensor_lag_of() at the rows of a log
-  bool is_ratio = false;      ///< of kWheelSlip: WheelSlip::is_ratio
+  double full_command = 1.0;  ///< for kForceSaturation: F'm of force_saturation(), > 0
+  double fastest = 1.0;       ///< for a Stribeck speed: largest speed (m/s or rad/s) of the logs
+  bool is_at_rows = false;    ///< for kSensorLag: true: one filter step per row of a log
+  bool is_ratio = false;      ///< for kWheelSlip: true: slip ratio, see WheelSlip::is_ratio
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
@@ -114,7 +114,7 @@ FreeQuantity force_saturation(double full_command);
 
 /// Sharpness n of the saturation; a limit that begins at once has a large n.
 FreeQuantity saturation_sharpness();
-inline constexpr double kDefaultSharpness = 4.0;  ///< of a fit without free sharpness
+inline constexpr double kDefaultSharpness = 4.0;  ///< value of n in fits without free sharpness
 
 /// Stribeck friction (`force`: its s of surge or yaw), or a component of the slope.
 FreeQuantity extra_force(ExtraForce force);

@@ -15,7 +15,7 @@ namespace awmr {
 enum class RecoverPlan {
   kTables,  ///< tables with the settings of the model's own trials
   kCurve,   ///< these tables with a coast-down curve in place of the stop times
-  kLog,     ///< only a driving log
+  kLog,     ///< a driving log instead of tables
 };
 
 /// Values of `--error`.

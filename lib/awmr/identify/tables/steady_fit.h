@@ -44,7 +44,7 @@ struct SteadyProblem {
 /// A fitted curve. "Unit of the noise" below is the unit of the quantity that has the error: of
 /// force, rate or time, or 1 for the log force.
 struct SteadyFit {
-  TransformedParameters theta{};  ///< fitted coordinates; 0 if not in the family (beta: 1)
+  TransformedParameters theta{};  ///< fitted coordinates; 0 (beta: 1) for terms outside the family
   /// Free coordinates of the family. A term that ended at 0, its lower bound, is included, so that
   /// it contributes to the uncertainty of the others. An exponent at a bound is excluded.
   std::vector<TransformedParameter> free;
@@ -54,7 +54,7 @@ struct SteadyFit {
   Eigen::VectorXd leverages;   ///< one per point, in [0, 1]; empty without full rank
   double residual_std = 0.0;   ///< in the unit of the noise; 0 without degrees of freedom
   int degrees_of_freedom = 0;  ///< points - free; may be negative
-  int rank = 0;                ///< of the Jacobian by the coordinates in `free`
+  int rank = 0;                ///< rank of the Jacobian by the coordinates in `free`
   double condition_number = 0.0;  ///< of the Jacobian by all coordinates; infinite below full rank
   std::string stop_reason;
   bool usable = false;  ///< the search converged, and the Jacobian has full rank
