@@ -164,7 +164,7 @@ TEST(Decision, DoesNotDependOnThreadsAndIsInTheFile) {
   EXPECT_EQ(text, comparison_text(*many, options, provenance));
   const Json json = Json::parse(text);
   const Json& decision = json.at("scenarios").at(0).at("decision");
-  EXPECT_EQ(decision.at("changes").size(), 4U);  // weights, plant, slower, faster
+  EXPECT_EQ(decision.at("changes").size(), 4U);  // weights, plant, slower gains, faster gains
   const Json& counts = json.at("decisions");
   // Both entries have the same runs, so they count as one scenario.
   EXPECT_EQ(counts.at("decided").get<int>() + counts.at("level").get<int>() +

@@ -421,7 +421,7 @@ TEST_F(AutopilotLeads, ByAnEstimateThatGoesOnWithoutACommandAndIsStartedAgainWit
     return out.fault;
   };
   EXPECT_EQ(step_without(&InputTimes::command_ms), kFaultCommandTimeout);
-  // The first of 22 steps starts the estimate at the fix; the other 21 move it by 0.03 m each, 0.63
+  // The first of 22 steps starts the estimate at the fix. The other 21 move it by 0.03 m each: 0.63
   // m.
   EXPECT_NEAR(step_at({0.0F, 0.0F}).psi_ref_rad, std::atan2(5.0F, 5.0F - 0.63F), 1e-4F);
   EXPECT_EQ(step_without(&InputTimes::speed_ms), kFaultSpeedStale);

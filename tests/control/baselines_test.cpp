@@ -52,7 +52,8 @@ TEST(PurePursuit, TheGoalTurnsTheCornerBeforeTheVehicleWithoutAJump) {
   // The target is the corner itself: 2 m ahead.
   EXPECT_NEAR(guide(line, P{8.0, 0.0}, kStraight, progress).psi_rad, 0.0, 1e-12);
   EXPECT_EQ(progress.segment, 2);
-  // While turning the corner the cross-track error refers to the nearer segment.
+  // While the vehicle turns at the corner, the cross-track error is measured from the nearer
+  // segment.
   const auto inside = guide(line, P{8.8, 0.4}, kStraight, progress);
   EXPECT_NEAR(inside.psi_rad, std::atan2(1.6, 1.2), 1e-12);  // the target is 2 m away
   EXPECT_NEAR(inside.cross_track_m, 1.2, 1e-12);             // the previous segment has no length

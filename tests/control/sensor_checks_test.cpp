@@ -511,7 +511,7 @@ TEST(MotionCheck, FindsASpeedOfZeroAndACompassThatIsOffOnASlowVehicle) {
 
 TEST(StepCheck, FindsAJumpAndADriftAndNothingInNoise) {
   std::mt19937 random(5);
-  std::normal_distribution<float> noise(0.0F, 0.035F);  // 2 deg
+  std::normal_distribution<float> noise(0.0F, 0.035F);  // heading error of 2 deg RMS
   StepCheck quiet;
   for (int i = 0; i < 100000; ++i) quiet.take(noise(random), 0.01F);
   EXPECT_FALSE(quiet.is_apart());

@@ -768,7 +768,8 @@ TEST(Log, InnovationsOfASecondOrderErrorAreWhiteWithTheStatedVariance) {
       count += 1.0;
     }
   }
-  // Four standard errors of a mean square, and of a mean product, of 10,000 normal numbers.
+  // Tolerance: four standard errors of a mean square, and of a mean product, of 10,000 normal
+  // numbers.
   EXPECT_NEAR(squares / count, 1.0, 4.0 * std::sqrt(2.0 / count));
   EXPECT_NEAR(products / count, 0.0, 4.0 / std::sqrt(count));
 }

@@ -194,7 +194,7 @@ TEST(Scrub, IsAtLeastTheLargestMomentWithoutATurn) {
   EXPECT_DOUBLE_EQ(*model.yaw_held_m, 0.09);
   EXPECT_THAT(codes(model), Contains("scrub-holds"));
   EXPECT_THAT(codes(model), Contains("few-scrub-rows"));
-  // The next turns use more than the static moment, up to sliding tyres.
+  // The suggested turns use moments from the static scrub moment up to that of sliding tyres.
   const auto suggestion = suggest(model, {});
   ASSERT_TRUE(suggestion) << to_text(suggestion.error());
   ASSERT_FALSE(suggestion->scrub_turns.empty());

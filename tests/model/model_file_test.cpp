@@ -272,8 +272,8 @@ TEST(ModelFile, RefusesSizesThatContradictEachOtherUnlessIdentifyAcceptedThem) {
       {"/vehicle/half_track_m", 0.001},    // refused: the wheels are in the middle
       {"/vehicle/front_axle_m", 0.7},      // refused: the front axle is ahead of the body
       {"/vehicle/length_m", 90.0},         // refused: 100 times longer than wide
-      {"/vehicle/mass_kg", 37000.0},       // g
-      {"/vehicle/steering/max_deg", 0.35}  // rad
+      {"/vehicle/mass_kg", 37000.0},       // refused: g
+      {"/vehicle/steering/max_deg", 0.35}  // refused: rad
   };
   for (const Edit& edit : edits) {
     EXPECT_THAT(faults_after(edit), ElementsAre(StartsWith(edit.pointer)))

@@ -307,7 +307,7 @@ TEST_F(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
   }
 }
 
-/// Every vehicle of the batch has another back-EMF; one has none.
+/// Each vehicle of the batch has a different back-EMF; one has none.
 TEST_F(Batch, IsTheRunOfSimulateWithBackEmf) {
   std::vector<BatchRun> runs = drawn_runs(3, 0.2);
   for (std::size_t i = 1; i < runs.size(); ++i) {

@@ -34,7 +34,8 @@ TEST(Families, SettleAtTheSteadySpeedOfTheLawWithDeadZone) {
     Plant<double> plant = plant_of(c.surge, c.dead_zone);
     const Vehicle vehicle = paper_vehicle();
     Controller<double> controller = make_controller(plant, vehicle, {});
-    // In open loop the controller must not compensate the dead zone.
+    // Switches off the compensation of the dead zone, because the test commands fixed motor forces
+    // in open loop.
     controller.limits.dead_zone = 0.0;
     const Scenario scenario{"open loop", 5.0, {}, 0.0, OpenLoop{1.2, 0.0}};
     const awmr::Run run = simulate(plant, controller, scenario, YawMode::kDifferential,

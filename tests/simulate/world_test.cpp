@@ -314,7 +314,7 @@ TEST(SensorChannels, HaveNoiseWithACorrelationTime) {
       ++count;
     }
   }
-  // 100,000 readings, as many as 2,500 independent ones.
+  // Tolerance: 100,000 correlated readings determine the deviation like 2,500 independent ones.
   EXPECT_NEAR(std::sqrt(squares / count), 0.02, 0.001);
   EXPECT_NEAR(products / squares, std::exp(-0.01 / 0.2), 0.01);
 }

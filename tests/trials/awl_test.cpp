@@ -149,7 +149,7 @@ TEST(Awl, RowsThatMeasureNothingAreSetAside) {
     if (i < 5) row.fault = 0x08;  // fault kFaultHeadingStale: no heading yet
     if (i == 20) row.u_mps = std::numeric_limits<float>::quiet_NaN();  // no number
     if (i == 25) row.psi_rad = std::numeric_limits<float>::infinity();
-    if (i == 30) row.fault = 0x20;  // an old command is not a measurement fault
+    if (i == 30) row.fault = 0x20;  // kFaultCommandTimeout: not a fault of a measurement
     bytes += awl_bytes(row);
   }
   const auto log = read_awl(bytes, "a.awl");

@@ -111,7 +111,7 @@ TEST(TurningTrial, RefusesNegativeAndImpossibleCellsAllAtOnce) {
                   StartsWith("5:11: "), StartsWith("6:1: ")));
 }
 
-/// A vehicle without steering with half_track_m 0.36.
+/// Reads a turning table for a vehicle without steering with half_track_m 0.36.
 const auto kReadSides = [](const std::filesystem::path& path, const TrialOptions& options,
                            std::vector<Finding>& findings) {
   Vehicle vehicle = paper_vehicle();

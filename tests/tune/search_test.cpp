@@ -462,7 +462,7 @@ TEST(Conditions, AreThoseOfTheVehicleOrTheDefaults) {
   const Scenario under_them = under(c, default_tuning_scenario(paper_model()).value());
   EXPECT_DOUBLE_EQ(under_them.sensors->heading.noise, radians(0.3));
   EXPECT_EQ(under_them.sensors->speed.latency_s, 0.05);
-  // A scenario's own sensors have precedence.
+  // Sensors that the scenario defines itself are kept.
   Scenario own = default_tuning_scenario(paper_model()).value();
   own.sensors = Sensors{};
   EXPECT_EQ(under(c, own).sensors->heading.noise, 0.0);

@@ -22,7 +22,7 @@ class GpsCheck {
  public:
   constexpr explicit GpsCheck(const Limits& limits = Limits()) : limits_(limits) {}
 
-  /// Starts the time-out of the first sentence.
+  /// Starts the time-out for the first GPS sentence.
   void begin(uint32_t now_ms) { sentence_ms_ = now_ms; }
 
   /// Processes a sentence without a usable fix; sentences other than RMC are ignored.

@@ -41,7 +41,7 @@ struct MetricsRow {
   State<T> state;
   SideForces<T> force;     ///< motor commands, over F_max: RunRow::force
   WheelForces<T> acting;   ///< applied over the sample that ends at this row: RunRow::acting
-  T steering_command_rad;  ///< d_ro: commanded steering angle
+  T steering_command_rad;  ///< d_ro: commanded steering angle, rad
   T yaw_resistance_m;      ///< g3(r) of the controller's model
   T goal_rad;              ///< the heading commanded by the guidance, before avoidance and shaping
   T cross_track_m;         ///< distance from the current leg, line or path, left positive

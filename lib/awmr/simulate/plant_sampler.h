@@ -47,8 +47,8 @@ class PlantSampler {
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
   /// Latin hypercube of `count` draws, which are evenly distributed even if they are few. Each
-  /// standard normal of a draw has one value in each of `count` strata of equal probability; the
-  /// seed determines their order and the position within a stratum. The i-th draw, if it has a
+  /// standard normal number has one value in each of `count` strata of equal probability. The seed
+  /// determines the order of the strata and the position within each. The i-th draw, if it has a
   /// negative exponent or term, is replaced by draw(seed, i), i from 1.
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 

@@ -17,7 +17,7 @@
 
 namespace awmr {
 
-/// View of the row of a single run (Row = double): the numbers themselves.
+/// View for a single run (Row = double): gives access to the numbers themselves.
 struct OneRun {
   using Number = double;
   template <class Numbers>

@@ -194,12 +194,12 @@ void drive_and_stop(double seconds) {
 void fill_the_lines(uint32_t phase_ms) {
   World& w = world;
   w.gps_delay_ms = phase_ms;
-  start_and_arm(0.2, 10);  // the calibration at rest takes a number of steps
+  start_and_arm(0.2, 10);  // 10 s, because the calibration at rest takes a fixed number of steps
   const bool was_armed = safety.is_armed();
   w.say("S 0.8\n");
   w.run(20);
   const bool drove = safety.is_armed() && w.u > 0.3;
-  w.keep = "KEEP\nKEEP\n", w.keep_period_ms = 1;  // 10 of 11.5 characters a ms
+  w.keep = "KEEP\nKEEP\n", w.keep_period_ms = 1;  // 10 characters per ms; the line takes 11.5
   w.run(3);
   w.keeps = false;
   std::string packet;

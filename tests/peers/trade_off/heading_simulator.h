@@ -27,7 +27,7 @@ struct Body {
 struct Geometry {
   double front_axle_m = 0.0, half_track_m = 0.0;
   double steering_max_rad = 0.0, steering_rate_radps = 0.0;
-  double servo_s = 0.0;  ///< 0: no steering
+  double servo_s = 0.0;  ///< time constant of the servo; 0: no steering
   double sample_s = 0.0;
   double force_min = -1.0, force_max = 1.0;  ///< range of the force of one wheel, over F_max
   double motor_s = 0.0;                      ///< time constant of the motors' lag

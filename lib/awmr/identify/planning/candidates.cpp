@@ -17,7 +17,7 @@ namespace {
 
 /// Rate of the rows of logs and coast-downs.
 constexpr double kRate_hz = 100.0;
-/// Speed (m/s) or yaw rate (rad/s) in place of rest, whose logarithm does not exist.
+/// Speed (m/s) or yaw rate (rad/s) that replaces 0, whose logarithm does not exist.
 constexpr double kAtRest = 1e-6;
 
 /// Relative standard deviation of the model's measured rows of this kind of trial about its

@@ -212,7 +212,7 @@ OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyO
   }
   for (std::size_t i = 0; i < truths.size(); ++i) {
     const Estimate& estimate = identified->model[truths[i].id];
-    // An assumed sway resistance is not an estimate.
+    // Skips an assumed sway resistance, which is not an estimate from the trials.
     if (estimate.method != kAssumedSwayMethod) run.found.estimates[i] = interval_of(estimate);
   }
   return run;

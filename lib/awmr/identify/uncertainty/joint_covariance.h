@@ -21,13 +21,14 @@ class JointCovariance {
 
   /// Appends a block and returns the index of its first number.
   Eigen::Index add_block(const Eigen::MatrixXd& covariance);
-  /// Sets the gradient of a parameter; replaces an earlier gradient.
+  /// Sets the gradient of a parameter. Replaces an earlier gradient.
   void set(ParameterId id, Gradient gradient) { gradients_[id] = std::move(gradient); }
   bool has(ParameterId id) const { return gradients_.contains(id); }
   /// Variance of a parameter with this gradient.
   double variance(const Gradient& gradient) const;
   const Gradient& gradient(ParameterId id) const { return gradients_.at(id); }
-  /// Covariance of the parameters with a gradient, in the order of ParameterId. Exactly symmetric.
+  /// Covariance of all parameters for which set() was called, in the order of ParameterId. Exactly
+  /// symmetric.
   Covariance covariance() const;
 
  private:
