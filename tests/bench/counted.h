@@ -6,8 +6,8 @@
 
 namespace awmr::bench {
 
-/// Numbers of operations so far in this program. Comparisons, changes of sign and selections do not
-/// count.
+/// Numbers of operations so far in this program. Comparisons, changes of sign and selections are
+/// not counted.
 struct Operations {
   double additions = 0.0;  ///< and subtractions
   double multiplications = 0.0;

@@ -15,8 +15,8 @@ constexpr int kRounds = 10000;
 using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
 
-/// Repeats s = s x + y for twelve sums s; x and y keep them near 1. The compiler cannot remove this
-/// work: x and y are hidden from it, and the sums appear to be read.
+/// Repeats s = s x + y for twelve sums s; x and y keep the sums near 1. The compiler cannot remove
+/// the work, because empty assembler statements hide x and y from it and seem to read the sums.
 #define AWMR_FMA_ROUNDS(Vector)                                              \
   Vector x = Vector{} + 0.999;                                               \
   Vector y = Vector{} + 0.001;                                               \

@@ -2,7 +2,7 @@
 % Run by scripts/bench.
 %
 % usage: octave-cli octave_loop.m MODEL.json GAINS.json SCENARIO.json SUBSTEPS
-%   SUBSTEPS  of awmr, which the chord at rest hangs on; lsode chooses its own steps
+%   SUBSTEPS  RK4 steps per sample in awmr, which determine the chord at rest; lsode chooses its own steps
 1;  % a script, not a function
 
 function y = saturate(x, limit)

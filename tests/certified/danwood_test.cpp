@@ -28,8 +28,8 @@ TEST(DanWood, ParametersAndStandardDeviationsAgreeToSixDigits) {
   ASSERT_TRUE(result);
   const Estimate& alpha = result->model[ParameterId::kSurgeAlpha];
   const Estimate& beta = result->model[ParameterId::kSurgeBeta];
-  // Certified values; alpha and its deviation carry the force's factor 0.1. Six digits: 1e-6
-  // relative.
+  // Certified values. alpha and its standard deviation are scaled by the force's factor 0.1. Six
+  // digits are required: 1e-6 relative.
   EXPECT_NEAR(*alpha.value, 0.1 * 7.6886226176e-01, 1e-6 * 0.0769);
   EXPECT_NEAR(*alpha.std_error, 0.1 * 1.8281973860e-02, 1e-6 * 0.00183);
   EXPECT_NEAR(*beta.value, 3.8604055871e+00, 1e-6 * 3.86);

@@ -71,7 +71,8 @@ TEST(BadNumber, IsRefusedByEveryNumericOption) {
   }
 }
 
-/// Options whose value is a time on a log's clock. Such a time may be negative.
+/// Options whose value is a time on a log's clock: negative times are accepted, other invalid
+/// numbers refused.
 TEST(BadNumber, IsRefusedAsATime) {
   const std::string files =
       "identify --vehicle configs/paper/vehicle.json "

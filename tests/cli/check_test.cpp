@@ -35,7 +35,8 @@ class Check : public ::testing::Test {
       json["speed_mps"] = 0.8;
       write(scenario, json);
     }
-    // Truth: a1 = 2.2, b1 = 0.7, a3 = 0.05, b3 = 0.8, m' = 0.9, timed to 0.01 s.
+    // Runs of a vehicle with a1 = 2.2, b1 = 0.7, a3 = 0.05, b3 = 0.8, m' = 0.9; times are rounded
+    // to 0.01 s.
     write_all(path("surge.csv"),
               "wheel_force,distance_m,elapsed_s\n0.2,5,21.21\n0.3,5,11.89\n0.4,5,7.88\n"
               "0.5,5,5.73\n0.7,5,3.54\n0.9,5,2.47\n");
@@ -107,7 +108,8 @@ TEST_F(Check, TablesWithoutASwayResistanceGiveGainsAndAHeader) {
   EXPECT_THAT(result.err, HasSubstr("assumed-sway"));
   const nlohmann::ordered_json model = read("out/model.json");
   const auto& sway = model["sway"]["alpha"];
-  // sqrt(0.5 * 16) g m'/u at half of the fastest surge run, 2.02 m/s, with the fitted m'.
+  // Assumed sway resistance c g m'/u with c = sqrt(0.5 * 16), at half the speed of the fastest
+  // surge run, 2.02 m/s, with the fitted m'.
   const double value =
       std::sqrt(8.0) * 9.80665 * model["mass_norm"]["value"].get<double>() / 1.0121;
   EXPECT_NEAR(sway["value"].get<double>(), value, 1e-3 * value);
@@ -233,7 +235,7 @@ TEST_F(Check, ContradictionsOfTheTrialsNameTheUnitFix) {
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("surge.csv:2: tau_speed is"), HasSubstr("8-bit PWM counts"),
                     HasSubstr("`columns` 'wheel_force="), HasSubstr("[contradiction]")));
-  EXPECT_THAT(result.err, Not(HasSubstr("--column")));  // an option that check does not have
+  EXPECT_THAT(result.err, Not(HasSubstr("--column")));  // `check` has no option --column
 }
 
 TEST_F(Check, MillisecondsOfEveryTrialAreNamed) {

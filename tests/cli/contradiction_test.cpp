@@ -96,7 +96,7 @@ TEST_F(Contradiction, MergeRefusesAPartWithEditedRows) {
     write_all(path("1/comparison.csv"), text);
   };
   for (const char* number : {"nan", "inf", "1e308"}) {
-    // The row's fifth cell is the settling time.
+    // Finds the fifth cell of the row, the settling time.
     std::size_t cell = row;
     for (int i = 0; i < 4; ++i) cell = csv.find(',', cell) + 1;
     with(csv.substr(0, cell) + number + csv.substr(csv.find(',', cell)));

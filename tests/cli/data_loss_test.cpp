@@ -178,7 +178,7 @@ TEST_F(DataLoss, APipeInAResultsDirectoryIsRefused) {
     const bool is_model = name == std::string("model.json");
     if (is_model) fs::rename(at, path("kept.json"));
     ASSERT_EQ(::mkfifo(at.c_str(), 0600), 0);
-    // Another program has it open and writes nothing.
+    // Another program has the pipe open for writing, but writes nothing.
     const int held = ::open(at.c_str(), O_RDWR | O_CLOEXEC);
     const std::string command = name == std::string("shard.json")
                                     ? "merge " + path(".") + " -o " + path("merged")
@@ -249,7 +249,7 @@ int end_while_writing(const fs::path& directory, const std::string& output, int 
     const int nowhere = ::open("/dev/null", O_RDWR);
     ::dup2(nowhere, 1);
     ::dup2(nowhere, 2);
-    std::signal(signal, SIG_DFL);  // the shell may ignore it
+    std::signal(signal, SIG_DFL);  // the test's shell may have set it to be ignored
     ::execl(AWMR_PROGRAM, AWMR_PROGRAM, "init", "--example", output.c_str(), nullptr);
     ::_exit(127);
   }
@@ -271,7 +271,7 @@ int end_while_writing(const fs::path& directory, const std::string& output, int 
 TEST_F(DataLoss, ASignalWhileFilesAreWrittenLeavesNoTemporaryFile) {
   for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGQUIT}) {
     int ended_by = 0;
-    // It may have finished writing before it is stopped.
+    // Several attempts, because the program may have finished writing before it is stopped.
     for (int attempt = 0; attempt < 100 && ended_by == 0; ++attempt) {
       ended_by = end_while_writing(directory_.path(), path("example"), signal);
       EXPECT_FALSE(has_temporary_file(directory_.path())) << signal;

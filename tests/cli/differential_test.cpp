@@ -87,7 +87,7 @@ TEST_F(DifferentialDrive, IsIdentified) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, Not(HasSubstr("steering")));
   const ordered_json model = ordered_json::parse(read_all(path("model.json")));
-  // An error of 1 % in ten rows.
+  // Tolerance: each of the ten rows has an error of 1 %.
   EXPECT_NEAR(model["yaw"]["alpha"]["value"].get<double>(), 0.4, 0.01);
   EXPECT_NEAR(model["yaw"]["beta"]["value"].get<double>(), 0.9, 0.02);
   EXPECT_NEAR(model["mass_norm"]["value"].get<double>(), 0.5, 0.05);
@@ -192,7 +192,8 @@ TEST_F(DifferentialDrive, IsIdentifiedFromALogWithoutSteeringColumns) {
   const ProcessResult result = awmr(command);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const ordered_json model = ordered_json::parse(read_all(path("model.json")));
-  // The generator omits sway, which takes less than a few per cent at these rates.
+  // Tolerance: the generator omits sway, which changes the result by at most a few per cent at
+  // these yaw rates.
   EXPECT_NEAR(model["surge"]["alpha"]["value"].get<double>(), 1.2, 0.06);
   EXPECT_NEAR(model["yaw"]["alpha"]["value"].get<double>(), 0.4, 0.02);
   EXPECT_NEAR(model["mass_norm"]["value"].get<double>(), 0.5, 0.03);

@@ -241,8 +241,8 @@ TEST_F(Honesty, FindingsOnStderrAreThoseOfTheFile) {
   EXPECT_THAT(seen, Not(IsEmpty()));
 }
 
-/// The document without what may depend on the order of the files: the list of inputs, and the
-/// order of keys.
+/// Returns the document without the parts that depend on the order of the files: the list of inputs
+/// and the order of keys.
 nlohmann::json without_inputs(const Json& document) {
   nlohmann::json unordered = nlohmann::json::parse(document.dump());
   unordered.erase("inputs");

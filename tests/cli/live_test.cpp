@@ -29,8 +29,8 @@ const std::string kDrive = std::string(AWMR_SOURCE_DIR) + "/datasets/synthetic/d
 const std::string kVehicle = " --vehicle configs/paper/vehicle.json";
 const std::string kPowerLaw = " --family power";
 
-/// Ends a shell command `{ COMMAND`: after COMMAND, empty lines are sent as long as there is a
-/// reader, as by a recorder without data.
+/// Completes a shell command `{ COMMAND`: after COMMAND, it sends empty lines while there is a
+/// reader, like a recorder without data.
 const std::string kOnAndOn = "; while echo; do sleep 0.1; done 2>/dev/null; }";
 
 class Live : public ::testing::Test {
@@ -80,7 +80,7 @@ class Live : public ::testing::Test {
 };
 
 TEST_F(Live, APipeInPiecesEndsInTheLogAndItsModel) {
-  // Split within lines and numbers.
+  // The stream is split within lines and within numbers.
   const ProcessResult run = shell("{ head -c 20011 " + kDrive + "; sleep 0.4; tail -c +20012 " +
                                   kDrive + " | head -c 30000; sleep 0.4; tail -c +50012 " + kDrive +
                                   "; } | " + live("--log - --every 0.1", ""));
@@ -105,7 +105,7 @@ TEST_F(Live, IsReportedOnceInJson) {
 
 TEST_F(Live, AWrongUnitIsReportedDuringTheDrive) {
   const std::string drive = drive_with("speed_mps", 3.6);
-  // Ten seconds of the drive, then nothing until it is reported.
+  // Sends ten seconds of the drive, then nothing until the finding is reported.
   const ProcessResult run =
       shell("{ head -n 1001 " + drive + "; for i in $(seq 200); do grep -q km/h " +
             path("messages") + " && break; sleep 0.1; done; } | " + live("--log - --every 0.1") +
@@ -136,7 +136,7 @@ TEST_F(Live, AGrowingFileIsFollowedUntilNothingMoreComes) {
 }
 
 TEST_F(Live, KeepsLogAndModelWhereItsTerminalIsClosed) {
-  // Two signals, because kernel and shell each send one.
+  // Sends two signals, as on a terminal, where kernel and shell each send one.
   const ProcessResult run = shell("{ head -n 1400 " + kDrive + kOnAndOn + " | { exec 3<&0; " +
                                   live("--log - --every 0.2") +
                                   " <&3 & pid=$!; sleep 1.5; kill -HUP $pid; sleep 0.1; "

@@ -27,10 +27,10 @@ using ::testing::StartsWith;
 struct Case {
   int line = 0;       ///< line in malformed.txt
   std::string kind;   ///< malformed input: a file of this kind, or the command line
-  std::string edit;   ///< change of a valid file; a complete command line
+  std::string edit;   ///< change of a valid file, or a complete command line
   std::string place;  ///< place in the error, after the file's name
-  std::string code;   ///< the error's
-  std::string text;   ///< of the message: a number, a name or a suggestion; empty: any
+  std::string code;   ///< error code
+  std::string text;   ///< text in the message: a number, name or suggestion; empty: any
 };
 
 std::vector<std::string> split(const std::string& line) {
@@ -200,7 +200,7 @@ class Malformed : public ::testing::TestWithParam<Kind> {
   /// Runs within 10 s of CPU time and 2 GiB, far more than any refusal needs.
   static ProcessResult run_bounded(const std::string& arguments) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    const std::string bounds = "ulimit -t 60; ";  // these reserve terabytes of addresses
+    const std::string bounds = "ulimit -t 60; ";  // sanitizers reserve terabytes of addresses
 #else
     const std::string bounds = "ulimit -t 10; ulimit -v 2097152; ";
 #endif

@@ -14,7 +14,8 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// One run of the whole pipeline, shared by the tests below; kept in the folder AWMR_PAPER_RUN, if set, for examples.py.
+/// One run of the whole pipeline, shared by the tests below; kept in the folder AWMR_PAPER_RUN, if
+/// set, for examples.py.
 class Pipeline : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -73,7 +74,8 @@ TEST_F(Pipeline, NamesItsInputsRelativeToTheProjectAndItsOwnFilesByTheirNames) {
 }
 
 TEST_F(Pipeline, ReproducesTheReferenceFitsOfTables2And3) {
-  // Recomputed from the printed tables to their precision: half a unit in the last place.
+  // Values recomputed from the paper's printed tables; the tolerance is half a unit of the last
+  // printed digit.
   const Json model = json("model.json");
   EXPECT_NEAR(model["/surge/alpha/value"_json_pointer].get<double>(), 1.3157, 5e-5);
   EXPECT_NEAR(model["/surge/beta/value"_json_pointer].get<double>(), 0.8841, 5e-5);
@@ -104,7 +106,7 @@ TEST_F(Pipeline, TunedGainsBeatThePapersInEveryModeUnderTheConstraint) {
   for (const Json& constraint : gains.at("constraints")) EXPECT_GE(constraint.at("margin"), 0.0);
 }
 
-/// With a short search.
+/// Two runs with the same inputs and a short search for gains write identical files.
 TEST_F(Pipeline, GivesTheSameBytesAgain) {
   const TemporaryDirectory one, two;
   write_all(one.path() / "tune.json",

@@ -35,7 +35,7 @@ class PlantOption : public ::testing::Test {
   static std::string with(const std::string& command, const std::string& words) {
     return fmt::format("{} --model {} --gains {} {}", command, model_, gains_, words);
   }
-  /// C3 with additional keys, as a file.
+  /// Writes the scenario C3 with one key set to `value` and returns the path.
   std::string changed_c3(const std::string& key, const Json& value) const {
     Json scenario = Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/" + kC3));
     scenario["name"] = "changed";

@@ -110,7 +110,7 @@ TEST_F(ShardsOfCommands, OfDifferentKindsAreNotMixed) {
 }
 
 TEST_F(ShardsOfCommands, OfAProcessorThatRoundsDifferentlyAreNotMixed) {
-  // As the C library behaves on a processor without fused multiply-add.
+  // Makes the C library behave as on a processor without fused multiply-add, whose results differ.
   const std::string other = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4 ";
   expect_done(awmr(recover("--shard 1/2 -o " + path("1"))));
   expect_done(run_process(other + AWMR_PROGRAM + " " + recover("--shard 2/2 -o " + path("2")),

@@ -21,7 +21,7 @@ class Terminal : public ::testing::Test {
            "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
            path("model.json");
   }
-  /// Runs in a separate terminal, stdout and stderr combined.
+  /// Runs the program in a pseudo-terminal. Returns stdout and stderr combined.
   static std::string on_terminal(const std::string& environment, const std::string& arguments) {
     return run_process("TERM=xterm " + environment + " script -qec '" + AWMR_PROGRAM + " " +
                            arguments + "' /dev/null",

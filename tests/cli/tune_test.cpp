@@ -59,7 +59,7 @@ TEST_F(TunedGains, AreComparedWithTheFileThatIsGivenAsBaseline) {
     is_input = is_input || input.at("name") == "own.json";
   }
   EXPECT_TRUE(is_input) << json.at("inputs");
-  // The paper's gains are evaluated as well, as the baseline is another.
+  // The baseline is another set of gains, so the paper's gains are evaluated in addition to it.
   EXPECT_TRUE(json.at("robust").at("quantiles").at("steering").contains("paper"));
 }
 

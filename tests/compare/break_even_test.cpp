@@ -34,8 +34,8 @@ Result<Comparison> compared(const Scenario& scenario, CompareOptions options = {
   return compare(uncertain_model(), kPaperGains, {scenario}, options);
 }
 
-/// True if by simulate(), with the scrub moment `moment_m` in both modes, the entry's mode settles
-/// and scores no worse than the other one.
+/// True if, with the scrub moment `moment_m` in the runs of both modes by simulate(), the entry's
+/// mode settles and its score is no worse than that of the other mode.
 bool leads(const Scenario& scenario, const Comparison& comparison, const BreakEven& entry,
            double moment_m) {
   const Model model = uncertain_model();
@@ -112,7 +112,8 @@ TEST(BreakEven, IsRefusedForPartsAndSeveralSetsOfGains) {
   EXPECT_EQ(exit_code(sets.error()), 2);
 }
 
-/// Comparison of a model whose differential turns have a measured scrub moment.
+/// Comparison for a model with this measured scrub moment of differential turns; empty: not
+/// measured.
 Comparison table_with(const std::optional<YawScrub>& scrub, std::optional<double> held_m = {}) {
   Model model = uncertain_model();
   model.yaw_scrub = scrub;

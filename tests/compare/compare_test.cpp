@@ -86,7 +86,7 @@ TEST(Compare, SampleZeroIsTheModelItself) {
         metrics_of(simulate(plant, controller, scenario, kYawModes[i],
                             {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}}),
                    scenario, controller);
-    // Batches round differently from simulate(), by 1e-13 or so: tests/simulate/batch_test.cpp.
+    // Batches round differently from simulate(), by about 1e-13 (tests/simulate/batch_test.cpp).
     const double expected = *direct.heading_iae_degs;
     EXPECT_NEAR(*c.rows[4 * i].metrics.heading_iae_degs, expected, 1e-9 * expected);
     EXPECT_EQ(nominal.rows[i].metrics.heading_iae_degs, c.rows[4 * i].metrics.heading_iae_degs);
@@ -113,7 +113,8 @@ TEST(Compare, ASampleIsTheSameVehicleInEveryScenarioAndMode) {
   const Comparison c = compared({.samples = 3, .seed = 5, .threads = 2}, {straight, again});
   for (std::size_t sample = 0; sample < 4; ++sample) {
     for (std::size_t other = 1; other < 6; ++other) {
-      // The modes' formulas for F' round differently: some 100 steps of a few 1e-16 on 1 m.
+      // Tolerance: the formulas of the modes for F' round differently, by a few 1e-16 in each of
+      // about 100 steps of a path of 1 m.
       EXPECT_NEAR(c.rows[sample].metrics.path_length_m,
                   c.rows[4 * other + sample].metrics.path_length_m, 1e-12);
     }
@@ -170,7 +171,7 @@ TEST(Compare, RankingDoesNotDependOnTheOrderOfGains) {
   const CompareOptions options{.samples = 6, .seed = 3};
   Gains<double> faster = kPaperGains;
   faster.heading.lambda *= 1.5;
-  // The second and third are equal except for their names.
+  // The second and third sets of gains are equal except for their names.
   std::vector<NamedGains> gains{{"a.json", kPaperGains}, {"c.json", faster}, {"b.json", faster}};
   const auto ranking = [&] {
     const auto c = compare(uncertain_model(), gains, {short_heading()}, options);
@@ -265,7 +266,7 @@ TEST(ComparisonCsv, HasTheContractsColumns) {
   EXPECT_EQ(first[2], "0");
   EXPECT_EQ(first[3], "1");
   EXPECT_EQ(first[7], "");   // no line for a cross-track error
-  EXPECT_EQ(first[13], "");  // no obstacle
+  EXPECT_EQ(first[13], "");  // empty, because there is no obstacle
 }
 
 TEST(ComparisonCsv, LeavesHeadingMetricsEmptyInOpenLoop) {

@@ -130,7 +130,7 @@ TEST(Decision, ChangesAreRunsOnTheOtherPlantAndWithOtherGains) {
   const auto comparison = compared({scenario, short_open_loop()}, 3);
   ASSERT_TRUE(comparison) << to_text(comparison.error());
   ASSERT_THAT(comparison->changes,
-              SizeIs(3));  // of the heading scenario only: in open loop nothing is ranked
+              SizeIs(3));  // modes of the heading scenario only: open loop has no ranking
   Scenario tyres = scenario;
   tyres.tyres.emplace();
   Gains<double> slower = kPaperGains;
@@ -164,9 +164,9 @@ TEST(Decision, DoesNotDependOnThreadsAndIsInTheFile) {
   EXPECT_EQ(text, comparison_text(*many, options, provenance));
   const Json json = Json::parse(text);
   const Json& decision = json.at("scenarios").at(0).at("decision");
-  EXPECT_EQ(decision.at("changes").size(), 4U);  // weights, plant, slower, faster
+  EXPECT_EQ(decision.at("changes").size(), 4U);  // weights, plant, slower gains, faster gains
   const Json& counts = json.at("decisions");
-  // Both have the same runs: one scenario.
+  // Both entries have the same runs, so they count as one scenario.
   EXPECT_EQ(counts.at("decided").get<int>() + counts.at("level").get<int>() +
                 counts.at("undecided").get<int>(),
             1);

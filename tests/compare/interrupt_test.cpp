@@ -28,8 +28,8 @@ TEST(Interrupt, LeavesValidFilesAndResumeEndsInTheSameBytes) {
            "--samples " +
            samples + " -o " + out + "/" + to;
   };
-  // Far more work than the time allows, so that the signal interrupts it; more time if a busy
-  // machine has not finished a sample yet.
+  // The comparison needs far more time than it gets, so that the signal interrupts it. It gets more
+  // time if a busy machine has not finished a sample yet.
   auto stopped = in_source("timeout --signal=INT 1 " + compare("200000", "part"));
   for (const char* seconds : {"2", "4", "8", "16"}) {
     if (stopped.err.find("--resume") != std::string::npos) break;

@@ -55,8 +55,8 @@ TEST(Summary, WithoutSamplesHasTheNominalMeanAndNoQuantiles) {
   EXPECT_FALSE(s.q05 || s.q50 || s.q95);
 }
 
-/// Samples in which the metric of steering is 1 larger than that of differential; both have common
-/// noise.
+/// Comparison in whose samples the metric of steering exceeds that of differential by 1 on average.
+/// Both metrics contain the same noise.
 Comparison paired(int samples, double difference_spread) {
   Comparison c;
   for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {
@@ -83,7 +83,7 @@ TEST(PairedDifferences, CancelCommonVariation) {
   EXPECT_EQ(d.first.mode, YawMode::kDifferential);
   EXPECT_EQ(d.second.mode, YawMode::kSteering);
   EXPECT_EQ(d.count, 100U);
-  // Differences of numbers near 50: a few units of 50 * 2^-53.
+  // Tolerance: rounding of differences of numbers near 50, a few times 50 * 2^-53.
   EXPECT_NEAR(*d.mean, -1.0, 1e-13);
   ASSERT_TRUE(d.ci95);
   EXPECT_NEAR(d.ci95->lo, -1.0, 1e-13);
@@ -247,7 +247,8 @@ TEST(Ranking, DistinguishesEquivalentUndecidedAndBehind) {
   EXPECT_NEAR(ranking[2].score, std::pow((20.0 + 2.0) / (10.0 + 2.0), 0.25), 2e-3);
   EXPECT_TRUE(ranking[2].behind_ci95->contains(ranking[2].score));
   EXPECT_THAT(ranking[2].dominated_by, ElementsAre("differential", "steering"));
-  // Equal within the relevance margin: neither is first alone.
+  // The two scores are equal within the relevance margin, so each counts as first in half of the
+  // samples.
   EXPECT_EQ(ranking[0].first_by_samples, 0.5);
   EXPECT_EQ(ranking[1].first_by_samples, 0.5);
   EXPECT_DOUBLE_EQ(ranking[0].first_by_weights, ranking[1].first_by_weights);

@@ -33,7 +33,7 @@ Comparison twenty(double behind_s, double spread_s, int failures = 0) {
 }
 
 struct Evaluated {
-  Comparison comparison;  // the other object refers to its rows
+  Comparison comparison;  // keeps the rows alive, to which the ranking refers
   EvaluatedScenario scenario;
 };
 

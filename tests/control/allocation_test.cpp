@@ -81,7 +81,7 @@ class Reference41 {
   }
 
  private:
-  /// l_f tau_speed sin d_r/(1 + cos d_r) = moment by bisection in [-stop, stop].
+  /// Solves l_f tau_speed sin d_r/(1 + cos d_r) = moment for d_r, by bisection in [-stop, stop].
   double angle_rad(double speed, double moment_m) const {
     if (speed < 1e-6) return 0.0;
     double lo = -stop_rad, hi = stop_rad;
@@ -111,8 +111,8 @@ class Reference41 {
   bool clipped = false;
 };
 
-/// Rounding: 60 bisections end within 1e-16 rad; tau_turn/(l_f tau_speed) amplifies that of its
-/// operands, 2e-16, to at most 1e-13 within the stop.
+/// Tolerance: 60 bisections end within 1e-16 rad; the rounding of the operands of tau_turn/(l_f
+/// tau_speed), 2e-16, is amplified to at most 1e-13 within the stop.
 TEST(Allocation, IsTheSolutionOfEquation41InEveryModeAndAtEveryLimit) {
   EXPECT_TRUE(rc::check([] {
     AllocationLimits<double> l =
@@ -369,7 +369,8 @@ TEST(Allocation, FloatIsClippedAsEveryScalarIs) {
   }
 }
 
-/// Inside the limits the motor forces at wheel speed equal the allocated ones.
+/// Inside the limits, motors with back-EMF make exactly the allocated forces at the speeds of their
+/// wheels.
 TEST(Allocation, MotorsWithBackEmfMakeTheForcesOfTheAllocation) {
   EXPECT_TRUE(rc::check([] {
     AllocationLimits<double> l = limits();

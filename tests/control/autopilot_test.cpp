@@ -65,7 +65,7 @@ class AutopilotLeads : public PaperAutopilot {
   AutopilotInput in_ = good();
 };
 
-/// Path from the origin past (5, 5) to (10, 0) and beyond.
+/// Positions of a vehicle that drives from the origin past (5, 5) to (10, 0) and beyond, m.
 std::vector<Position<float>> drive() {
   std::vector<Position<float>> places;
   for (int i = 0; i <= 50; ++i) {
@@ -421,7 +421,8 @@ TEST_F(AutopilotLeads, ByAnEstimateThatGoesOnWithoutACommandAndIsStartedAgainWit
     return out.fault;
   };
   EXPECT_EQ(step_without(&InputTimes::command_ms), kFaultCommandTimeout);
-  // 22 steps of 0.03 m.
+  // The first of 22 steps starts the estimate at the fix. The other 21 move it by 0.03 m each: 0.63
+  // m.
   EXPECT_NEAR(step_at({0.0F, 0.0F}).psi_ref_rad, std::atan2(5.0F, 5.0F - 0.63F), 1e-4F);
   EXPECT_EQ(step_without(&InputTimes::speed_ms), kFaultSpeedStale);
   EXPECT_NEAR(step_at({0.0F, 0.0F}).psi_ref_rad, std::atan2(5.0F, 5.0F), 1e-4F);

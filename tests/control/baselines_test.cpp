@@ -25,7 +25,7 @@ TEST(PurePursuit, GoesToTheFartherPointOfTheLineThatIsTheLookaheadAway) {
   const Pursued line{points, 2, 0.0, {5.0, false}};
   auto progress = start_polyline(0.0);
   const auto guided = guide(line, P{10.0, 3.0}, kStraight, progress);
-  EXPECT_NEAR(guided.psi_rad, std::atan2(-3.0, 4.0), 1e-15);  // to (14, 0): 3, 4, 5
+  EXPECT_NEAR(guided.psi_rad, std::atan2(-3.0, 4.0), 1e-15);  // towards (14, 0), 5 m away
   EXPECT_NEAR(guided.cross_track_m, 3.0, 1e-15);
   EXPECT_NEAR(guided.to_go_m, 90.0, 1e-12);
   // Farther than the lookahead: steer to the nearest point; before the line's start: to the start.
@@ -44,7 +44,7 @@ TEST(PurePursuit, TakesSideslipOffOnlyWhereRequested) {
 }
 
 TEST(PurePursuit, TheGoalTurnsTheCornerBeforeTheVehicleWithoutAJump) {
-  const P points[] = {{0, 0}, {10, 0}, {10, 0}, {10, 10}};  // one segment has no length
+  const P points[] = {{0, 0}, {10, 0}, {10, 0}, {10, 10}};  // the second segment has length 0
   const Pursued line{points, 4, 0.0, {2.0, false}};
   auto progress = start_polyline(0.0);
   EXPECT_NEAR(guide(line, P{7.999, 0.0}, kStraight, progress).psi_rad, 0.0, 1e-12);
@@ -52,9 +52,10 @@ TEST(PurePursuit, TheGoalTurnsTheCornerBeforeTheVehicleWithoutAJump) {
   // The target is the corner itself: 2 m ahead.
   EXPECT_NEAR(guide(line, P{8.0, 0.0}, kStraight, progress).psi_rad, 0.0, 1e-12);
   EXPECT_EQ(progress.segment, 2);
-  // While turning the corner the cross-track error refers to the nearer segment.
+  // While the vehicle turns at the corner, the cross-track error is measured from the nearer
+  // segment.
   const auto inside = guide(line, P{8.8, 0.4}, kStraight, progress);
-  EXPECT_NEAR(inside.psi_rad, std::atan2(1.6, 1.2), 1e-12);  // 2 m away
+  EXPECT_NEAR(inside.psi_rad, std::atan2(1.6, 1.2), 1e-12);  // the target is 2 m away
   EXPECT_NEAR(inside.cross_track_m, 1.2, 1e-12);             // the previous segment has no length
   EXPECT_FALSE(guide(line, P{10.0, 9.9}, kStraight, progress).finished);
   EXPECT_TRUE(guide(line, P{10.1, 10.0}, kStraight, progress).finished);
@@ -212,13 +213,13 @@ RC_GTEST_PROP(Lqi, TheGainsSolveTheRiccatiEquationAndTheLoopIsStable, ()) {
 RC_GTEST_PROP(Lqi, SettlesWhenSampledWhereEveryEigenvalueDoes, ()) {
   const LqiGains<double> gains = lqi_gains(any_weights(), ratio_between(1e-3, 10.0));
   const double t_s = ratio_between(1e-3, 1.0);
-  Matrix3 step = Matrix3::Identity();  // of (e, e_dot, z)
+  Matrix3 step = Matrix3::Identity();  // transition matrix of (e, e_dot, z)
   step(0, 1) = step(2, 0) = Real(t_s);
   const Vector3 k(gains.heading_per_s2, gains.rate_per_s, gains.integral_per_s3);
   const Vector3 by_command(-0.5L * t_s * t_s, -Real(t_s), 0.0L);
   step += by_command * k.transpose();
   const Real largest = spectral_radius(step);
-  RC_PRE(std::abs(largest - 1.0L) > 1e-9L);  // rounding decides there
+  RC_PRE(std::abs(largest - 1.0L) > 1e-9L);  // at 1, rounding decides whether the loop is stable
   RC_TAG(largest < 1.0L);
   RC_ASSERT(settles_when_sampled(gains, t_s) == (largest < 1.0L));
 }
@@ -261,9 +262,9 @@ TEST(Lqi, StopsIntegratingAtALimit) {
   };
   EXPECT_NEAR(after(0.2, 0.5, false), 1.002, 1e-15);
   EXPECT_EQ(after(0.2, 0.3, true), 1.0);
-  EXPECT_NEAR(after(-0.2, 0.3, true), 0.998, 1e-15);        // the error leads out of saturation
-  EXPECT_NEAR(after(0.2, 0.5 - 1e-9, true), 1.002, 1e-15);  // nothing was lost except by rounding
-  EXPECT_NEAR(after(0.2, 0.48, false), 1.002, 1e-15);       // small angles, no limit
+  EXPECT_NEAR(after(-0.2, 0.3, true), 0.998, 1e-15);        // integrates: e leads out of the limit
+  EXPECT_NEAR(after(0.2, 0.5 - 1e-9, true), 1.002, 1e-15);  // integrates: reduced by rounding only
+  EXPECT_NEAR(after(0.2, 0.48, false), 1.002, 1e-15);       // integrates: no limit reached
 }
 
 TEST(Baselines, MixNoDoubleIntoTheirScalar) {

@@ -51,7 +51,7 @@ class RollingVehicle : public PaperAutopilot {
     in_.reference = {0.0F, 0.0F, 0.0F, 0.0F, 0.0F};
     in_.speed_unsigned = 1;
   }
-  /// A step of 10 ms; a fix every 200 ms, `latency` steps old.
+  /// Simulates a step of 10 ms. A fix arrives every 200 ms and is `latency` steps old.
   void step(float u_ref_mps, bool is_unsigned = true) {
     const std::uint32_t now_ms = in_.times.now_ms + 10;
     in_.times.now_ms = in_.times.heading_ms = in_.times.command_ms = now_ms;
@@ -139,7 +139,8 @@ TEST_F(RollingVehicle, IsNeverPushedFasterDownASlope) {
 
 TEST(RunsAwayUnsigned, IsTheConditionOfTheLaw) {
   const Resistance<double> g1{.alpha = 1.3, .beta = 1.0};
-  // The law runs away if m' mu_s/eps_s is above g1(u)/u = 1.3.
+  // The speed law accelerates a vehicle that rolls backward if m' mu_s/eps_s is above g1(u)/u =
+  // 1.3.
   EXPECT_FALSE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.2, 1.0}, 0.5));
   EXPECT_TRUE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.4, 1.0}, 0.5));
 }

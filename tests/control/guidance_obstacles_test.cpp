@@ -79,7 +79,7 @@ TEST(Obstacles, BehindTheVehicleTheyDoNotMatter) {
 TEST(Obstacles, StartingInsideTheHeadingLeadsOutAndNotFurtherIn) {
   const auto a = avoided({{{1.5, 0.0}, 1.0}});  // inflated radius 2 > 1.5
   EXPECT_NEAR(std::abs(a.psi_rad), pi<double>() / 2.0 + 0.2, 1e-9);
-  EXPECT_EQ(a.speed_share, 0.0);  // it faces inwards
+  EXPECT_EQ(a.speed_share, 0.0);  // the vehicle heads into the obstacle
   EXPECT_EQ(avoided({{{-1.5, 0.0}, 1.0}}).speed_share, 1.0);
 }
 

@@ -115,7 +115,7 @@ TEST(Line, VerticalLinesAreLinesToo) {
 }
 
 TEST(Polyline, PassesOnAtTheEndOfASegmentAndFinishesAtTheLast) {
-  const P points[] = {{0, 0}, {10, 0}, {10, 0}, {10, 10}};  // one segment has no length
+  const P points[] = {{0, 0}, {10, 0}, {10, 0}, {10, 10}};  // the second segment has length 0
   const LosLine line{points, 4, 1.0, {1.0, 1.0, false}};
   auto progress = start_polyline(0.0);
   EXPECT_NEAR(guide(line, {8.9, 0.0}, kStraight, progress).to_go_m, 1.1, 1e-12);

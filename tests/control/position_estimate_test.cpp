@@ -20,7 +20,7 @@ class Drive {
   explicit Drive(const PositionFilter<T>& filter, double u_mps = 1.0, double r_radps = 0.0)
       : estimate_(filter), u_mps_(u_mps), r_radps_(r_radps) {}
 
-  /// One step; the errors are those of a fix that arrives in it.
+  /// Simulates one step. The errors are added to a fix that arrives in this step.
   Position<T> step(double error_x_m = 0.0, double error_y_m = 0.0, bool is_lost = false) {
     const double psi = r_radps_ * time_s();
     const bool arrives = steps_ % 20 == 0 && steps_ >= 20 && !is_lost;
@@ -88,7 +88,7 @@ TEST(PositionEstimate, IsTheSameInFloat) {
     const double y = noise(random);
     const auto a = in_float.step(x, y);
     const auto b = in_double.step(x, y);
-    // 9e-5 of the 60 m that were driven, and rounding.
+    // Tolerance: 9e-5 of the 60 m that were driven, plus rounding.
     EXPECT_NEAR(a.x_m, b.x_m, 0.01);
     EXPECT_NEAR(a.y_m, b.y_m, 0.01);
   }
@@ -125,7 +125,7 @@ TEST(PositionEstimate, HasTheSteadyGainOfTheFilter) {
   double before = drive.step().y_m;
   for (int i = 0; i < 18; ++i) {
     const double now = drive.step().y_m;
-    // Spread over 8 steps.
+    // The correction is spread over 8 steps.
     EXPECT_LT(now - before, gain / 8.0 + 1e-6);
     before = now;
   }

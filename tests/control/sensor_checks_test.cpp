@@ -119,7 +119,7 @@ struct ReceiverOnAPort {
   std::uint32_t now_ms = 0;
   std::string on_the_way;
   ReceiverOnAPort() { gps.begin(0); }
-  /// A step of 10 ms at 38,400 baud.
+  /// Simulates a step of 10 ms, in which 39 characters arrive at 38,400 baud.
   void step() {
     now_ms += 10;
     port.receive(on_the_way.substr(0, 39));
@@ -163,7 +163,8 @@ TEST(GpsReceiver, KeepsUpWithAPortThatNeverRests) {
     time_ms = board.gps.time_ms;
   }
   EXPECT_LE(board.port.most, 64);
-  // 400 steps of 39 characters, in pairs of sentences of 110 characters.
+  // 400 steps of 39 characters arrive; each fix has a pair of sentences with 110 characters
+  // together.
   EXPECT_GE(fixes, 400 * 39 / 110 - 3);
 }
 
@@ -199,7 +200,7 @@ GyroCalibration calibrated(double rate_radps, double sway_radps, bool has_compas
 TEST(GyroCalibration, WaitsUntilTheVehicleIsAtRest) {
   const GyroCalibration still = calibrated(0.0, 0.0, true);
   EXPECT_TRUE(still.is_done());
-  // Mean of 100 values with 5 counts of noise: 4 standard errors.
+  // Tolerance: 4 standard errors of the mean of 100 values with 5 counts of noise.
   EXPECT_NEAR(still.bias_radps(), 0.02, 4 * 0.5 * static_cast<double>(kPerWord));
   EXPECT_FALSE(calibrated(0.5, 0.0, true).is_done());
   EXPECT_FALSE(calibrated(0.5, 0.0, false).is_done());
@@ -510,7 +511,7 @@ TEST(MotionCheck, FindsASpeedOfZeroAndACompassThatIsOffOnASlowVehicle) {
 
 TEST(StepCheck, FindsAJumpAndADriftAndNothingInNoise) {
   std::mt19937 random(5);
-  std::normal_distribution<float> noise(0.0F, 0.035F);  // 2 deg
+  std::normal_distribution<float> noise(0.0F, 0.035F);  // heading error of 2 deg RMS
   StepCheck quiet;
   for (int i = 0; i < 100000; ++i) quiet.take(noise(random), 0.01F);
   EXPECT_FALSE(quiet.is_apart());

@@ -11,7 +11,7 @@ namespace awmr::testing {
 /// Generates any finite double from sign, exponent and mantissa: all magnitudes, subnormals, both
 /// zeros.
 inline rc::Gen<double> any_finite() {
-  // Below its nominal size RapidCheck draws from a part of the range only.
+  // At sizes below the nominal one, RapidCheck draws only from a part of the range.
   return rc::gen::resize(
       rc::kNominalSize,
       rc::gen::map(

@@ -56,7 +56,7 @@ TEST(Csv, ReadsTabs) {
 }
 
 TEST(Csv, DetectsTheDelimiterThatFindsTheColumnsRequested) {
-  // Four commas against two semicolons in the header.
+  // The header has four commas and two semicolons, so the comma is the separator.
   expect_two_rows(
       read_text("note, a, b, c, d;tau_speed;speed_mps\nx;0.5;0.25\ny;2;1.66\n", kSurge));
 }

@@ -58,7 +58,7 @@ constexpr NameTable<int, 3> kKinds{{{"point", 0}, {"circle", 1}, {"box", 2}}};
 TEST(JsonSchema, RelatesKeysToTheNameOfAChoice) {
   const Json schema = schema_from([](JsonObject& json) {
     const int kind = json.choice("kind", kKinds);
-    json.choice("colour", kKinds);  // does not select anything
+    json.choice("colour", kKinds);  // no key depends on this choice
     if (kind == 1) json.number("radius");
     if (kind == 2) json.number("width");
     json.reject_unknown_keys();

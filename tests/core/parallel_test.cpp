@@ -40,7 +40,8 @@ TEST(ParallelFor, TakesNoMoreThreadsThanItIsGivenFromLoopToLoop) {
     EXPECT_LE(here.size(), 3U);
     all.insert(here.begin(), here.end());
   }
-  // Threads are reused: the caller's and those released by earlier loops.
+  // Loops use the caller's thread and reuse threads of earlier loops: a few in all, not two new
+  // ones for each loop.
   EXPECT_LE(all.size(), 8U);
 }
 

@@ -1,4 +1,4 @@
-/// Sanitised text of a file for display.
+/// Tests of the functions that make text from a user's file safe for display.
 #include "awmr/core/text.h"
 
 #include <gmock/gmock.h>

@@ -92,8 +92,9 @@ std::string comma_separated(const std::vector<std::string>& names) {
   return text.substr(0, text.size() - 2) + "\n";
 }
 
-/// Puts an array of the macros into its own section, which objcopy extracts from the object file:
-/// the compiler's bits without executing the program. Host and AVR are both little-endian IEEE 754.
+/// Compiles an array of the macros' values into its own section, which objcopy extracts from the
+/// object file. This gives the bits that the compiler made without executing the program. Host and
+/// AVR are both little-endian IEEE 754.
 std::vector<float> CompiledHeader::compiled_values(const std::vector<std::string>& names) const {
   const std::string source =
       "#include \"awmr_params.h\"\n#include \"awmr_params.h\"\n"
@@ -187,9 +188,9 @@ struct Edit {
 
 TEST_P(CompiledHeader, DoesNotCompileWhenEditedAgainstARelation) {
   const std::vector<Edit> edits = {
-      // T2 = 100/(2*50) = 1 s, T1 = 1/3 s
+      // violated: T2 = 100/(2*50) = 1 s is above T1 = 1/3 s
       {"AWMR_T2_IS_BELOW_T1", {{"AWMR_HEADING_EPSILON", "100.0f"}}},
-      // T2 = 12/(2*18) = T1 = 1/3 s
+      // violated: T2 = 12/(2*18) = 1/3 s equals T1
       {"AWMR_T2_IS_BELOW_T1", {{"AWMR_HEADING_MU", "18.0f"}}},
       {"AWMR_T2_IS_BELOW_T1", {{"AWMR_HEADING_LAMBDA", "8.34f"}}},
       {"AWMR_WHEEL_FORCE_MIN_IS_BELOW_MAX", {{"AWMR_WHEEL_FORCE_MIN", "1.0f"}}},
@@ -209,7 +210,7 @@ TEST_P(CompiledHeader, DoesNotCompileWhenEditedAgainstARelation) {
 }
 
 TEST_P(CompiledHeader, CompilesJustInsideTheLimit) {
-  // T2 < T1 = 1/3 s down to mu = 18: the float above it is inside.
+  // T2 < T1 = 1/3 s holds for mu > 18, so the next float above 18 is accepted.
   const std::string header = params_header(paper_robot(), kPaperGains, paper_inputs()).value();
   write_header(with_macro(header, "AWMR_HEADING_MU", "18.0000019f"));
   EXPECT_TRUE(succeeded(compile(kUse, "-fsyntax-only")));

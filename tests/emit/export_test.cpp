@@ -97,7 +97,7 @@ TEST(Export, ArduPilotsSteeringFeedForwardTurnsSteeredWheelsAtTheRateRequested) 
   const auto values = parameters_of(text_of(model, ExportFormat::kArduPilot));
   const Plant<double> plant = *model.plant();
   const double u = values.at("CRUISE_SPEED");
-  // At half of the stop: s = FF r, divided by u above 1 m/s.
+  // At half of the steering stop: the output s is FF r, above 1 m/s divided by u.
   const double r = 0.5 / (values.at("ATC_STR_RAT_FF") / std::max(1.0, u));
   const double moment =
       plant.front_axle_m * plant.surge.at(u) * std::tan(0.5 * 0.5 * plant.steering_max_rad);

@@ -39,7 +39,7 @@ Model quadratic_robot() {
 TEST(Families, GoToTheChipAsTheirTable) {
   const auto parameters = autopilot_parameters(quadratic_robot(), kPaperGains, paper_inputs(), {});
   ASSERT_TRUE(parameters) << to_text(parameters.error());
-  // g1 at 1 m/s: alpha + q, within the bound of 5e-4 of it.
+  // g1 at 1 m/s is alpha + q, within the table's relative error of 5e-4.
   const float at_one = parameters->surge.view()(1.0F);
   EXPECT_NEAR(static_cast<double>(at_one), 0.21 + 1.3268, 5e-4 * 1.54);
 }

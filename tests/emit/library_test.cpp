@@ -219,8 +219,8 @@ TEST(ResistanceTables, StayWithinTheirBoundOfTheLawBetweenTheirMeasuredPlaces) {
         autopilot_parameters(paper_robot(), kPaperGains, paper_inputs(), {.table_error = bound})
             .value();
     const ResistanceTable table = p.surge.view();
-    // Speeds between those at which the search for the table measures its error (multiples of 1/64
-    // of a cell); the error of a chord changes little between them.
+    // Checks speeds between those at which the search for the table has measured the error
+    // (multiples of 1/64 of a cell). Between them, the error of a chord changes little.
     for (int i = 1; i < 40000; ++i) {
       const float speed = static_cast<float>(i * 1.99e-4);
       const double exact = plant.surge(static_cast<double>(speed));

@@ -184,7 +184,8 @@ TEST(ParamsHeader, RefusesWhenT2IsNotBelowT1) {
   EXPECT_EQ(exit_code(at_the_limit.error()), 1);
   EXPECT_THAT(to_text(at_the_limit.error()), HasSubstr("T2"));
 
-  // Below it in double, but equal in float32, where the compiler's check would fail.
+  // Smaller than the limit in double, but equal to it in float32, in which the compiler's check
+  // would fail.
   gains.heading.epsilon = std::nextafter(50.0, 0.0);
   EXPECT_FALSE(params_header(paper_robot(), gains, paper_inputs()));
   gains.heading.epsilon = static_cast<double>(std::nextafter(50.0F, 0.0F));

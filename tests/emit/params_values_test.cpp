@@ -58,8 +58,8 @@ TEST(ParamsValues, AreAcceptedExactlyWhereT2IsBelowT1) {
     gains.heading = {.lambda = factor(), .mu = factor(), .epsilon = factor()};
     const double t1_s = 1.0 / gains.heading.lambda;
     const double t2_s = gains.heading.epsilon / (2.0 * gains.heading.mu);
-    // Three roundings to float32 and two of the product in it: within 5 * 2^-24 of the limit the
-    // answer may differ from that in double.
+    // The check in float32 has five roundings: three inputs and two products. Within 5 * 2^-24 of
+    // the limit, its result may differ from that in double.
     if (std::abs(t2_s / t1_s - 1.0) < 5.0 * 0x1p-24) return;
     const auto header = params_header(paper_robot(), gains, paper_inputs());
     RC_ASSERT(header.has_value() == (t2_s < t1_s));

@@ -139,7 +139,7 @@ class SafeSketches : public ::testing::Test {
     };
     if (&directory == slow_) return compile_case("drive_case", {"HeadingHold"});
     compile_case("drive_case", {"HeadingHold", "WaypointFollowing"});
-    // The trials of one vehicle are recorded.
+    // The program that records trials is built for one of the vehicles only.
     if (&directory == paper_) compile_case("record_case", {"RecordTrials"});
   }
   /// NAME=VALUE pairs printed by a run of the sketch.

@@ -110,8 +110,9 @@ TEST(TrialRecorder, ItsTablesGiveBackTheVehicle) {
   const auto found = identify(*trials, {});
   ASSERT_TRUE(found) << to_text(found.error());
   const auto value = [&](ParameterId id) { return found->model[id].value.value_or(NAN); };
-  // Cells have four decimals: 1e-4 of the smallest speed, 0.4 m/s, is 2.5e-4. The exponent errs by
-  // that over the logarithm of the range, about 1.3.
+  // Cells have four decimals: a step of 1e-4 m/s is 2.5e-4 of the smallest speed, 0.4 m/s. The
+  // error of the exponent is this number divided by the logarithm of the range of speeds, about
+  // 1.3.
   const Rover truth;
   EXPECT_NEAR(value(ParameterId::kSurgeAlpha), truth.a1, 5e-4 * truth.a1);
   EXPECT_NEAR(value(ParameterId::kSurgeBeta), truth.b1, 1e-3);
@@ -125,7 +126,7 @@ TEST(TrialRecorder, StopsIfTheCommandsEndAndWaitsAgain) {
   const Trial runs[] = {{kSurge, 0.5F, 0.0F}, {kTurning, 0.5F, 0.2F}};
   Drive drive{Recorder(runs, 2, kSettings)};
   EXPECT_EQ(drive.recorder.force(), 0.0F);
-  EXPECT_EQ(drive.until_event(), kNothing);  // it waits for go()
+  EXPECT_EQ(drive.until_event(), kNothing);  // the recorder waits for go()
   drive.recorder.go();
   for (int i = 0; i < 900; ++i) EXPECT_EQ(drive.step(true), kNothing);
   EXPECT_EQ(drive.recorder.force(), 0.5F);

@@ -1,6 +1,6 @@
-/// Complete autopilot with all parts, any of them in use, over arbitrary input bits, corners,
-/// obstacles and motors. Every command is finite and within its limits, a fault gives the safe
-/// command, and every step terminates.
+/// Complete autopilot with any of its optional parts in use and arbitrary input bits, corners,
+/// obstacles and motors. Checks that every command is finite and within its limits, that a fault
+/// gives the safe command, and that every step terminates.
 #include <cmath>
 #include <cstring>
 #include <iterator>

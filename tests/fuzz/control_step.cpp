@@ -12,8 +12,9 @@ namespace {
 
 bool is_between(float value, float lo, float hi) { return value >= lo && value <= hi; }
 
-/// Points are not checked, because the sketch provides them. A NaN point makes the requests of the
-/// laws NaN, which the last check detects, so no command is NaN.
+/// The step does not check the points to follow, because the sketch provides them. A NaN point
+/// makes the outputs of the laws NaN, which the last check of the step detects, so no command is
+/// NaN.
 void check(const awmr_output& out, bool is_following) {
   require(is_between(out.force_left, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "left force");
   require(is_between(out.force_right, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "right force");

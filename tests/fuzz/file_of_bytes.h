@@ -32,8 +32,8 @@ inline const std::filesystem::path& file_of_bytes(const std::uint8_t* data, std:
   return kPath;
 }
 
-/// True if a reader refused the file. Aborts unless a refusal is an input error with readable
-/// faults.
+/// True if a reader refused the file. If it did, aborts unless the refusal is an input error whose
+/// faults are readable.
 template <class T>
 bool is_refused(const Result<T>& read) {
   if (read) return false;

@@ -107,7 +107,8 @@ TEST(CoastDown, TheClosedFormIsTheIntegratedOneForOtherFamiliesToo) {
   options.surge_family.family = Family::kCoulombLinear;
   const auto result = identify(vehicle(), data, options, {});
   ASSERT_TRUE(result);
-  // The stop is inside a step: an error of about c h/m' = 1e-3 m/s in one row of a hundred.
+  // Tolerance: the vehicle stops within an integration step, an error of about c h/m' = 1e-3 m/s in
+  // one row of a hundred.
   EXPECT_NEAR(*result->model[ParameterId::kMassNorm].value / m, 1.0, 1e-3);
 }
 
@@ -125,7 +126,8 @@ TEST(CoastDown, HasAMuchSmallerErrorThanAStopTime) {
   const auto relative = [](const Model& m) {
     return *m[ParameterId::kMassNorm].std_error / *m[ParameterId::kMassNorm].value;
   };
-  // d ln m'/d b1 is about -8 for the stop time; that of the curve is below 1.
+  // The derivative d ln m'/d b1 is about -8 for m' from stop times, and below 1 for m' from the
+  // curve.
   EXPECT_LT(relative(by_curve->model), 0.4 * relative(by_stop->model));
 }
 
@@ -193,7 +195,7 @@ TEST(CoastDown, AloneGivesTheRatiosOfTheRequestedFamily) {
   const auto* mass = found(result->model, "coulomb-linear", "mass_norm/surge.alpha");
   const auto* coulomb = found(result->model, "coulomb-linear", "surge.coulomb/surge.alpha");
   ASSERT_TRUE(mass && coulomb);
-  // Within four standard errors of some per cent each.
+  // Tolerance: four standard errors; each is a few per cent.
   EXPECT_NEAR(mass->value, 0.5 / 0.8, 4.0 * *mass->std_error);
   EXPECT_NEAR(coulomb->value, 0.4 / 0.8, 4.0 * *coulomb->std_error);
   EXPECT_LT(*mass->std_error, 0.1 * mass->value);

@@ -79,7 +79,8 @@ TEST(Compass, IntervalsCoverTheTruthAtTheirRate) {
     held[1] += c.gain_ahead.ci95.contains(truth.ahead) ? 1 : 0;
     held[2] += c.gain_cross.ci95.contains(truth.cross) ? 1 : 0;
     held[3] += c.field.ci95.contains(truth.field) ? 1 : 0;
-    // Towards north the heading is 0; the bound for the worst direction holds there too.
+    // Heading error towards north, where the true heading is 0. The bound for the worst heading
+    // holds there too.
     const double ahead = truth.ahead_0 + truth.left() * truth.field - c.centre_ahead.value;
     const double left = truth.left_0 - truth.cross * truth.field - c.centre_left.value;
     const double heading = std::atan2(-(c.gain_cross.value * ahead + c.gain_left.value * left),

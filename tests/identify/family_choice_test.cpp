@@ -59,7 +59,8 @@ TEST(Multistart, MostStartsLeadToTheOptimum) {
       }
     }
   }
-  // With windows of 10 s throughout, only one of seven searches ended at the optimum.
+  // The multistart uses short parts of windows. With whole windows of 10 s, only one of seven
+  // searches ended at the optimum.
   EXPECT_GT(there, 2 * all / 3) << there << " of " << all;
 }
 
@@ -207,7 +208,8 @@ DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::ui
   return log;
 }
 
-/// With the power law in yaw, its errors hide the Coulomb friction of surge.
+/// While the yaw family is the (wrong) power law, the errors of the yaw motion hide the Coulomb
+/// friction of surge.
 TEST(Families, OfSurgeAreComparedOnceTheYawFamilyIsRight) {
   Plant<double> vehicle = plant(kTruths[1]);
   vehicle.surge = {.alpha = 1.0, .beta = 1.0, .coulomb = 0.25};
@@ -233,7 +235,8 @@ TEST_P(FamiliesAtNoise, AreIdentifiedRightWithFrictionFromRest) {
   ASSERT_TRUE(result);
   const Model& model = result->model;
   EXPECT_TRUE(terms_of(model.surge_family).coulomb);
-  // Two parameters, six logs: 4 deviations give a failure probability of 8e-4.
+  // Two parameters and six logs: with 4 standard errors, the test fails by chance with a
+  // probability of 8e-4.
   for (const auto& [id, truth] :
        {std::pair(ParameterId::kSurgeCoulomb, 0.12), std::pair(ParameterId::kMassNorm, 0.09)}) {
     ASSERT_TRUE(model[id].value && model[id].std_error) << info(id).name;

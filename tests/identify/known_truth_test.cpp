@@ -15,7 +15,8 @@ TEST(Identify, ExactDataGiveTheTruthByEveryEstimator) {
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->refused.empty());
     const Model& model = result->model;
-    // QR of a 10 x 2 problem of condition below 10: a few hundred roundings of 1e-16.
+    // Tolerance: the QR decomposition of a 10 x 2 problem with a condition number below 10 has a
+    // few hundred roundings of 1e-16.
     EXPECT_NEAR(*model[ParameterId::kSurgeAlpha].value, truth.a1, 1e-12);
     EXPECT_NEAR(*model[ParameterId::kSurgeBeta].value, truth.b1, 1e-12);
     EXPECT_NEAR(*model[ParameterId::kYawAlpha].value, truth.a3, 1e-12);
@@ -25,7 +26,8 @@ TEST(Identify, ExactDataGiveTheTruthByEveryEstimator) {
     EXPECT_NEAR(*model[ParameterId::kInertiaNorm].value,
                 truth.mass_norm * (0.78 * 0.78 + 1.32 * 1.32) / 12.0, 1e-11);
     for (const EstimatorReport& report : model.record.reports) {
-      // Families with other terms fit the truth only approximately; the mass has its own line.
+      // Skips fits of other families, which fit the true power law only approximately, and those of
+      // the mass.
       if (report.subject == FitSubject::kMass || report.family != "power") continue;
       const bool surge = report.subject == FitSubject::kSurge;
       EXPECT_NEAR(report.parameters[0].value, surge ? truth.a1 : truth.a3, 1e-9) << report.noise;

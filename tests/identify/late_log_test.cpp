@@ -19,7 +19,7 @@
 namespace awmr::testing {
 namespace {
 
-constexpr double kStep_s = 0.01;  // of drive()
+constexpr double kStep_s = 0.01;  // row spacing of drive()
 
 /// Returns the log with the steering command moved to `rows` rows earlier: the steering acts late.
 DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
@@ -115,7 +115,8 @@ DrivingLog with_late_commands(DrivingLog log, const Truth& t, std::size_t every,
 }
 
 TEST(LateLog, FindsACommandDelayOfAFractionOfARow) {
-  // 2.25 rows of 0.04 s, with a servo at its limit of rate after many changes of the command.
+  // The commands are late by 2.25 rows of 0.04 s, and the servo is at its rate limit after many
+  // changes of the command.
   TrialData data;
   data.logs = {with_late_commands(drive(kTruths[1], 8, {.duration_s = 40.0}), kTruths[1], 4, 9)};
   const auto result = identify(robot(), data, {}, {});
@@ -201,8 +202,8 @@ TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
-/// The log with the readings of a sway sensor that sits `ahead_m` ahead of the centre of gravity and
-/// is turned to the left by `turned_rad`.
+/// The log with the readings of a sway sensor that sits `ahead_m` ahead of the centre of gravity
+/// and is turned to the left by `turned_rad`.
 DrivingLog with_sway_sensor(DrivingLog log, double ahead_m, double turned_rad) {
   Random random(3, 9);
   Measured sway{.value = std::vector<double>(log.rows()),
@@ -270,7 +271,8 @@ TEST_P(SlippingWheels, AreFoundInTheirReadings) {
 }
 
 TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
-  // Slip of the speed resembles a speed that is read early, as by late commands and a late yaw rate.
+  // Slip of the speed resembles a speed that is read early, as by late commands and a late yaw
+  // rate.
   DrivingLog log = with_slip(drive(kTruths[1], 8, {.duration_s = 40.0}), 0.02, false);
   for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     log[absent].reset();
@@ -365,7 +367,7 @@ TEST_P(SteeringTrim, IsFound) {
   expect_found(std::move(log), kTruths[1], "steering.trim_rad", trim_rad, "steering-trim");
 }
 INSTANTIATE_TEST_SUITE_P(Short, SteeringTrim, ::testing::Values(-0.03));
-/// Also the other sign and a larger value.
+/// Long tests: the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, SteeringTrim, ::testing::Values(0.07));
 
 TEST(LateLog, FindsAServoThatIsSlowerThanTheVehicleFileSays) {
@@ -429,13 +431,13 @@ TEST_P(ForceImbalance, IsFound) {
   expect_found(std::move(log), kTruths[1], "motor.imbalance", imbalance, "force-imbalance");
 }
 INSTANTIATE_TEST_SUITE_P(Short, ForceImbalance, ::testing::Values(0.05));
-/// Also the other sign and a larger value.
+/// Long tests: the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(-0.1));
 
 /// The log with commands F' that push with F'/(1 + s (F'/F'm)^n)^(1/n), s = (1 - L)^(-n) - 1, F'm
 /// the largest of them.
 DrivingLog saturated(DrivingLog log, double loss, double n) {
-  double most = 0.0;  // of the forces after the saturation
+  double most = 0.0;  // largest force after the saturation
   for (const auto* const forces : {&log.force_left, &log.force_right}) {
     for (const double force : *forces) most = std::max(most, std::abs(force));
   }
@@ -512,7 +514,7 @@ TEST(LateLog, DoesNotCompareLogsWithALargeSaturation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Short, ForceSaturation, ::testing::Values(4.0));
-/// Also a gradual loss and a hard limit.
+/// Long tests: a gradual loss of force and a hard limit.
 INSTANTIATE_TEST_SUITE_P(Long, ForceSaturation, ::testing::Values(1.0, 2.0, 20.0));
 
 TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {

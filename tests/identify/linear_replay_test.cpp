@@ -189,8 +189,8 @@ void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearM
 
 /// Tolerance for the rounding of 300 steps.
 constexpr double kRounding = 1e-11;
-/// Tolerance with stops: the time of a stop within a step is computed from the rates at the stop,
-/// not from the polynomial of the step.
+/// Tolerance for logs in which the vehicle stops: the time of a stop within a step is computed from
+/// the rates at the stop, not from the polynomial of the step.
 constexpr double kStops = 5e-4;
 
 TEST(LinearReplay, WithStopsHasTheStatesAndTheDerivativesOfJets) {
@@ -224,7 +224,8 @@ TEST(LinearReplay, DelayedStatesHaveTheDerivativesOfJets) {
   }
 }
 
-/// The log with each row divided into ten, and its commands `rows_later` of these rows later.
+/// Returns the log with each row divided into ten rows, and its commands moved to `rows_later` of
+/// these rows later.
 DrivingLog refined(const DrivingLog& log, std::size_t rows_later) {
   constexpr std::size_t kParts = 10;
   DrivingLog fine;

@@ -63,7 +63,7 @@ TEST(Log, SpeedAloneShowsSurgeAndRefusesYaw) {
     EXPECT_TRUE(refused(*result, id)) << info(id).name;
     EXPECT_FALSE(result->model[id].value) << info(id).name;
   }
-  // The given servo lag is kept, and it is reported as not identifiable from the log.
+  // The servo lag of the vehicle file is kept and reported as not identifiable from the log.
   EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
   EXPECT_EQ(result->model[ParameterId::kSteeringTimeConstant].value, 0.02);
 }
@@ -72,7 +72,7 @@ TEST(Log, AtOneConstantThrustShowsOnlyACombinationOfAlphaAndBeta) {
   TrialData data;
   data.logs = {drive(kTruths[0], 5, {.duration_s = 10.0, .hold_s = 100.0, .straight = true})};
   DrivingLog& log = data.logs[0];
-  // The start is removed: the log begins at a steady speed.
+  // Removes the first rows, so that the log begins at a steady speed.
   const auto keep = [](std::vector<double>& v) { v.erase(v.begin(), v.begin() + 300); };
   log.line.erase(log.line.begin(), log.line.begin() + 300);
   keep(log.t_s);
@@ -102,7 +102,7 @@ TEST(Log, IsIdentifiedWithGapsAndIrregularSamples) {
   }
   for (std::size_t i = 0; i < full.rows(); ++i) {
     const bool gap = i > 1200 && i < 1600;
-    // A third of the rows is lost, but never one in which the command changes.
+    // Drops a third of the rows at random, but none in which the command changes.
     const bool lost = i % 150 != 0 && random.uniform() < 0.33;
     if (gap || lost) continue;
     log.line.push_back(full.line[i]);
@@ -659,7 +659,8 @@ TEST(Log, SeparatesDriftFromWhiteNoise) {
     }
   }
   const ChannelNoise found = likeliest_noise(series, 1.0, {});
-  // 200 correlation times long: level and correlation time of the drift are known to about a tenth.
+  // Tolerance: the series is 200 correlation times long, which determines level and correlation
+  // time of the drift to about a tenth.
   EXPECT_NEAR(found.white_std, truth.white_std, 0.05 * truth.white_std);
   EXPECT_NEAR(found.drift_std, truth.drift_std, 0.3 * truth.drift_std);
   EXPECT_NEAR(std::log(found.correlation_s / truth.correlation_s), 0.0, 0.6);
@@ -767,7 +768,8 @@ TEST(Log, InnovationsOfASecondOrderErrorAreWhiteWithTheStatedVariance) {
       count += 1.0;
     }
   }
-  // Four standard errors of a mean square, and of a mean product, of 10,000 normal numbers.
+  // Tolerance: four standard errors of a mean square, and of a mean product, of 10,000 normal
+  // numbers.
   EXPECT_NEAR(squares / count, 1.0, 4.0 * std::sqrt(2.0 / count));
   EXPECT_NEAR(products / count, 0.0, 4.0 / std::sqrt(count));
 }

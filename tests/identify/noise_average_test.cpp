@@ -48,7 +48,8 @@ TEST(NoiseAverage, KeepsThePapersValuesAndCoversTheOtherEstimators) {
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
     EXPECT_NEAR((*mass.quantiles)[q], expected[q], 1e-4) << kQuantiles[q].key;
   }
-  // With errors on force and on speed, by Table 2 and (60).
+  // The interval contains the values of m' by equation (60) and Table 2, with errors on the force
+  // and on the speed.
   EXPECT_TRUE(mass.ci95->contains(0.1117));
   EXPECT_TRUE(mass.ci95->contains(0.1168));
   for (const FitSubject subject : {FitSubject::kSurge, FitSubject::kYaw, FitSubject::kMass}) {
@@ -60,7 +61,7 @@ TEST(NoiseAverage, InertiaInheritsTheMassesQuantiles) {
   const Model model = identified();
   const double factor = model.vehicle.inertia_kgm2() / model.vehicle.mass_kg;
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
-    // The same product in another order: a few roundings.
+    // Tolerance: the same product in another order, with a few roundings.
     EXPECT_NEAR((*model[ParameterId::kInertiaNorm].quantiles)[q] /
                     (factor * (*model[ParameterId::kMassNorm].quantiles)[q]),
                 1.0, 1e-13);
@@ -76,7 +77,7 @@ TEST(NoiseAverage, KeepsTheErrorLocationIfAFamilyIsRequested) {
   for (const ParameterId id :
        {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta, ParameterId::kYawAlpha,
         ParameterId::kYawBeta, ParameterId::kMassNorm}) {
-    // Ceres against QR: both stop within 1e-6 of the least squares.
+    // Tolerance: Ceres and QR both end within 1e-6 of the least-squares solution.
     EXPECT_NEAR(*model[id].value / *plain[id].value, 1.0, 1e-6) << info(id).name;
   }
 }

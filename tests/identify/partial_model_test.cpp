@@ -23,7 +23,7 @@ RecoverOptions runs_of(RecoverPlan plan, int runs) {
   return options;
 }
 
-/// Model identified from the remaining trials.
+/// Model identified from surge runs only or, if `coastdown`, from surge runs and coast-downs.
 Model partial_model(bool coastdown) {
   Vehicle v = paper_vehicle();
   v.sway_alpha.reset();
@@ -80,8 +80,8 @@ TEST(PartialModel, IsRecoveredFromItsOwnTables) {
     for (const RecoveredParameter& p : recovery->parameters) {
       names.push_back(info(p.id).name);
       EXPECT_EQ(p.truth, *model[p.id].value);
-      // 40 runs: the mean errs by rmse/sqrt(40); 4 of those are practically never exceeded by
-      // chance.
+      // The mean of 40 runs has a standard error of rmse/sqrt(40), four of which are practically
+      // never exceeded by chance.
       EXPECT_LT(std::abs(p.bias), 4.0 * p.rmse / std::sqrt(40.0)) << names.back();
       EXPECT_GE(p.coverage95, 0.8) << names.back();
     }

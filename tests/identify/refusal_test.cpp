@@ -36,7 +36,8 @@ TEST(Refusal, EverySubsetOfTrialsIsRecoveredOrRefused) {
     if (mass) {
       EXPECT_NEAR(*m[ParameterId::kMassNorm].value, truth.mass_norm, 1e-11);
     }
-    // A coast-down without a surge trial cannot give the requested m'.
+    // A coast-down without a surge trial cannot give m', which was requested, nor I'z, which
+    // follows from m'.
     if (data.coastdown && !data.surge) {
       EXPECT_THAT(result->refused, ElementsAre(ParameterId::kMassNorm, ParameterId::kInertiaNorm));
     } else {

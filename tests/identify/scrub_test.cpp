@@ -103,7 +103,7 @@ TEST(Scrub, NeedsThreeTurns) {
 
 TEST(Scrub, RefusesANegativeScrub) {
   TrialData data = turns(0.0, 0.01, 1);
-  for (TurningRow& row : data.turning->by_sides) row.yaw_rate_radps *= 57.29578;  // left in deg/s
+  for (TurningRow& row : data.turning->by_sides) row.yaw_rate_radps *= 57.29578;  // in deg/s
   const Model model = identified(data);
   EXPECT_FALSE(model.yaw_scrub);
   EXPECT_THAT(codes(model), Contains("negative-scrub"));
@@ -131,7 +131,8 @@ TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   }
   RecordProperty("held", held);
   EXPECT_EQ(findings, kTables);
-  // Both ends of the reported range must be right, each with a probability of 97.5 %.
+  // Both ends of the reported range must be right. Each is, with a probability of 97.5 %, so both
+  // are in at least 95 % of the tables.
   EXPECT_GT(held / double(kTables), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
 }
 
@@ -193,7 +194,7 @@ TEST(Scrub, IsAtLeastTheLargestMomentWithoutATurn) {
   EXPECT_DOUBLE_EQ(*model.yaw_held_m, 0.09);
   EXPECT_THAT(codes(model), Contains("scrub-holds"));
   EXPECT_THAT(codes(model), Contains("few-scrub-rows"));
-  // The next turns use more than the static moment, up to sliding tyres.
+  // The suggested turns use moments from the static scrub moment up to that of sliding tyres.
   const auto suggestion = suggest(model, {});
   ASSERT_TRUE(suggestion) << to_text(suggestion.error());
   ASSERT_FALSE(suggestion->scrub_turns.empty());

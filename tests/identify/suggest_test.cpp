@@ -43,7 +43,7 @@ TEST(Suggest, ATurnWhileCoastingIsOneThatTyresRoll) {
   const CoastingTurn& turn = *suggestion->coasting;
   EXPECT_GT(turn.speed_mps, 0.0);
   EXPECT_LE(turn.steering_deg, 10.0 * (1.0 + 1e-12));  // half of the stop
-  // r = u tan(d_r)/(2 l_f), and across no more than 0.2 g.
+  // r = u tan(d_r)/(2 l_f), and the lateral acceleration u r is at most 0.2 g.
   const double rate = turn.speed_mps * std::tan(radians(turn.steering_deg)) / 0.7;
   EXPECT_NEAR(radians(turn.rolling_yaw_rate_degps), rate, 1e-12);
   EXPECT_LE(rate * turn.speed_mps, 0.2 * 9.80665 * (1.0 + 1e-12));
@@ -111,7 +111,7 @@ TEST(Suggest, ATermFittedAsZeroHasAFiniteErrorThatTrialsShrink) {
     EXPECT_LT(suggestion->trials.front().std_error_after,
               suggestion->trials.front().std_error_before);
   }
-  // In its own unit; a variance of 1e-8 keeps C invertible.
+  // The standard error of an exponent is in its own unit. A variance of 1e-8 keeps C invertible.
   const auto suggestion = suggest(model, {.parameter = "surge.coulomb"});
   EXPECT_NEAR(suggestion->trials.front().std_error_before, kSigma, 1e-6);
 }

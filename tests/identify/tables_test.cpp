@@ -133,7 +133,8 @@ TEST(Losses, RobustOnesIgnoreABadRunThatSquaresFollow) {
     const auto result = identify(vehicle(), data, options, {});
     ASSERT_TRUE(result);
     const Estimate& beta = result->model[ParameterId::kSurgeBeta];
-    // The other eleven runs fix b1 to about 0.004; a squared loss is pulled away by ten times that.
+    // The other eleven runs determine b1 to about 0.004. With a squared loss, the outlier changes
+    // b1 by ten times that.
     EXPECT_NEAR(*beta.value, law.beta, 0.02) << static_cast<int>(loss);
     EXPECT_LT(std::abs(*beta.value - law.beta), 0.3 * std::abs(by_squares - law.beta));
     EXPECT_TRUE(beta.ci95->contains(law.beta)) << static_cast<int>(loss);
@@ -300,7 +301,7 @@ SteadyProblem steeper_than_its_range(Family family) {
 }
 
 TEST(Bounds, AFitAtTheEndOfARangeIsTheBestOfTheRemainingCoordinates) {
-  // f = alpha w: alpha = sum(f w)/sum(w^2)
+  // With the exponent at its bound 1, the curve is f = alpha w with alpha = sum(f w)/sum(w^2).
   const SteadyProblem problem = steeper_than_its_range(Family::kPower);
   double force_rate = 0.0;
   double rate_squared = 0.0;
@@ -353,10 +354,10 @@ TEST(Tables, SubtractsTheDeadZoneFromEachSidesCommand) {
     const auto points = turning_points({row}, 0.05);
     return points.empty() ? 0.0 : points[0].force;
   };
-  EXPECT_DOUBLE_EQ(moment(-0.1, 0.3), 0.4 * 0.3 / 0.4);  // 0.25 and -0.05 remain
-  EXPECT_DOUBLE_EQ(moment(0.1, 0.3), 0.4);               // both lose the same
-  EXPECT_DOUBLE_EQ(moment(0.0, 0.2), 0.4 * 0.15 / 0.2);  // the left one has nothing to lose
-  EXPECT_EQ(moment(-0.04, 0.04), 0.0);                   // nothing moves
+  EXPECT_DOUBLE_EQ(moment(-0.1, 0.3), 0.4 * 0.3 / 0.4);  // 0.25 and -0.05 remain of them
+  EXPECT_DOUBLE_EQ(moment(0.1, 0.3), 0.4);               // both lose 0.05: same difference
+  EXPECT_DOUBLE_EQ(moment(0.0, 0.2), 0.4 * 0.15 / 0.2);  // the left force has nothing to lose
+  EXPECT_EQ(moment(-0.04, 0.04), 0.0);                   // both are within the dead zone
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ TEST(GainsFile, WritesAndReadsAFrictionWidthWhereItIsNotTheDefault) {
   EXPECT_FALSE(read_json_file(file.path())->at("heading").contains("friction_width_radps"));
   ASSERT_TRUE(write_gains({{3.0, 50.0, 12.0, 0.15}, {5.0, 1.2}}, file.path()));
   EXPECT_EQ(read_gains(file.path())->heading.friction_width_radps, 0.15);
-  // Without the key, the combined mode has half of the width.
+  // Without the key, the friction width of the combined mode is half of that of the steering mode.
   EXPECT_FALSE(
       read_json_file(file.path())->at("heading").contains("combined_friction_width_radps"));
   EXPECT_EQ(read_gains(file.path())->friction_width_at(0.5), 0.075);

@@ -208,7 +208,7 @@ TEST(ModelFile, NeedsEveryKey) {
                           pointer.find("_beta_range") != std::string::npos ||
                           pointer == "/command" || pointer == "/version" ||
                           pointer.find("/options/") == 0 ||
-                          pointer.find("/si/") == 0;  // derived from the rest, not read
+                          pointer.find("/si/") == 0;  // derived from other values, so not read
     const bool element = last.find_first_not_of("0123456789") == std::string::npos;
     if (optional || element) continue;
     EXPECT_THAT(faults_after({pointer, {}, true}), SizeIs(1)) << pointer;
@@ -268,12 +268,12 @@ TEST(ModelFile, RefusesImpossibleValues) {
 TEST(ModelFile, RefusesSizesThatContradictEachOtherUnlessIdentifyAcceptedThem) {
   // The vehicle of the paper: 1.32 m x 0.78 m, l_f 0.35 m, d 0.36 m, 37 kg.
   const std::vector<Edit> edits{
-      {"/vehicle/half_track_m", 36.0},     // 100 times the size of the vehicle
-      {"/vehicle/half_track_m", 0.001},    // wheels in the middle
-      {"/vehicle/front_axle_m", 0.7},      // front axle ahead of the body
-      {"/vehicle/length_m", 90.0},         // 100 times longer than wide
-      {"/vehicle/mass_kg", 37000.0},       // g
-      {"/vehicle/steering/max_deg", 0.35}  // rad
+      {"/vehicle/half_track_m", 36.0},     // refused: 100 times the size of the vehicle
+      {"/vehicle/half_track_m", 0.001},    // refused: the wheels are in the middle
+      {"/vehicle/front_axle_m", 0.7},      // refused: the front axle is ahead of the body
+      {"/vehicle/length_m", 90.0},         // refused: 100 times longer than wide
+      {"/vehicle/mass_kg", 37000.0},       // refused: g
+      {"/vehicle/steering/max_deg", 0.35}  // refused: rad
   };
   for (const Edit& edit : edits) {
     EXPECT_THAT(faults_after(edit), ElementsAre(StartsWith(edit.pointer)))
@@ -412,7 +412,7 @@ TEST(ModelFile, IsReadBackBeforeItReplacesTheOldOne) {
   Model model = some_model();
   const ScratchFile file("model.json", model_text(model));
   ASSERT_TRUE(write_model(model, file.path()));
-  model[ParameterId::kSurgeAlpha].value = 1e12;  // beyond the allowed range of a model
+  model[ParameterId::kSurgeAlpha].value = 1e12;  // invalid: beyond the allowed range of a model
   const auto refused = write_model(model, file.path());
   ASSERT_FALSE(refused);
   EXPECT_EQ(exit_code(refused.error()), 3);

@@ -11,7 +11,8 @@ namespace {
 constexpr double kMass = 0.1;
 constexpr double kFriction = 0.2;  // over F_max
 
-/// u_dot = (force - c sgn u)/m', r_dot = (moment - c3 sgn r)/I'z, nothing else.
+/// State after `steps` steps of a vehicle without other forces: u_dot = (force - c sgn u)/m', r_dot
+/// = (moment - c3 sgn r)/I'z.
 State<double> after(State<double> s, double force, double moment, double h, int steps) {
   constexpr double kInertia = 0.01;
   const FrictionRates<double> friction{kFriction / kMass, 0.005 / kInertia};

@@ -38,7 +38,7 @@ double by_bisection(const Resistance<double>& law, double force) {
   double lo = 1e-300;
   double hi = 1e9;
   for (int i = 0; i < 2000 && std::nextafter(lo, hi) < hi; ++i) {
-    // By ratios first, because the ends are hundreds of powers of ten apart.
+    // Uses the geometric mean first, because the ends can be hundreds of powers of ten apart.
     const double middle = hi > 2.0 * lo ? std::sqrt(lo) * std::sqrt(hi) : 0.5 * (lo + hi);
     (law.at(middle) < force ? lo : hi) = middle;
   }

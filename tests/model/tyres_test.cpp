@@ -41,8 +41,8 @@ WheelForces<double> any_forces() {
 }
 
 TEST(Tyre, GrowsWithASmallSlipByItsCorneringStiffness) {
-  // sigma = 1e-6 for a wheel that rolls at V = sqrt(1 + 0.1^2). The next term of F'y is sigma c_a
-  // F'z/(3 mu F'z), 4e-6 times the first.
+  // A wheel that rolls at V = sqrt(1 + 0.1^2) has the slip sigma = 1e-6. The next term of F'y,
+  // relative to the first, is sigma c_a F'z/(3 mu F'z) = 4e-6.
   constexpr double kSlides_mps = 1e-6;
   const double slip = kSlides_mps / std::hypot(1.0, kTyres.rest_speed_mps);
   for (const double along : {0.0, 0.05, 0.1}) {

@@ -53,7 +53,8 @@ TEST(ReferenceIntegrator, TheClosedLoopAgreesOverEverySampleInEveryMode) {
   for (const YawMode mode : kYawModes) {
     const awmr::Run run = simulate(plant, controller, disturbed_turns(), mode,
                                    {.sample_time_s = kSample_s, .substeps = {}});
-    // The chord at rest is part of the simulated equations, not of the integrator's error.
+    // Near rest, the simulator replaces each resistance by a chord. The reference uses the same
+    // chord, because it is part of the simulated equations and no error of the integrator.
     const Plant<double> resolved = resolved_at_rest(plant, kSample_s / run.substeps);
     for (std::size_t i = 0; i + 1 < run.rows.size(); ++i) {
       const State<double> expected = reference(resolved, run.rows[i], kSample_s);

@@ -95,7 +95,7 @@ TEST(ReferenceIntegrator, OpenLoopPositionsAgreeAfterAMinuteInEveryMode) {
   }
 }
 
-/// Equations and integrator are both independent here.
+/// In this test, both the equations and the integrator are independent of the library.
 TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
   const Plant<double> plant = paper_plant();
   Vehicle vehicle{};
@@ -109,7 +109,8 @@ TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
         const awmr::Run run =
             simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
         const RunRow& first = run.rows.front();
-        // The chord at rest is part of the equations.
+        // The reference also uses the chord that replaces each resistance near rest, because it is
+        // part of the equations.
         const Plant<double> resolved = resolved_at_rest(plant, scenario, 0.01 / run.substeps);
         const State<double> expected = reference(
             {resolved, first.force, first.steering_command_rad, scenario.tyres}, {}, 60.0);
@@ -130,13 +131,13 @@ TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
 
 TEST(Simulate, ConvergesWithFourthOrderWhereTheModelIsSmooth) {
   Plant<double> plant = paper_plant();
-  plant.steering_max_rate_radps = 1e6;  // no kink at the rate limit
+  plant.steering_max_rate_radps = 1e6;  // so high that the rate limit causes no kink
   Vehicle vehicle{};
   vehicle.wheel_force = {-1.0, 1.0};
   const Controller<double> controller = make_controller(plant, vehicle, {});
   State<double> start{};
   start.u_mps = 1.0;
-  start.r_radps = 0.3;  // away from the kink of the resistance at 0
+  start.r_radps = 0.3;  // far from 0, where the resistance has a kink
   const Scenario scenario{"smooth", 1.0, start, 0.0, OpenLoop{1.5, 0.2}};
   const auto end = [&](int substeps) {
     return simulate(plant, controller, scenario, YawMode::kCombined,

@@ -9,7 +9,7 @@
 struct Uart {
   void begin() {
     UCSR0A = _BV(U2X0);
-    UBRR0 = 3;  // 500,000 baud
+    UBRR0 = 3;  // 500,000 baud at 16 MHz
     UCSR0C = _BV(UCSZ01) | _BV(UCSZ00);
     UCSR0B = _BV(TXEN0);
   }

@@ -57,7 +57,7 @@ TEST_F(LogChip, ARowTakesAFewHundredCyclesOfTheStep) {
   std::cout << "a row of the log: " << cycles << " cycles at most, " << emulator_->ram_bytes()
             << " bytes of RAM with the ring\n";
   RecordProperty("cycles", std::to_string(cycles));
-  EXPECT_GT(cycles, 100U);  // 56 bytes at two cycles each at the least
+  EXPECT_GT(cycles, 100U);  // lower limit: storing 56 bytes takes two cycles each
   EXPECT_LT(cycles, 600U);
 }
 

@@ -126,7 +126,7 @@ class Pil : public ::testing::Test {
   static inline TemporaryDirectory* directory_ = nullptr;
 };
 
-/// The row of a run in the README's table of cycles, made from its pil.json.
+/// Makes the row of a run in the README's table of cycles from its pil.json.
 std::string readme_line(const std::string& name, const Json& json) {
   char line[200];
   std::snprintf(line, sizeof line, "| %s | %d / %.0f / %d | %.1f %% | %d | %.3f deg |",
@@ -158,7 +158,7 @@ TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   EXPECT_LE(json["cycles"]["max"].get<int>(), cycles_max);
   EXPECT_LT(json["cycles"]["min"].get<int>(), json["cycles"]["max"].get<int>());
   EXPECT_EQ(json["verdict"], "passed");
-  // Hostile inputs give the host's bits too, within the sample time.
+  // Random and extreme inputs ("hostile" steps) give the host's bits too, within the sample time.
   EXPECT_EQ(json["hostile"]["differing"].get<int>(), 0);
   EXPECT_GE(json["hostile"]["steps"].get<int>(), 6000);
   EXPECT_GT(json["cycles_bound"].get<int>(), json["cycles"]["max"].get<int>());

@@ -62,7 +62,7 @@ TEST(Report, EscapesNamesInsideTheScript) {
   ASSERT_TRUE(html);
   EXPECT_THAT(*html, Not(HasSubstr("</script><script>alert(1)")));
   EXPECT_THAT(*html, Not(HasSubstr("<script>alert(1)")));
-  // The name is included in escaped form, so that the page shows it unchanged.
+  // The page contains the hostile name in escaped form and thus shows it unchanged.
   EXPECT_THAT(*html, HasSubstr("alert(1)"));
 }
 

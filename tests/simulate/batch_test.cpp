@@ -107,7 +107,7 @@ std::vector<Reference> references_of(const std::vector<BatchRun>& runs, const Sc
   return references;
 }
 
-/// Relative difference that rounding may leave, and absolute one of numbers below 1.
+/// Difference that counts as rounding: relative, or absolute for numbers below 1.
 constexpr double kRounding = 1e-9;
 
 bool is_near(const Metrics& batch, const Metrics& scalar) {
@@ -215,7 +215,7 @@ TEST_F(Batch, IsTheRunOfSimulateOnFourTyres) {
   }
 }
 
-/// Compares a run of a minute in open loop, without the metrics of a path.
+/// The run is a minute in open loop; metrics of a path are not compared.
 TEST_F(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
   Scenario scenario{.name = "a minute on tyres",
                     .duration_s = 60.0,
@@ -307,7 +307,7 @@ TEST_F(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
   }
 }
 
-/// Every vehicle has its own back-EMF, and one of them none.
+/// Each vehicle of the batch has a different back-EMF; one has none.
 TEST_F(Batch, IsTheRunOfSimulateWithBackEmf) {
   std::vector<BatchRun> runs = drawn_runs(3, 0.2);
   for (std::size_t i = 1; i < runs.size(); ++i) {

@@ -76,7 +76,8 @@ void is_finite_bounded_and_within_limits(double beyond) {
   const Scenario scenario = any_scenario(beyond);
   Vehicle vehicle = paper_vehicle();
   const auto controller = make_controller(plant, vehicle, {{3.0, 50.0, 12.0}, {2.0 * beyond, 0.5}});
-  // Few of the random plants have time constants of microseconds; these few are enough.
+  // Skips plants with time constants of microseconds, whose runs take long. Few of the random
+  // plants are of this kind.
   if (substeps_for(plant, 0.01) > 500) return;
   for (const YawMode mode : kYawModes) {
     const awmr::Run run = simulate(plant, controller, scenario, mode, {});
@@ -129,7 +130,8 @@ TEST(Bounds, IntegratesAStiffResistanceStably) {
       const double inverse =
           std::pow(std::abs(start), -3.0) + 3.0 * plant.yaw.alpha * row.t_s / plant.inertia_norm;
       const double expected = std::copysign(std::cbrt(1.0 / inverse), start);
-      // One step per time constant of the transient: its error is (1)^5/120 of the remainder.
+      // Tolerance: with one step per time constant of the transient, the error is 1^5/120 of what
+      // remains of it.
       ASSERT_NEAR(row.state.r_radps, expected, 1e-3 * std::abs(expected)) << r0 << " " << row.t_s;
     }
   }

@@ -34,12 +34,13 @@ TEST(Families, SettleAtTheSteadySpeedOfTheLawWithDeadZone) {
     Plant<double> plant = plant_of(c.surge, c.dead_zone);
     const Vehicle vehicle = paper_vehicle();
     Controller<double> controller = make_controller(plant, vehicle, {});
-    // In open loop the controller must not compensate the dead zone.
+    // Switches off the compensation of the dead zone, because the test commands fixed motor forces
+    // in open loop.
     controller.limits.dead_zone = 0.0;
     const Scenario scenario{"open loop", 5.0, {}, 0.0, OpenLoop{1.2, 0.0}};
     const awmr::Run run = simulate(plant, controller, scenario, YawMode::kDifferential,
                                    {.sample_time_s = 0.01, .substeps = {}});
-    // The slowest of these time constants is m'/g' < 0.1 s: 5 s are 50 of them.
+    // The slowest time constant m'/g' is below 0.1 s, so the speed is steady after 5 s.
     EXPECT_NEAR(run.rows.back().state.u_mps, *steady_rate(c.surge, 1.2 - 4.0 * c.dead_zone), 1e-9)
         << c.name;
   }

@@ -102,8 +102,8 @@ TEST(Metrics, ATimedPathIsCompletedWhereItStaysWithinTheToleranceInTheSecondHalf
 TEST(Metrics, ControlVariationIsPerSecondAndOverTheLimits) {
   awmr::Run run = by_hand({0.0, 10.0, 10.0, 10.0, 10.0});
   run.rows[1].steering_command_rad =
-      radians(20.0);             // to the stop and back: twice the full range of one side
-  run.rows[2].force.left = 0.5;  // to 0.5 and back, with F'max = 1
+      radians(20.0);             // the steering moves to its stop and back: variation 2
+  run.rows[2].force.left = 0.5;  // the left force rises to 0.5 F'max and falls back: variation 1
   EXPECT_NEAR(evaluate(run).control_variation, (2.0 + 1.0) / 4.0, 1e-12);
   Controller<double> weak = make_controller(paper_plant(), paper_vehicle(), {});
   weak.limits.force_max = 0.5;
@@ -172,7 +172,7 @@ TEST(Metrics, TravelAndSaturationAreCountedOverTheRun) {
   run.rows[1].force.left = 1.0;
   run.rows[2].force.right = -1.0;
   run.rows[3].steering_command_rad = radians(-20.0);
-  run.rows[4].force.left = 1.0;  // not held for any sample
+  run.rows[4].force.left = 1.0;  // command of the last row, which acts for no sample
   const Metrics m = evaluate(run);
   EXPECT_NEAR(m.steering_travel_deg, 20.0, 1e-12);
   EXPECT_EQ(m.saturation_s, 3.0);
@@ -190,8 +190,8 @@ TEST(Metrics, OpenLoopHasNoHeadingMetrics) {
 
 TEST(ElectricWork, IsThatOfTheCopperAndOfTheWheels) {
   Metrics metrics;
-  metrics.energy_electric = 3.0;  // s of a stalled motor
-  metrics.energy_mech = 2.0;      // m of F_max
+  metrics.energy_electric = 3.0;  // unit: seconds of a stalled motor
+  metrics.energy_mech = 2.0;      // unit: metres with the force F_max
   Vehicle vehicle = fitted_paper_model().vehicle;
   EXPECT_FALSE(electric_work_j(metrics, vehicle, 0.5));
   vehicle.motor_stall_power_w = 20.0;
@@ -250,7 +250,7 @@ TEST(Validity, WarnsOfATurnFasterThanTheTrials) {
   std::vector<Finding> findings;
   EXPECT_FALSE(measured_yaw_rate_degps(model));
   note_extrapolation(model, 100.0, "run", findings);
-  EXPECT_TRUE(findings.empty());  // given numbers have no known range of validity
+  EXPECT_TRUE(findings.empty());  // a model without turning trials has no measured range
   const auto trial = [](TrialKind kind, double measured) {
     TrialPoint point;
     point.kind = kind;
@@ -314,7 +314,7 @@ TEST(Validity, WarnsOfTyresThatContradictTheTurningTrials) {
   Model model = fitted_paper_model();
   Scenario on_tyres = kSteps;
   on_tyres.tyres = Tyres<double>{};
-  EXPECT_FALSE(tyres_differ(on_tyres, model));  // its turning was not measured
+  EXPECT_FALSE(tyres_differ(on_tyres, model));  // the model has no measured yaw rate to compare at
   model.vehicle.yaw_rate_max_degps = 15.0;
   const auto finding = tyres_differ(on_tyres, model);
   ASSERT_TRUE(finding);

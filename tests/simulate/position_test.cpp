@@ -104,7 +104,8 @@ TEST(PositionInTheLoop, LeadsAlongWaypointsWithoutJumps) {
   EXPECT_LT(f.jump_deg, 5.0);
   EXPECT_EQ(f.wrong, 0);
   EXPECT_EQ(f.unfinished, 0);
-  // 2 K/(2 - K) of the fixes' variance, K = 0.064, and the drift of a heading that is 1 deg off.
+  // Expected error: the variance of the fixes times 2 K/(2 - K) with K = 0.064, plus the drift by a
+  // heading error of 1 deg.
   EXPECT_LT(f.position_m, 0.45);
   Scenario raw = waypoints();
   raw.estimator = PositionMethod::kNone;

@@ -92,8 +92,8 @@ TEST(Simulate, RowsAreAtWholeSamplesFromZeroToTheDuration) {
 }
 
 TEST(Simulate, TheCommandOfARowHoldsUntilTheNext) {
-  // From rest at constant tau_speed the first sample's speed depends only on the first row's
-  // command.
+  // From rest with a constant tau_speed, the speed at the end of the first sample depends only on
+  // the command of the first row.
   const awmr::Run run = run_open_loop(paper_plant(), {}, 0.02, {2.0, 0.0});
   EXPECT_EQ(run.rows[0].force.left, 0.5);
   EXPECT_EQ(run.rows[0].state.u_mps, 0.0);

@@ -13,7 +13,7 @@
 namespace awmr::testing {
 namespace {
 
-/// At a position, with 1 m/s along x.
+/// Measurements of a vehicle at this position that drives at 1 m/s along x.
 Sensed at(double x_m, double y_m) { return {{0.0, 1.0, 0.0, 0.0}, {x_m, y_m}}; }
 
 Scenario along(Guidance guidance) {

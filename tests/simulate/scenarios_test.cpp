@@ -97,7 +97,7 @@ TEST_P(ScenarioFiles, IsInvariantUnderReflection) {
   }
 }
 
-/// True if both runs switch to each leg in the same sample.
+/// True if both runs begin each leg of the path in the same sample.
 bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
   const std::size_t rows = std::min(a.rows.size(), b.rows.size());
   for (std::size_t i = 0; i < rows; ++i) {
@@ -209,7 +209,7 @@ TEST(MissingIntervals, NamesFittedParametersWithoutOneAndWhatWithdrewThem) {
   EXPECT_THAT(finding->message, HasSubstr("a3, m'"));
   EXPECT_THAT(finding->message, HasSubstr("model-inadequate"));
   EXPECT_THAT(finding->message, Not(HasSubstr("held-samples")));
-  model[ParameterId::kMassNorm].source = Source::kGiven;  // a given value is not in doubt
+  model[ParameterId::kMassNorm].source = Source::kGiven;  // a given value needs no interval
   model[ParameterId::kYawAlpha].source = Source::kGiven;
   EXPECT_FALSE(missing_intervals(model));
 }

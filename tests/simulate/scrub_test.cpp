@@ -106,7 +106,7 @@ TEST(Scrub, IsTheSameInABatch) {
     const Metrics alone = metrics_of(
         simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}}),
         scenario, controller);
-    // Batch and scalar run differ by rounding only, as in batch_test.cpp.
+    // Tolerance: the run in a batch differs from simulate() only by rounding (batch_test.cpp).
     EXPECT_NEAR(*batch.front()->heading_iae_degs, *alone.heading_iae_degs, 1e-8);
     EXPECT_NEAR(batch.front()->tyre_work, alone.tyre_work, 1e-10);
   }
@@ -154,7 +154,8 @@ TEST(Scrub, IsDrawnWithItsErrorAndLeavesOtherDrawsAsTheyAre) {
     EXPECT_EQ((*evenly)[i].mass_norm, (*plainly)[i].mass_norm);
     even_sum += (*evenly)[i].yaw_scrub_m;
   }
-  // One draw in each of 16 strata: the mean is within a stratum's share of the deviation.
+  // The 16 draws are stratified, so their mean is much closer to 0.01 than that of independent
+  // draws.
   EXPECT_NEAR(even_sum / 16.0, 0.01, 0.002 / 4.0);
 }
 

@@ -1,4 +1,4 @@
-/// Returns a scenario mirrored, or rotated and moved.
+/// Functions that mirror a scenario, or rotate and move it.
 #pragma once
 
 #include <cmath>

@@ -56,10 +56,10 @@ TEST(Disturbances, AStepActsFromItsTimeOn) {
 TEST(Disturbances, ASlopePullsDownhillForEveryHeading) {
   Scenario s = straight();
   s.disturbance.slope = Slope{radians(5.0), radians(-90.0)};
-  EXPECT_LT(run_of(s).rows.back().state.y_m, -0.1);  // sideways
+  EXPECT_LT(run_of(s).rows.back().state.y_m, -0.1);  // the vehicle is pushed sideways
   s.guidance = HeadingSteps{{{0.0, radians(-90.0)}}};
   s.initial.psi_rad = radians(-90.0);
-  EXPECT_GT(run_of(s).rows.back().state.u_mps, 1.05);  // downhill
+  EXPECT_GT(run_of(s).rows.back().state.u_mps, 1.05);  // the vehicle is faster downhill
 }
 
 TEST(Disturbances, BandLimitedNoiseHasItsDeviationAndMemory) {
@@ -98,8 +98,7 @@ TEST(Disturbances, AreTheSameForTheSameSampleAndOtherForAnother) {
 }
 
 TEST(Wheels, ADeadWheelCostsAQuarterOfTheThrust) {
-  // Open loop, straight, differential with equal sides: a failure of the front pair halves the
-  // force.
+  // In open loop with equal left and right forces, a failure of both front motors halves the force.
   Scenario s = straight(20.0);
   s.guidance = OpenLoop{1.0, 0.0};
   s.faults = {{.wheels = {Wheel::kFrontLeft, Wheel::kFrontRight}, .window = {}, .share = 0.0}};
@@ -186,7 +185,8 @@ TEST(Battery, SagsUnderTheMotorsCurrent) {
 }
 
 TEST(Battery, SagIsTheVoltageThatTheCurrentsLeave) {
-  // Two sides with different speeds, two motors each: Kirchhoff's law by iteration.
+  // Expected value by Kirchhoff's law, solved by iteration: two sides with different speeds and two
+  // motors each.
   const SideForces<double> command{0.8, -0.3};
   State<double> at{};
   at.u_mps = 1.2;
@@ -222,7 +222,7 @@ TEST(SensorChannels, HaveTheirNoiseBiasAndSteps) {
   for (const RunRow& row : run.rows) {
     sum += row.measured.psi_rad - row.state.psi_rad;
     square += std::pow(row.measured.psi_rad - row.state.psi_rad - 0.1, 2);
-    EXPECT_EQ(row.measured.r_radps, 0.5);  // 0.26 to the nearest half
+    EXPECT_EQ(row.measured.r_radps, 0.5);  // bias 0.26, rounded to the quantum 0.5
     EXPECT_EQ(row.measured.u_mps, row.state.u_mps);
   }
   const double n = static_cast<double>(run.rows.size());
@@ -314,7 +314,7 @@ TEST(SensorChannels, HaveNoiseWithACorrelationTime) {
       ++count;
     }
   }
-  // 100,000 readings, as many as 2,500 independent ones.
+  // Tolerance: 100,000 correlated readings determine the deviation like 2,500 independent ones.
   EXPECT_NEAR(std::sqrt(squares / count), 0.02, 0.001);
   EXPECT_NEAR(products / squares, std::exp(-0.01 / 0.2), 0.01);
 }

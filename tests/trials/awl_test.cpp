@@ -146,10 +146,10 @@ TEST(Awl, RowsThatMeasureNothingAreSetAside) {
   std::string bytes = awl_header(awl_json());
   for (std::uint32_t i = 0; i < 40; ++i) {
     LogRow row = awl_row(i);
-    if (i < 5) row.fault = 0x08;                                       // no heading yet
+    if (i < 5) row.fault = 0x08;  // fault kFaultHeadingStale: no heading yet
     if (i == 20) row.u_mps = std::numeric_limits<float>::quiet_NaN();  // no number
     if (i == 25) row.psi_rad = std::numeric_limits<float>::infinity();
-    if (i == 30) row.fault = 0x20;  // an old command is not a measurement fault
+    if (i == 30) row.fault = 0x20;  // kFaultCommandTimeout: not a fault of a measurement
     bytes += awl_bytes(row);
   }
   const auto log = read_awl(bytes, "a.awl");
@@ -218,7 +218,7 @@ TEST(Awl, IsReadAsALogByItselfAndAsItsCsv) {
   const std::string bytes = awl_log(60);
   const auto direct = accepted(read_log, bytes);
   const auto csv = accepted(read_log, log_csv(*read_awl(bytes, "a.awl")));
-  EXPECT_EQ(direct.set.rows(), 61U);  // with the row of rest before the first
+  EXPECT_EQ(direct.set.rows(), 61U);  // including the added row of rest before the first one
   EXPECT_EQ(direct.set.t_s, csv.set.t_s);
   EXPECT_EQ(direct.set.force_left, csv.set.force_left);
   EXPECT_EQ(direct.set[LogChannel::kSpeed]->value, csv.set[LogChannel::kSpeed]->value);
@@ -245,13 +245,13 @@ TEST(LogRing, KeepsRowsInOrderAndCountsThoseItHasNoRoomFor) {
   EXPECT_EQ(take(false), 0);  // no complete block yet
   put();
   EXPECT_EQ(take(false), 8);
-  for (int i = 0; i < 20; ++i) put();  // there is room for 16
+  for (int i = 0; i < 20; ++i) put();  // more rows than the 16 that fit
   EXPECT_EQ(take(false), 8);
   EXPECT_EQ(take(false), 8);
   for (int i = 0; i < 3; ++i) put();
-  EXPECT_EQ(take(true), 3);  // the rest of a file
+  EXPECT_EQ(take(true), 3);  // at the end of a file, also rows of an incomplete block
   for (int i = 0; i < 5; ++i) put();
-  EXPECT_EQ(take(false), 5);  // up to the block's end: blocks are not split
+  EXPECT_EQ(take(false), 5);  // a call returns rows up to the end of a block only
   for (int turn = 0; turn < 100; ++turn) {
     for (int i = 0; i < 8; ++i) put();
     EXPECT_EQ(take(false), 8);

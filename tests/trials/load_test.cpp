@@ -113,7 +113,8 @@ TEST(LoadTrials, AStopInMinutesIsRefused) {
   ASSERT_FALSE(trials);
   EXPECT_THAT(to_text(trials.error()),
               AllOf(HasSubstr("minutes"), HasSubstr("stop_time_s=\"stop_time_s\"*60")));
-  // A wrong value in one of several runs is reported as an error of the row, not of the column.
+  // If only one of several runs has a wrong value, the unit of the column is not in doubt and the
+  // table is accepted.
   const ScratchFile one("coastdown.csv", "initial_speed_mps,stop_time_s\n1.5,1.4\n3,0.03\n");
   files.coastdowns = {one.path()};
   EXPECT_TRUE(load_trials(files));

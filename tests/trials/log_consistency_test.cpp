@@ -152,7 +152,7 @@ TEST(LogConsistency, RefusesAVehicleThatNeverMoves) {
   }
 }
 
-/// Codes of the findings on the calibration of channels.
+/// Number of findings about the calibration of channels.
 int calibrations(const DrivingLog& log, const std::string& code, const std::string& words = "") {
   return static_cast<int>(
       std::ranges::count_if(calibration_findings(log, {}), [&](const Finding& finding) {
@@ -347,7 +347,7 @@ TEST(LogConsistency, BlamesReversedWheelOdometryInsteadOfTheForces) {
   EXPECT_EQ(by_heading[0].column, "speed_mps");
   EXPECT_THAT(by_heading[0].message, HasSubstr("one side is reversed"));
   EXPECT_EQ(by_heading[0].mapping, "");
-  // Without the heading, reversed forces have the same effect.
+  // Without the heading, reversed forces of one side explain the log as well.
   log[LogChannel::kHeading].reset();
   const auto alone = contradictions(log, vehicle(), {});
   ASSERT_EQ(alone.size(), 1U);

@@ -46,7 +46,7 @@ TEST(Log, ReadsChannelsInSi) {
   EXPECT_NEAR(log.median_step_s(), 0.1, 1e-9);
 }
 
-/// A log with twelve rows at 10 Hz, forces of 0.2 and these speeds.
+/// Reads a log with twelve rows at 10 Hz, forces of 0.2 and these speeds.
 Read<DrivingLog> log_with_speeds(const std::function<double(int)>& speed_mps) {
   return accepted_log(log_text("speed_mps", [&](int i) { return std::to_string(speed_mps(i)); }));
 }
@@ -204,10 +204,10 @@ TEST(Log, ACourseAtRestIsSetAside) {
 TEST(Log, ACompassAtRestIsKept) {
   const auto compass = [](int) { return 90.0; };
   EXPECT_THAT(codes(accepted_log(with_rests(compass))), Not(Contains("course-at-rest")));
-  // turned on the spot until it drives
+  // the vehicle turns on the spot before it drives
   const auto spun = [](int i) { return i < 10 ? 9.0 * i : 90.0; };
   EXPECT_THAT(codes(accepted_log(with_rests(spun))), Not(Contains("course-at-rest")));
-  // turned by hand during the second rest
+  // the vehicle is turned by hand during the second rest
   const auto turned = [](int i) { return i < 10 ? 90.0 : 90.0 + 9.0 * (i - 30); };
   EXPECT_THAT(codes(accepted_log(with_rests(turned, 180.0))), Not(Contains("course-at-rest")));
 }
@@ -280,7 +280,7 @@ TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   vehicle.drive = Drive::kDifferential;
   std::string text = "t_s,force_left,force_right,speed_mps,yaw_rate_radps\n";
   for (int i = 0; i < 120; ++i) {
-    const bool turn = i >= 60;  // to the right, on the spot
+    const bool turn = i >= 60;  // then turns to the right on the spot
     const double wiggle = i % 2 == 0 ? 1e-3 : -1e-3;
     text += std::to_string(0.1 * i) + (turn ? ",0.2,-0.2," : ",0.3,0.3,") +
             std::to_string((turn ? 0.0 : 1.0) + wiggle) + "," +
@@ -363,7 +363,7 @@ TEST(InitialState, OfPositionsAndHeadingHasTheSpeedAlongTheHeading) {
   log[LogChannel::kHeading] = Measured{.value = std::vector<double>(log.rows(), kPsi),
                                        .fresh = std::vector<bool>(log.rows(), true)};
   for (auto* const forces : {&log.force_left, &log.force_right}) {
-    forces->assign(log.rows(), 0.3);  // brakes, still driving backward
+    forces->assign(log.rows(), 0.3);  // the forces brake while the vehicle still drives backward
   }
   const State<double> state = measured_initial_state({&log, 0, log.rows()});
   EXPECT_NEAR(state.u_mps, -0.8, 1e-9);

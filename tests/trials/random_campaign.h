@@ -29,7 +29,7 @@ struct DrawnVehicle {
   double characteristic_mps;  ///< characteristic speed of understeer, u_ch
   double friction;            ///< friction coefficient of tyres on the ground
   double agility;             ///< factor on the yaw rate; above 1: oversteer, or rear steering
-  double scrubs;  ///< fraction of the left/right speed difference that remains with scrub
+  double scrubs;              ///< fraction of the left/right speed difference left by scrub
 };
 
 class CampaignDraw {

@@ -152,7 +152,7 @@ TEST_F(Bag, IsReadAsALog) {
   write_bag(path, topics_, messages(0, 80));
   const auto log = read(path);
   ASSERT_TRUE(log) << to_text(log.error());
-  // The first speed comes before the first command of the wheels.
+  // The first of 80 speeds comes before the first wheel command, so 79 remain.
   EXPECT_EQ((*log)[LogChannel::kSpeed]->fresh_count, 79);
   EXPECT_NEAR(log->t_s.back() - log->t_s.front(), 79 * 0.02, 1e-6);
   EXPECT_EQ(log->force_left[50], 0.25);

@@ -62,7 +62,8 @@ TEST(SurgeTrial, DoesNotCallRoundingAContradiction) {
 }
 
 TEST(SurgeTrial, FindsAContradictionOnEitherSide) {
-  // Tolerance at 1.25 m/s: 0.005 + 1.25 (0.2/8 + 0.005) = 0.0425.
+  // At 1.25 m/s, a printed speed may differ from distance/time by 0.005 + 1.25 (0.2/8 + 0.005) =
+  // 0.0425 m/s.
   const auto read = accepted(read_surge,
                              "tau_speed,distance_m,elapsed_s,speed_mps\n1.4,10,8,1.20\n"
                              "1.4,10,8,1.21\n1.4,10,8,1.29\n1.4,10,8,1.30\n");

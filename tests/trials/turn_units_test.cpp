@@ -144,7 +144,7 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
     return refusal_of(paper_vehicle(), "",
                       fmt::format("steering_deg,wheel_force,yaw_rate_radps\n20,0.6,{}\n", rate));
   };
-  // r^2 0.35/tan(20 deg) = 60 m/s^2.
+  // The lateral acceleration r^2 l_f/tan(20 deg) may be at most 60 m/s^2, with l_f = 0.35 m.
   const double grip = std::sqrt(60.0 * tan20 / 0.35);
   EXPECT_EQ(without(0.99 * grip), "");
   EXPECT_THAT(without(1.01 * grip), HasSubstr("grip"));

@@ -111,7 +111,7 @@ TEST(TurningTrial, RefusesNegativeAndImpossibleCellsAllAtOnce) {
                   StartsWith("5:11: "), StartsWith("6:1: ")));
 }
 
-/// A vehicle without steering with half_track_m 0.36.
+/// Reads a turning table for a vehicle without steering with half_track_m 0.36.
 const auto kReadSides = [](const std::filesystem::path& path, const TrialOptions& options,
                            std::vector<Finding>& findings) {
   Vehicle vehicle = paper_vehicle();
@@ -179,7 +179,7 @@ TEST(TurningTrial, KeepsDifferentialRunsWithoutATurn) {
   EXPECT_DOUBLE_EQ(read.set.standing[0].tau_turn_m, 2.0 * 0.36 * 0.2);
   EXPECT_EQ(read.set.standing[0].line, 3);
   EXPECT_EQ(read.set.set_aside, 0);
-  // Without steered turns they give no information.
+  // Differential turns in which the vehicle stood give no information without steered turns.
   const auto alone = accepted(kReadTurning,
                               "steering_deg,force_left,force_right,turns,elapsed_s\n"
                               "0,0.1,0.3,0,20\n0,0.2,0.1,1,30\n");

@@ -115,7 +115,7 @@ double growth(const SampledHeadingLoop& loop, double delay_s, double time_s) {
   const double all_s = delay_s + loop.command_delay_s + loop.latency_samples * loop.sample_time_s;
   const auto late = static_cast<std::size_t>(std::lround(all_s / h));
   const auto samples = static_cast<std::size_t>(time_s / loop.sample_time_s);
-  std::vector<double> commands;  // by step
+  std::vector<double> commands;  // one command per integration step
   double psi = 0.1, r = 0.0, servo = 0.0, motor = 0.0, y = 0.0;
   double early = 0.0, at_end = 0.0;
   for (std::size_t j = 0; j < samples; ++j) {

@@ -311,7 +311,7 @@ TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
   const auto width = [&](double wider = 0.0) {
     return with_friction_width(gains, context, wider).heading.friction_width_radps;
   };
-  EXPECT_EQ(width(), 0.02);  // no limit
+  EXPECT_EQ(width(), 0.02);  // default width, because there is no limit of the steering rate
   context.limits.steering_rate_rms_degps = 1.01 * rate_at(0.02);
   EXPECT_EQ(width(), 0.02);
   context.limits.steering_rate_rms_degps = 0.5 * (rate_at(0.02) + rate_at(widest));
@@ -343,7 +343,7 @@ TEST(FrictionWidth, OfTheCombinedModeIsTheNarrowestThatKeepsTheSteeringRate) {
   EXPECT_EQ(with_friction_width(gains, combined).friction_width_at(0.5), width);
   found.heading.combined_friction_width_radps = width - 1e-5;
   EXPECT_GT(steering_rate_rms_degps(found, combined), limit_degps);
-  // The steering rate is that of the mode with the most of it.
+  // The checked steering rate is that of the mode in which it is highest.
   found.heading.combined_friction_width_radps = 0.02;
   found.heading.friction_width_radps = 1e3;
   EXPECT_EQ(steering_rate_rms_degps(found, context), steering_rate_rms_degps(found, combined));
@@ -359,7 +359,7 @@ TEST(FrictionWidth, OfTheCombinedModeIsNotSearchedWithAnObserver) {
   EXPECT_LE(steering_rate_rms_degps(gains, context), *context.limits.steering_rate_rms_degps);
 }
 
-/// The largest moments are those of the forces beyond the dead zone, as in turning_moment().
+/// The largest yaw moments are made by the forces minus the dead zone, as in turning_moment().
 TEST(Authority, IsOfTheForcesBeyondTheDeadZone) {
   DrawnVehicle vehicle{paper_plant(), {-0.05, 1.0}};
   vehicle.plant.wheel_dead_zone = 0.1;
@@ -372,8 +372,8 @@ TEST(Authority, IsOfTheForcesBeyondTheDeadZone) {
               4.0 * 0.36 * (0.9 - vehicle.plant.surge(1.7) / 4.0), 1e-12);
 }
 
-/// With the default width of the combined mode, half of w0, the combined mode has no more noise of the steering
-/// command than the steering mode.
+/// With the default width of the combined mode, half of w0, the combined mode has no more noise of
+/// the steering command than the steering mode.
 TEST(FrictionWidth, OfTheCombinedModeKeepsTheSteeringRateOfTheSteeringMode) {
   for (const bool is_heavy : {false, true}) {
     ConstraintContext context = coulomb_context(is_heavy);
@@ -479,9 +479,10 @@ TEST(SampledLoop, IsTheDoubleIntegratorsWithoutResistanceAndServo) {
                                         .servo_time_constant_s = 0.02,
                                         .sample_time_s = t,
                                         .direct_share = 1.0});
-  // Well-separated eigenvalues of a 3 by 3 matrix of size about 1: at most a few hundred roundings.
+  // Tolerance: well-separated eigenvalues of a 3 by 3 matrix with elements of about 1 have at most
+  // a few hundred roundings.
   EXPECT_NEAR(damping, expected, 1e-10);
-  EXPECT_LT(damping, 0.5);  // z = -0.58: rings with every sample
+  EXPECT_LT(damping, 0.5);  // the pole z = -0.58 changes sign in every sample
 }
 
 TEST(SampledLoop, IsUnstableExactlyBeyondTheJuryBound) {
@@ -500,8 +501,8 @@ TEST(SampledLoop, IsUnstableExactlyBeyondTheJuryBound) {
 }
 
 TEST(SampledLoop, ApproachesTheContinuousLoopForShortSamples) {
-  // T_s and T -> 0: roots -lambda, -k, real, apart, so they stay real under a perturbation of
-  // order h = 1e-5 and the damping ratio stays 1.
+  // For T_s and T -> 0, the roots are -lambda and -k. They are real and separate, so they stay real
+  // under a perturbation of order h = 1e-5, and the damping ratio stays 1.
   const double damping = damping_ratio({.lambda = 3.0,
                                         .reaching_rate = 5.0,
                                         .resistance_rate = 20.0,
@@ -531,8 +532,8 @@ TEST(SampledLoop, LosesDampingWithLambdaPlusKTimesTheLag) {
 }
 
 TEST(Constraints, TakeTheWorstDampingOfAllModesAndYawRates) {
-  // The worst is steering (direct share 0), at k = 190 the differential mode (1); the combined mode
-  // is in between.
+  // The worst damping is that of steering mode (direct share 0); at k = 190, that of differential
+  // mode (direct share 1). Combined mode is in between.
   const ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   for (const double k : {2.0, 10.0, 40.0, 120.0, 190.0}) {
     const Gains<double> gains{{3.0, k, 1.0}, {5.0, 1.2}};
@@ -574,8 +575,8 @@ Eigen::Vector3d after_a_sample(const SampledHeadingLoop& loop, Eigen::Vector3d x
   return x;
 }
 
-/// Knowledge of the law about the plant, whose a is 25 1/s: exact, too small an inertia, too large
-/// a resistance.
+/// Model of the plant (a = 25 1/s) on which the law is based: exact, with too small an inertia, and
+/// with too large a resistance.
 struct Known {
   double fed_forward_rate;
   double input_gain;
@@ -642,7 +643,7 @@ double growth(const SampledHeadingLoop& loop) {
       x = {x.psi + 0.5 * h * (a.psi + b.psi), x.r + 0.5 * h * (a.r + b.r),
            x.servo + 0.5 * h * (a.servo + b.servo), x.motor + 0.5 * h * (a.motor + b.motor)};
     }
-    // Rescaled regularly to avoid overflow and underflow.
+    // Scales the state regularly to avoid overflow and underflow.
     if (k % 100 != 99) continue;
     const double size = std::hypot(std::hypot(x.psi, x.r), std::hypot(x.servo, x.motor));
     if (k >= kSamples / 2) log_size += std::log(size);
@@ -707,7 +708,8 @@ TEST(SampledLoop, IsStableExactlyWhereItsMotionUnderAnObserverDecays) {
 }
 
 TEST(SampledLoop, GainsTheRootOfItsObserverForShortSamples) {
-  // -lambda, -k and -L: real and separate, and far from the servo pole.
+  // The poles -lambda, -k and -L are real, separate, and far from the servo pole, so the damping
+  // ratio is 1.
   const double damping = damping_ratio({.lambda = 3.0,
                                         .reaching_rate = 5.0,
                                         .resistance_rate = 20.0,
@@ -746,7 +748,7 @@ TEST(Constraints, AreThoseOfThePlantWithTheSmallestMargin) {
 
 TEST(Constraints, IncludeTheDifferenceOfADrawToTheModel) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
-  Plant<double> loaded = context.plant;  // with a load of 150 % of its own mass
+  Plant<double> loaded = context.plant;  // the vehicle with a load of 150 % of its mass
   loaded.mass_norm *= 2.5;
   loaded.inertia_norm *= 2.5;
   Plant<double> light = context.plant;

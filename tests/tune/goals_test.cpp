@@ -80,7 +80,7 @@ TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
   EXPECT_EQ(evaluate(400, 400).verdict, GoalVerdict::kMet);
   EXPECT_EQ(evaluate(300, 400).verdict, GoalVerdict::kMissed);
   EXPECT_EQ(evaluate(362, 400).verdict, GoalVerdict::kOpen);
-  EXPECT_EQ(evaluate(5, 5).verdict, GoalVerdict::kOpen);  // five runs cannot show 90 %
+  EXPECT_EQ(evaluate(5, 5).verdict, GoalVerdict::kOpen);  // five runs cannot prove 90 %
   const EvaluatedGoal some = evaluate(362, 400);
   EXPECT_EQ(some.held, 362);
   EXPECT_EQ(some.runs, 400);
@@ -91,7 +91,7 @@ TEST(Goal, OfADrawHoldsWhereAllItsScenariosKeepIt) {
   const TuningGoal goal = quick_and_calm(0.5);
   const GoalInMode one{&goal, YawMode::kCombined};
   const std::vector<Scenario> scenarios{kScenario, held_out_scenario(paper_model()).value()};
-  // Two draws; the first fails in its second scenario.
+  // Two drawn vehicles; the first one fails in the second scenario.
   const std::vector<ModeScore> scores{run_with(1.0, 0.0), run_with(3.0, 0.0), run_with(1.0, 0.0),
                                       run_with(1.6, 0.0)};
   const EvaluatedGoal evaluated = evaluate_goal(one, {"robust", outcomes_of(scores, scenarios)}, 2);
@@ -156,7 +156,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
     if (score.mode != YawMode::kDifferential) continue;
     EXPECT_LE(score.metrics.control_variation, 0.9 * activity);
   }
-  ASSERT_EQ(held->robust->goals.size(), 3U);  // with robust, paper's and nominal gains
+  ASSERT_EQ(held->robust->goals.size(), 3U);  // robust, paper's and nominal gains
   EXPECT_EQ(held->robust->goals.front().gains, "robust");
   EXPECT_EQ(held->robust->goals.front().runs, 100);
   EXPECT_NE(held->gains.heading.lambda, free->gains.heading.lambda);

@@ -45,7 +45,7 @@ ObjectiveSetting setting_of(int plants, double tail_share = 1.0) {
   return setting;
 }
 
-/// Score in the only scenario, with the paper's gains.
+/// Score of the paper's gains in the only scenario of the setting.
 ModeScore score_of(const ObjectiveSetting& setting, std::size_t plant, YawMode mode) {
   const auto scores = run_all(setting, draw_noise(setting), std::span(&kPaperGains, 1)).front();
   const auto modes = yaw_modes(setting.vehicle);
@@ -81,7 +81,8 @@ TEST(ModeScores, AreThoseOfTheRun) {
   EXPECT_NEAR(*score.metrics.heading_iae_degs, iae, 1e-9 * iae);
 }
 
-/// Two headings, held for 1 and 3 s: an error of 0.5 deg has an ITAE of 0.5 (1 + 9)/2 = 2.5 deg s^2.
+/// Two headings, held for 1 and 3 s: an error of 0.5 deg has an ITAE of 0.5 (1 + 9)/2 = 2.5 deg
+/// s^2.
 TEST(UnsettledRuns, CountLongerTheFurtherTheyStayFromTheirHeading) {
   Scenario scenario;
   scenario.duration_s = 4.0;

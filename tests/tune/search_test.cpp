@@ -25,7 +25,7 @@
 namespace awmr::testing {
 namespace {
 
-/// Shorter search: the tests do not need the last per cent.
+/// Options of a short search, whose gains are good enough for the tests.
 TuneOptions short_options() {
   TuneOptions options;
   options.nominal = true;
@@ -105,7 +105,8 @@ TEST(History, IsTheBestSoFarOfTheSearchAndEndsWithTheGainsThatItFound) {
   const TuneOptions options = short_options();
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
-  // After the search, mu and mu_s were reduced as far as the objective permits.
+  // After the search, mu and mu_s were reduced as far as the objective permits, so the final
+  // objective may be larger by the factor 1 + kIndifferent.
   const double found = tuning->history.best.back().objective;
   EXPECT_NEAR(tuning->objective, found, kIndifferent * found);
   EXPECT_EQ(tuning->history.evaluations, tuning->evaluations);
@@ -181,7 +182,7 @@ TEST_P(Tuned, MeetsEveryConstraintAndBeatsPolePlacementWhenSimulatedAgain) {
   const HeadingGains<double>& g = tuning->gains.heading;
   const double reaching_s =
       options.form == ReachingForm::kStrict ? g.epsilon / g.mu : g.epsilon / (2.0 * g.mu);
-  // The same quotients in another order: one or two roundings.
+  // Tolerance: the same quotients in another order, with one or two roundings.
   EXPECT_LE(reaching_s, options.margin / g.lambda * (1.0 + 1e-14));
   for (const ConstraintReport& c : tuning->constraints) {
     if (!c.required) continue;
@@ -189,7 +190,7 @@ TEST_P(Tuned, MeetsEveryConstraintAndBeatsPolePlacementWhenSimulatedAgain) {
   }
   const double mean = mean_objective(options, tuning->gains, tuning->baseline.gains);
   EXPECT_LT(mean, 1.0);
-  // The same metrics, summed in another order.
+  // Tolerance: the same metrics, summed in another order.
   EXPECT_NEAR(tuning->objective, mean, 1e-12);
   EXPECT_EQ(tuning->baseline_objective, 1.0);
   EXPECT_EQ(tuning->held_out_scores.size(), std::size(kYawModes));
@@ -221,11 +222,11 @@ TEST(Tune, ReportsProgressUpToItsEnd) {
   EXPECT_GT(done.back(), total / 4) << "the total is what the search may take at most";
 }
 
-/// At the optimum mu and epsilon can be scaled together without effect; the result depends on the
-/// seed.
+/// At the optimum, mu and epsilon can be scaled together with nearly no effect on the objective.
+/// Without this rule, the seed would determine mu.
 TEST(Tune, TakesTheLeastMuThatScoresAsWell) {
   TuneOptions options = short_options();
-  options.local_evaluations = 150;  // near the optimum, from where no other mu is much better
+  options.local_evaluations = 150;  // ends near the optimum, where no other mu is much better
   options.baseline = Baseline{kPaperGains, kPaperSource};
   const Tuning tuning = tune(paper_model(), options).value();
   const HeadingGains<double>& heading = tuning.gains.heading;
@@ -251,7 +252,7 @@ TEST(Tune, NamesTheActiveConstraintAndItsCost) {
   TuneOptions options = short_options();
   options.local_evaluations = 200;
   options.weights.settling =
-      0.0;  // it jumps where an overshoot leaves the band: two searches are compared
+      0.0;  // settling time jumps if an overshoot leaves the band, which hides small changes
   options.margin = 0.3;
   const Tuning tuning = tune(paper_model(), options).value();
   const auto held = std::ranges::find(tuning.active, "T2 < T1 (strict)", &ActiveConstraint::name);
@@ -441,8 +442,8 @@ TEST(Tune, ReportsAMissingParameterOfTheModel) {
 
 TEST(MeanAndTail, IsTheMeanOfAllAndOfTheWorst) {
   EXPECT_EQ(mean_and_tail({3.0}, 0.2), 3.0);
-  // Half of the mean plus half of the mean of the worst fifth: of five values the 10, (4 + 10)/2;
-  // of six the two worst, (10 + 5)/2.
+  // Half of the mean plus half of the mean of the worst fifth. Of five values, the worst fifth is
+  // the 10: (4 + 10)/2. Of six values, it is the two worst: (10 + 5)/2.
   EXPECT_EQ(mean_and_tail({1.0, 10.0, 2.0, 3.0, 4.0}, 0.2), 7.0);
   EXPECT_EQ(mean_and_tail({1.0, 10.0, 2.0, 3.0, 3.0, 5.0}, 0.2), 0.5 * (4.0 + 7.5));
   EXPECT_EQ(mean_and_tail({1.0, 3.0}, 1.0), 2.0);
@@ -461,7 +462,7 @@ TEST(Conditions, AreThoseOfTheVehicleOrTheDefaults) {
   const Scenario under_them = under(c, default_tuning_scenario(paper_model()).value());
   EXPECT_DOUBLE_EQ(under_them.sensors->heading.noise, radians(0.3));
   EXPECT_EQ(under_them.sensors->speed.latency_s, 0.05);
-  // A scenario's own sensors have precedence.
+  // Sensors that the scenario defines itself are kept.
   Scenario own = default_tuning_scenario(paper_model()).value();
   own.sensors = Sensors{};
   EXPECT_EQ(under(c, own).sensors->heading.noise, 0.0);
@@ -472,7 +473,7 @@ TEST(Robust, BeatsThePapersGainsOnFreshDraws) {
   options.nominal = false;
   options.draws = 3;
   options.evaluation_draws = 40;
-  options.local_evaluations = 120;  // the constraints of four vehicles leave less room
+  options.local_evaluations = 120;  // longer: four vehicles have to meet the constraints
   const Model model = uncertain_model();
   const Result<Tuning> tuning = tune(model, options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
@@ -562,7 +563,7 @@ TEST(Observed, IsComparedWithTheSameGainsWithoutObserver) {
       settled[evaluated.gains] = evaluated.completed_share;
   }
   EXPECT_EQ(settled.at("robust"), 1.0);
-  EXPECT_LE(settled.at("unobserved"), 0.5);  // never with a disturbance
+  EXPECT_LE(settled.at("unobserved"), 0.5);  // runs with the disturbance never settle
   EXPECT_LE(settled.at("baseline"), 0.5);
 }
 
@@ -602,7 +603,7 @@ TEST(Search, ExaminesNoDrawIfNoGainsMeetTheConstraintsOnTheNominalVehicle) {
   const Candidate alone = feasible_start(options, context, kPaperGains);
   EXPECT_GT(alone.violation, 0.0);
   DrawnVehicle drawn = context.own();
-  drawn.plant.yaw.alpha *= 5.0;  // would be violated more
+  drawn.plant.yaw.alpha *= 5.0;  // this vehicle would violate the constraint more
   context.draws = {drawn};
   EXPECT_EQ(feasible_start(options, context, kPaperGains).violation, alone.violation);
 }
@@ -618,7 +619,8 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
   EXPECT_EQ(tuning.error().faults.front().place, "tune.json:/scenarios");
   EXPECT_THAT(to_text(tuning.error()), ::testing::HasSubstr("no run settles"));
-  // The advice has a number, with which runs settle. This vehicle has no friction at rest.
+  // The advice contains a number. With this number, the runs settle. The vehicle has no friction at
+  // rest.
   const std::string message = tuning.error().faults.front().message;
   const std::string key = "scenarios of ";
   const std::size_t place = message.find(key);
@@ -628,7 +630,8 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   EXPECT_THAT(message, ::testing::Not(::testing::HasSubstr("steering_rate")));
 }
 
-/// A limit that is stricter than its default is named with a number with which tune() succeeds.
+/// If a limit that is stricter than its default prevents a result, the message names the limit and
+/// a value with which tune() succeeds.
 TEST(Search, NamesTheNumberOfTheStricterLimitWithWhichRunsSettle) {
   TuneOptions options = short_options();
   options.global_evaluations = 40;
@@ -678,7 +681,7 @@ TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_EQ(changes[0].pointer, "/observer");
   EXPECT_THAT(changes[0].text, ::testing::HasSubstr("rad/s"));
-  weak.observer = {1e-3, 0.1, 0.1};  // on, but too slow
+  weak.observer = {1e-3, 0.1, 0.1};  // an observer that is on, but too slow to let runs settle
   EXPECT_TRUE(changes_that_settle(setting, context, weak, 1.0).empty());
 }
 
@@ -816,7 +819,7 @@ TEST(TradeOff, HasTheGainsThatTheTuningNames) {
   std::map<std::string, TradeOffPoint> named;
   for (const NamedTradeOff& one : tuning.trade_off.named) named[one.gains] = one.point;
   for (const char* name : {"tuned", "baseline", "paper", "lqi"}) EXPECT_EQ(named.count(name), 1U);
-  // Without draws the figures are the means of the scores over the modes.
+  // Without drawn vehicles, the numbers of the trade-off are means over the modes.
   double settling_s = 0.0;
   double variation = 0.0;
   for (const ModeScore& score : tuning.scores) {

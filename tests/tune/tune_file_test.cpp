@@ -233,7 +233,7 @@ TEST_F(TuneFile, WritesTheContractsKeys) {
   const Json& history = json.at("search").at("history");
   EXPECT_EQ(history.at("global_evaluations"), 5);
   EXPECT_EQ(history.at("best").at(1), Json({{"evaluation", 7}, {"objective", 0.8}}));
-  // An undefined metric is null, not 0.
+  // A metric that is undefined in a run is written as null, not as 0.
   EXPECT_TRUE(json.at("metrics").at("steering").at("a").at("overshoot_deg").is_null());
   for (const char* key : {"constraints", "objective", "search", "baseline", "version"}) {
     EXPECT_TRUE(json.contains(key)) << key;

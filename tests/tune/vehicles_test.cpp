@@ -53,7 +53,7 @@ TEST_P(Vehicles, HaveGainsThatKeepEveryConstraintAndScoreBetterThanPolePlacement
   for (const ConstraintReport& c : tuning->constraints) {
     EXPECT_TRUE(!c.required || c.margin >= 0.0) << c.name;
   }
-  // The tuned gains are not those of pole placement: at least one differs by 1 %.
+  // The search has changed the gains of pole placement: at least one differs by 1 %.
   const Gains<double>& tuned = tuning->gains;
   const Gains<double>& poles = tuning->baseline.gains;
   double differs = 0.0;

@@ -173,7 +173,7 @@ TEST(Reversals, CountsTurningPointsBeyondTheBand) {
   EXPECT_EQ(reversals(std::vector<double>{0, 1, 2, 3}, 0.1), 0);
   EXPECT_EQ(reversals(std::vector<double>{0, 1, 0, 1, 0}, 0.1), 3);
   EXPECT_EQ(reversals(std::vector<double>{0, 1, 0.95, 1, 0.95, 1}, 0.1), 0);
-  // A slow drift back in small steps is one reversal.
+  // A slow return in small steps counts as one reversal.
   EXPECT_EQ(reversals(std::vector<double>{0, 1, 0.95, 0.9, 0.85, 0.8, 0.75}, 0.1), 1);
   // A sine of n periods has 2 n reversals.
   std::vector<double> sine;

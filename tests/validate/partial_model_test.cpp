@@ -92,7 +92,8 @@ TEST(PartialModel, PredictsTheSpeedOfAStraightLog) {
   ASSERT_TRUE(v) << to_text(v.error());
   ASSERT_EQ(v->channels.size(), 1U);
   EXPECT_EQ(v->channels[0].channel, "speed_mps");
-  // Euler's error: h/2 over the time constant m'/g1' of 0.07 s, some percent of a short transient.
+  // Tolerance: the error of Euler's method is h/2 over the time constant m'/g1' of 0.07 s, a few
+  // per cent of a short transient.
   EXPECT_LT(v->channels[0].long_horizon.nrmse, 0.05);
   EXPECT_TRUE(v->passed);
 }

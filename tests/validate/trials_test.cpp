@@ -56,7 +56,7 @@ TEST(Validate, GivesTheRmsByKindAndPassesWithinTheTolerance) {
   const Validation v = validated(model_with_trials());
   const double a = 0.1187468 / 0.12 - 1.0;
   const double b = 1.6058891 / 1.66 - 1.0;
-  // Seven digits of the predictions leave 1e-6 of the errors.
+  // Tolerance: predictions with seven digits determine the errors to 1e-6.
   EXPECT_NEAR(*v.surge_rms_relative_error, std::sqrt((a * a + b * b) / 2.0), 1e-6);
   EXPECT_NEAR(*v.coastdown_rms_relative_error, 1.0 - 0.5341109 / 0.573, 1e-6);
   EXPECT_TRUE(v.passed);

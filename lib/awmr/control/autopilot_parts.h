@@ -30,10 +30,10 @@ struct MotorCurve {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
   const RestBlock* rest;   ///< in flash on an AVR; null: none
-  uint8_t mode;            ///< YawMode whose friction width g3 has
+  uint8_t mode;            ///< YawMode for which the friction width of g3 is set
 };
 
-/// Estimates the position from the fixes of a receiver. Filter: as in PositionEstimate.
+/// Estimates the position from the fixes of a GPS receiver. Filter: see PositionEstimate.
 template <class Filter = PositionFilter<float>>
 struct Positioner {
   PositionEstimate<float, Filter> estimate{};

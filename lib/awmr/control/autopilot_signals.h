@@ -31,7 +31,7 @@ struct AutopilotOutput {
   /// Output of the speed law minus the estimated disturbance, dimensionless, before any limit; 0 on
   /// a fault.
   float tau_speed;
-  float tau_turn_m;   ///< the same of the heading law: yaw moment over F_max, m; 0 on a fault
+  float tau_turn_m;   ///< like tau_speed, of the heading law: yaw moment over F_max, m
   float psi_ref_rad;  ///< heading reference of the law, rad; 0 on a fault
   bool arrived;       ///< the route is finished
   uint8_t fault;      ///< SafetyFault bits; not 0: `command` is the safe command

@@ -32,7 +32,7 @@ struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Positio
 inline void set_motors(const RestBlock*, Disabled<MotorCurve>&) {}
 inline void set_motors(const RestBlock* rest, MotorCurve& part) {
   part.rest = rest;
-  part.mode = 0;  // as start_autopilot() sets the friction width
+  part.mode = 0;  // the mode for which start_autopilot() sets g3
   part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
   part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
 }

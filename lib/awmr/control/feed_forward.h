@@ -28,12 +28,13 @@ T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   if (MaskOf<T>::kOneLane || all(rests)) return held;
   return select(rests, held, law(speed));
 }
-/// fed_forward() for a resistance table with a jump at rest.
+/// Resistance that the law feeds forward, for a resistance table with a jump at rest.
 inline float fed_forward(const RestingTable& law, const float& speed, const float& intent) {
   if (!law.is_resting(speed)) return law.table(speed);
   return law.at_rest * math::saturate((speed + intent) / law.rest_speed, 1.0F);
 }
-/// fed_forward() for a resistance table without a jump at rest; the intent is not used.
+/// Resistance that the law feeds forward, for a resistance without a jump at rest: g(w). The intent
+/// is not used.
 template <class T, class G>
 T fed_forward(const G& table, const T& speed, const T&) {
   return table(speed);

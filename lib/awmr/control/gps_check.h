@@ -22,7 +22,7 @@ class GpsCheck {
  public:
   constexpr explicit GpsCheck(const Limits& limits = Limits()) : limits_(limits) {}
 
-  /// Starts the time-out of the first sentence.
+  /// Starts the time-out for the first GPS sentence.
   void begin(uint32_t now_ms) { sentence_ms_ = now_ms; }
 
   /// Processes a sentence without a usable fix; sentences other than RMC are ignored.
@@ -78,7 +78,8 @@ class GpsCheck {
     return true;
   }
 
-  /// Does the next comparison of MotionCheck::check(), for the last accepted fix.
+  /// Does the next comparison of MotionCheck::check(), for the last accepted fix. Returns false
+  /// once all are done.
   bool check_motion() { return motion_.check(limits_); }
   void finish_motion() {
     while (check_motion()) {

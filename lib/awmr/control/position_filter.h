@@ -62,8 +62,9 @@ constexpr uint8_t to_count(double x) {
 
 }  // namespace detail
 
-/// The filter for fixes with the standard deviation `noise_m` per axis and the latency `latency_s`.
-/// The ring covers the latency plus 0.1 s, because the processing of a fix takes several steps.
+/// Computes the constants for fixes with the standard deviation `noise_m` per axis and the latency
+/// `latency_s`. The ring buffer covers the latency plus 0.1 s, because the processing of a fix
+/// takes several steps.
 template <class T>
 constexpr PositionFilter<T> position_filter(double noise_m, double latency_s,
                                             double sample_time_s) {

@@ -15,7 +15,7 @@ struct InputTimes {
   uint32_t now_ms;      ///< the time of this step
   uint32_t heading_ms;  ///< when heading and yaw rate were measured
   uint32_t speed_ms;    ///< when speed and, if used, position were measured
-  uint32_t command_ms;  ///< time of the last reference
+  uint32_t command_ms;  ///< when the last reference arrived
 };
 
 /// Limits of valid input. Part of ParameterBlock, so it has only 32-bit members.

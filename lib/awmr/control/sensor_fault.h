@@ -1,8 +1,8 @@
 /// Fault codes of compass, gyroscope and GPS. Freestanding C++14.
 ///
 /// While a sensor has a fault, its readings are not used. Their time stamp becomes too old, and the
-/// autopilot gives the safe command (safety.h). A fault ends with its cause, except that these end
-/// when:
+/// autopilot gives the safe command (safety.h). A fault ends with its cause. The exceptions, each
+/// with the condition that ends it, are:
 ///   kHeadingOutOfStep           compass and gyroscope have agreed again for a while
 ///   kWrongTurn                  the vehicle does not turn and its motors are off
 ///   kGpsOld                     if UTC ran backward: ten fixes with advancing UTC have arrived
@@ -32,13 +32,13 @@ enum SensorFault : uint8_t {
   kGpsSilent = 8,          ///< no complete sentence within GpsLimits::timeout_ms
   kGpsNoFix = 9,           ///< the receiver reports no fix, or fields are empty or damaged
   kGpsRepeated = 10,       ///< sentences arrive, but their UTC does not change
-  kGpsOld = 11,            ///< fixes arrive over kGpsLag_ms later than at best, or UTC ran backward
-  kGpsJump = 12,           ///< a displacement that the vehicle cannot achieve
-  kGpsInconsistent = 13,   ///< speed and displacement contradict each other
-  kWrongWay = 14,          ///< the vehicle moves against the commanded direction
-  kOffHeading = 15,        ///< the direction of travel is 30 deg or more off the heading
-  kWrongTurn = 16,         ///< the vehicle turns against the commanded yaw moment
-  kOffCourse = 17          ///< the vehicle does not turn to the commanded heading
+  kGpsOld = 11,   ///< latency of fixes over kGpsLag_ms above its minimum, or UTC ran backward
+  kGpsJump = 12,  ///< a displacement that the vehicle cannot achieve
+  kGpsInconsistent = 13,  ///< speed and displacement contradict each other
+  kWrongWay = 14,         ///< the vehicle moves against the commanded direction
+  kOffHeading = 15,       ///< the direction of travel is 30 deg or more off the heading
+  kWrongTurn = 16,        ///< the vehicle turns against the commanded yaw moment
+  kOffCourse = 17         ///< the vehicle does not turn to the commanded heading
 };
 constexpr uint8_t kSensorFaultCount = 18;
 

@@ -7,9 +7,9 @@ namespace awmr {
 
 /// Modes of yaw control, by the actuators that make the yaw moment.
 enum class YawMode {
-  kDifferential,  ///< by the difference of right and left forces, wheels straight
-  kSteering,      ///< by the steered front wheels, right and left forces equal
-  kCombined,      ///< half of the moment by each method
+  kDifferential,  ///< difference of right and left wheel forces, wheels straight
+  kSteering,      ///< steered front wheels, right and left wheel forces equal
+  kCombined,      ///< half of the moment by wheel forces, half by steering
 };
 
 constexpr int kYawModeCount = 3;  ///< number of modes, numbered from 0

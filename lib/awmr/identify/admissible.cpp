@@ -47,8 +47,10 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
   const bool is_of_logs = estimate.method == name_in(kEstimatorNames, Estimator::kTrajectory);
   if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};
   if (ci->hi <= kMaxOpen * ci->lo) return {};
-  return fmt::format("its 95 % interval by these trials is too wide, {:.2g} to {:.2g}", ci->lo,
-                     ci->hi);
+  return fmt::format(
+      "these trials give it a 95 % interval from {:.2g} to {:.2g}, whose ends differ by more than "
+      "a factor of 10,000",
+      ci->lo, ci->hi);
 }
 
 /// Removes the parameters that depend on a removed parameter, and adds the reasons.
@@ -107,7 +109,7 @@ std::map<ParameterId, std::string> take_out_inadmissible(Model& model) {
     withdraw_uncertainty(estimate);
     model.record.findings.push_back(
         {"", 0, Severity::kWarning, "no-interval",
-         fmt::format("the standard error of {} is not finite, so its uncertainty is unknown; "
+         fmt::format("the standard error of {} is not finite, so the model has no interval for it; "
                      "record more runs",
                      parameter.name)});
   }

@@ -1,4 +1,4 @@
-/// Default sway resistance for models without a value from the vehicle file or a log: that of
+/// Default sway resistance for models without a value from the vehicle file or a log: the value of
 /// common tyres, with the spread between tyres as its uncertainty. Private to identify/.
 ///
 /// A tyre's lateral force is c times its load per radian of slip angle. At the forward speed u and

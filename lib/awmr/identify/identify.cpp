@@ -25,8 +25,8 @@ bool asks_for_other_family(const IdentifyOptions& options) {
          options.yaw_family.family != Family::kPower;
 }
 
-/// Error if back-EMF is given or requested but there are only tables. Steady runs determine only
-/// the sum of back-EMF and resistance.
+/// Error if back-EMF is given or requested and there is a surge or turning table: steady runs
+/// determine only the sum of back-EMF and resistance.
 Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
                       const IdentifyOptions& options) {
   const bool is_requested =
@@ -65,16 +65,17 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
   if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
     return input_error(ErrorCode::kConflict, option_text("method"),
                        fmt::format("log-linear supports only the power law and the squared loss; "
-                                   "with {} use nonlinear",
+                                   "with {} use the method nonlinear",
                                    option_text(other_family ? "family" : "loss")));
   }
   if (options.method == Method::kTrajectory && data.logs.empty()) {
     return input_error(ErrorCode::kMissing, option_text("method"),
-                       fmt::format("trajectory needs a driving log ({})", option_text("log")));
+                       fmt::format("the method trajectory needs a driving log; give one with {}",
+                                   option_text("log")));
   }
   if (options.joint && (!data.surge || data.curves.empty())) {
     return input_error(ErrorCode::kMissing, option_text("joint"),
-                       "needs surge runs and a coast-down curve");
+                       "needs surge runs and a coast-down curve; give both, or remove this option");
   }
   return {};
 }
@@ -90,14 +91,15 @@ Method method_of(const TrialData& data, const IdentifyOptions& options) {
                                                    : Method::kTrajectory);
 }
 
-/// Error model of the table fits if the options give none. With another family or a robust loss it
-/// is the relative error of the force, as in log-linear least squares. Otherwise absent.
+/// Error model of the table fits if the options give none. For a family other than the power law or
+/// a robust loss: a relative error of the force, as in log-linear least squares. Otherwise absent.
 std::optional<ErrorModel> noise_of_tables(const IdentifyOptions& options) {
   if (method_of_tables(options) == Method::kLogLinear) return std::nullopt;
   return ErrorModel::kLogForce;
 }
 
-/// Options of a table fit. With `trajectory` as the method, method_of_tables() fits the tables.
+/// Options of a table fit. If the method is `trajectory`, which fits logs, the tables are fitted by
+/// method_of_tables().
 SubjectOptions subject_options(const IdentifyOptions& options, Method method,
                                const FamilyChoice& family) {
   const bool asks_for_noise = options.noise || options.method == Method::kNonlinear;

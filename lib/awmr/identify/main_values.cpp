@@ -55,8 +55,8 @@ void set_law_errors(const Subject& subject, const SteadyFit& law, const Posterio
   }
 }
 
-/// Sets m', I'z and the standard errors of the surge law. `posterior`: of the law's free parameters
-/// and ln m'.
+/// Sets m', I'z and the standard errors of the surge law. `posterior`: joint distribution of the
+/// law's free parameters and of ln m'.
 ///   I'z = m' Iz / m                                                               [paper (68)]
 void set_mass_and_law(const SteadyFit& law, double log_mass, const Posterior& posterior,
                       Source source, const std::string& method, MainValues& values) {

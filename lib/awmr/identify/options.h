@@ -77,8 +77,9 @@ struct IdentifyOptions {
   /// Absent: trajectory if there are logs. Without logs: nonlinear if another family or a robust
   /// loss is requested, else log-linear.
   std::optional<Method> method = {};
-  /// Error model of the nonlinear table fit. If absent, the fit assumes an error of the time (every
-  /// run was timed) or of the speed if `method` is nonlinear, else a relative error of the force.
+  /// Error model of the nonlinear table fit. If absent and `method` is nonlinear: an error of the
+  /// time if every run was timed, else of the speed. If absent and `method` is not nonlinear: a
+  /// relative error of the force.
   std::optional<ErrorModel> noise = {};
   FamilyChoice surge_family = {};
   FamilyChoice yaw_family = {};

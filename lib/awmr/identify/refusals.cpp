@@ -17,7 +17,7 @@ bool has_coastdown(const TrialData& data) {
 
 bool is_assumed(const Estimate& estimate) { return estimate.method == kAssumedSwayMethod; }
 
-/// Reason why the tables do not determine a parameter.
+/// Reason why the tables, or for some parameters vehicle.json, do not determine a parameter.
 std::string table_reason(ParameterId id, const TrialData& data, const Reasons& reasons) {
   switch (id) {
     case ParameterId::kSurgeAlpha:

@@ -25,7 +25,7 @@ struct Reasons {
   bool curve_alone = false;
   /// By parameter: why its fitted value was removed (take_out_inadmissible()).
   std::map<ParameterId, std::string> inadmissible;
-  std::map<ParameterId, std::string> logs;  ///< by parameter: why the logs do not identify it
+  std::map<ParameterId, std::string> logs;  ///< parameters that the logs do not identify: reason
 };
 
 /// Adds the finding `not-identifiable` for every parameter without a value: an error if it was

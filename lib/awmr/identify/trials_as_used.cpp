@@ -10,7 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Predicts the steady speed, the steady yaw rate or the stop time of a run, by the kind of trial.
+/// Predicts the measured quantity of a run: steady speed, steady yaw rate or stop time, depending
+/// on the kind of trial.
 std::optional<double> predicted(const Model& model, TrialKind kind, double input) {
   const auto surge = fitted_law(model, TrialKind::kSurge);
   const auto yaw = fitted_law(model, TrialKind::kTurning);

@@ -59,7 +59,7 @@ Result<BatchArithmetic> batch_arithmetic();
 /// `rounding` of batch_arithmetic(); empty on an error.
 std::string batch_rounding();
 
-/// Simulates the runs and returns the metrics of each, in order. Errors (input) of a run: as
+/// Simulates the runs and returns the metrics of each, in order. Errors (input) of a run: those of
 /// failure_of(). Precondition: the controllers of all runs have the same driven wheels, combined
 /// split and form of the allocation.
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
@@ -71,8 +71,8 @@ struct DrivenRun {
   Run run;
   Metrics metrics;
 };
-/// As simulate_batch(), with the rows of each run. A run that fails in the batch is repeated with
-/// simulate(); its Run::end can still be kFailed.
+/// Simulates the runs like simulate_batch(), and returns the rows of each run too. A run that fails
+/// in the batch is repeated with simulate(); its Run::end can still be kFailed.
 std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
                                    double sample_time_s, const BatchArithmetic& arithmetic);
 

@@ -41,7 +41,7 @@ struct MetricsRow {
   State<T> state;
   SideForces<T> force;     ///< motor commands, over F_max: RunRow::force
   WheelForces<T> acting;   ///< applied over the sample that ends at this row: RunRow::acting
-  T steering_command_rad;  ///< d_ro: commanded steering angle
+  T steering_command_rad;  ///< d_ro: commanded steering angle, rad
   T yaw_resistance_m;      ///< g3(r) of the controller's model
   T goal_rad;              ///< the heading commanded by the guidance, before avoidance and shaping
   T cross_track_m;         ///< distance from the current leg, line or path, left positive
@@ -57,7 +57,7 @@ struct MetricsTime {
   double since_last_s = 0.0;  ///< time since the previous row; 0 in the first row
   bool is_first = false;
   bool starts_step = false;        ///< the commanded heading differs from that of the previous row
-  bool is_in_second_half = false;  ///< only for a timed path: in the second half of the run
+  bool is_in_second_half = false;  ///< in the second half of the run; false without a timed path
 };
 
 /// Sums over the rows so far. All members are of type T; flags are 0 or 1.

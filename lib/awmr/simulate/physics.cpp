@@ -135,7 +135,7 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force) {
   const double rear = plant.rear_driven;
-  double wheels[] = {force.left, force.right, rear * force.left, rear * force.right};  // by Wheel
+  double wheels[] = {force.left, force.right, rear * force.left, rear * force.right};  // as Wheel
   for (const WheelFault& fault : scenario.faults) {
     if (!fault.window.holds(t_s)) continue;
     for (const Wheel wheel : fault.wheels) wheels[static_cast<int>(wheel)] *= fault.share;

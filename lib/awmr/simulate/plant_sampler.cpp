@@ -17,10 +17,10 @@
 namespace awmr {
 namespace {
 
-/// Largest number of draws until one is admissible.
+/// Largest number of attempts to draw a plant without a negative exponent or term.
 constexpr int kMaxTries = 1000;
 
-/// Random stream of the scrub, separate from that of the other parameters.
+/// Number of the random stream of the scrub moment, separate from that of the other parameters.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 
 /// Relative tolerance for negative eigenvalues: a derived parameter (m' from a1, b1) makes the
@@ -181,7 +181,7 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
     }
   }
   return input_error(ErrorCode::kNotIdentified, model_.file + ":/covariance",
-                     fmt::format("all of {} draws have a negative exponent or term of a "
+                     fmt::format("all {} random draws have a negative exponent or term of a "
                                  "resistance; identify the model from more trials",
                                  kMaxTries));
 }

@@ -40,22 +40,22 @@ class PlantSampler {
   /// value; the covariance is missing, has the wrong size, or is not positive semi-definite.
   static Result<PlantSampler> make(const Model& model);
 
-  /// The plant with the number `sample` (>= 1). It depends only on seed and sample. Errors (input):
-  /// none of 1000 draws is without a negative exponent or term.
+  /// Draws the plant with the number `sample` (>= 1). The result depends only on `seed` and
+  /// `sample`. Errors (input): each of 1000 attempts has a negative exponent or term.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
-  /// The plant of draw() as a model; the intervals are those of the identified model.
+  /// Same as draw(), but returns the plant as a model, with the intervals of the identified model.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
   /// Latin hypercube of `count` draws, which are evenly distributed even if they are few. Each
-  /// standard normal of a draw has one value in each of `count` strata of equal probability; the
-  /// seed determines their order and the position within a stratum. The i-th draw, if it has a
+  /// standard normal number has one value in each of `count` strata of equal probability. The seed
+  /// determines the order of the strata and the position within each. The i-th draw, if it has a
   /// negative exponent or term, is replaced by draw(seed, i), i from 1.
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
-  /// The plant for given standard normals n, one for each parameter of the covariance, by
-  /// z = centre + L n, L L^T = Cov(z), or, with quantiles, by their interpolation. Empty if an
-  /// exponent or a term is negative there, or the values are not a valid plant. m' is not raised to
-  /// mass_norm_by_grip, and the scrub moment is that of the model.
+  /// The plant for given standard normals n, one for each parameter of the covariance:
+  /// z = centre + L n with L L^T = Cov(z); for parameters with quantiles, z is interpolated between
+  /// them. Empty if an exponent or a term is negative, or the values are not a valid plant. m' is
+  /// not raised to mass_norm_by_grip, and the scrub moment is that of the model.
   std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
   /// Degrees of freedom k of the draws: the number of independent directions of the normals n on
   /// which the parameters depend. The part of n in these directions is at most r long with the

@@ -17,7 +17,7 @@
 
 namespace awmr {
 
-/// View of the row of a single run (Row = T): the numbers themselves. T: double, or a scalar type
+/// View for a single run (Row = T): gives access to the numbers themselves. T: double, or a scalar type
 /// of the same size, which tests/bench uses to count operations.
 template <class T>
 struct OneRunOf {

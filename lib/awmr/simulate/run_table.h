@@ -10,11 +10,12 @@
 
 namespace awmr {
 
-/// Reads time, state, commands and references from run.csv: columns that every run has. Errors: as
-/// read_csv; decreasing time.
+/// Reads time, state, commands and references from run.csv: columns that every run has. Errors:
+/// those of read_csv(); decreasing time.
 Result<CsvTable> read_run(const std::filesystem::path& path);
 
-/// Checks a text of run.csv after writing by reading it back (core/file.h). Errors: as read_run.
+/// Checks the text of a run.csv by parsing it, for the check after writing (core/file.h). Errors:
+/// those of read_run().
 Status check_run_text(std::string_view text, const std::string& file);
 
 }  // namespace awmr

@@ -70,7 +70,7 @@ struct LinePath {
   AnyLineLaw law{};
   double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m; 0 for a law without corner
                                       ///< rounding
-  std::optional<double> slow_down_m;  ///< as in WaypointPath, along the last segment
+  std::optional<double> slow_down_m;  ///< see WaypointPath; distance along the last segment
 };
 
 /// A timed path: a point that moves along a curve. If the scenario's speed_mps is 0, the commanded
@@ -98,7 +98,8 @@ enum class PositionMethod {
 inline constexpr NameTable<PositionMethod, 2> kPositionMethodNames{
     {{"filter", PositionMethod::kFilter}, {"none", PositionMethod::kNone}}};
 
-/// One run to simulate. What an absent optional field describes is off, if nothing else is noted.
+/// One run to simulate. If an optional field is absent, its feature is off, unless the comment of
+/// the field says otherwise.
 struct Scenario {
   std::string name;
   double duration_s = 0.0;  ///< s, > 0
@@ -116,7 +117,7 @@ struct Scenario {
   PositionMethod estimator = PositionMethod::kFilter;  ///< used only if there is a GPS
   std::optional<Actuators> actuators = {};  ///< absent: exact commands, motors without lag
   ControlOptions control = {};
-  std::vector<CornerParameter> corner = {};  ///< changes the plant, but not the controller
+  std::vector<CornerParameter> corner = {};  ///< changes the plant, not the controller
   /// Absent: the 3-DOF plant of the model; else four wheels on these tyres (model/tyres.h).
   std::optional<Tyres<double>> tyres = {};
   std::uint64_t seed = 0;  ///< seed of all random numbers in the scenario
@@ -151,16 +152,16 @@ struct TyreConflict {
   std::string key;
   std::string message;  ///< the reason and the remedy
 };
-/// The conflicts that the scenario has, or would have, with tyres; whether it has tyres is not
-/// tested.
+/// The conflicts of the scenario with the key `tyres`. They are returned even if the scenario has
+/// no tyres, for callers that want to add tyres.
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 
 /// Errors (input): the scenario has tyres and one of tyre_conflicts().
 Status check_tyres(const Scenario& scenario);
 
-/// Checks that the scenario can run with this model. Errors (input): as check_tyres and
-/// check_observer_rate; an LQI law that is unstable at the vehicle's sample time; a motor fault of
-/// wheels without motors.
+/// Checks that the scenario can run with this model. Errors (input): those of check_tyres() and
+/// check_observer_rate(); an LQI law that is unstable at the vehicle's sample time; a motor fault
+/// of wheels without motors.
 Status check_scenario(const Scenario& scenario, const Model& model);
 
 /// Description of the simulated plant: "model", or "four-wheel, friction 0.8, ..." with the numbers
@@ -170,8 +171,8 @@ std::string plant_text(const Scenario& scenario);
 /// The model with each parameter of Scenario::corner set to the end of its 95 % interval.
 /// Errors (input): a parameter of the corner has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner(), with the parameters that `motion` needs. Errors (input): as
-/// model_at_corner, check_scenario, Model::plant and check_work (in simulate.h).
+/// The plant of model_at_corner(), with the parameters that `motion` needs. Errors (input): those
+/// of model_at_corner(), check_scenario(), Model::plant() and check_work() (simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

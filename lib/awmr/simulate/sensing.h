@@ -50,7 +50,7 @@ class Sensing {
     double correlation;   ///< rho: correlation of the noise of two successive samples
     double noise = 0.0;   ///< n_{k-1}: noise of the previous sample, over its standard deviation
     Random random;
-    const std::vector<double>* normals;  ///< w_k by sample; null: drawn from `random`
+    const std::vector<double>* normals;  ///< one w_k per sample; null: drawn from `random`
   };
   /// The true value of the quantity at the time of the k-th sample minus the latency of the sensor,
   /// interpolated linearly between samples. Before the first sample, the value of the first sample.

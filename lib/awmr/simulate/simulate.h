@@ -36,7 +36,7 @@ struct RunRow {
   double steering_command_rad = 0.0;  ///< d_ro: commanded steering angle, rad, left positive
   double tau_speed = 0.0;             ///< output of the speed law minus the estimated disturbance,
                                       ///< before any limit, dimensionless
-  double tau_turn_m = 0.0;            ///< the same of the heading law: yaw moment, m
+  double tau_turn_m = 0.0;            ///< like tau_speed, of the heading law: yaw moment, m
   double psi_ref_rad = 0.0;           ///< psi_d: heading reference of the law; 0 in open loop
   double u_ref_mps = 0.0;             ///< u_d: speed reference of the law; 0 in open loop
   PathRow path = {};
@@ -106,14 +106,14 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
 /// A controller with the estimates of the model; a scenario's corner does not change them. If the
-/// model only has parameters for straight motion, so has the controller. Errors (input): as
-/// Model::plant and check_observer_rate.
+/// model only has parameters for straight motion, so has the controller. Errors (input): those of
+/// Model::plant() and check_observer_rate().
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
 /// Simulates the model with the controller of controller_for(), at the vehicle's sample time. The
 /// scenario's corner changes the plant, but not the controller. A model without turning parameters
-/// (Model::simulated_motion) can only drive straight. Errors (input): as plant_for, Model::plant,
-/// check_mode, failure_of and check_straight (straight.h).
+/// (Model::simulated_motion) can only drive straight. Errors (input): those of plant_for(),
+/// Model::plant(), check_mode(), failure_of() and check_straight() (straight.h).
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 

@@ -115,8 +115,8 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
   return Finding{
       model.file, 0, Severity::kWarning, "tyres-differ",
       fmt::format("{}: with the yaw moment that turns the model at {:.3g} deg/s, the highest "
-                  "measured rate, the vehicle on these tyres turns at {:.3g} deg/s. The tyres do "
-                  "not match the vehicle; fit them to logs with awmr validate --tyres",
+                  "measured rate, the same vehicle on the scenario's tyres turns at {:.3g} deg/s. "
+                  "The tyres do not match the vehicle; fit them to logs with awmr validate --tyres",
                   scenario.name, plain_degps, on_tyres_degps)};
 }
 

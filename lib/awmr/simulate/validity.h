@@ -61,7 +61,8 @@ std::string fault_of_rate(const HeadingRateChoice& choice);
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model);
 
 /// Applies the limit to every scenario; no effect if the choice is empty or "none". Errors (input):
-/// as fault_of_rate(); "measured" if the model has no highest measured yaw rate.
+/// the choice is invalid (fault_of_rate()), or is "measured" although the model has no highest
+/// measured yaw rate.
 Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                           std::span<Scenario> scenarios);
 

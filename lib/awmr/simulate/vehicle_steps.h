@@ -22,7 +22,7 @@ struct VehicleSetup {
   ExternalForces<double> push{};  ///< flags and slope; each vehicle has its own `load`
 };
 
-/// All numbers of the vehicles.
+/// All numbers of the vehicles that are simulated together, one vehicle per run.
 template <class Row>
 struct Vehicles {
   VehicleSetup setup;

@@ -60,8 +60,8 @@ class Print {
 
 class Stream : public Print {
  public:
-  std::deque<char> incoming;  // on the line
-  std::deque<char> received;  // in the receive buffer
+  std::deque<char> incoming;  // characters on the line, not yet received
+  std::deque<char> received;  // characters in the receive buffer
   std::string outgoing;
   double characters_per_ms = 0, due = 0;
   int lost = 0;  // characters lost because the buffer was full

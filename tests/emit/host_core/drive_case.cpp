@@ -31,8 +31,8 @@ void start_and_arm(double armed_s, double start_s = 3) {
   world.run(armed_s);
 }
 
-/// When the vehicle was first disarmed with its motors off, and the first sensor fault. Called once
-/// per ms.
+/// Records when the vehicle was first disarmed with its motors off, and the first sensor fault.
+/// Call it once per ms.
 struct FirstStop {
   double t = 0;
   double stopped_s = -1;  ///< -1: never
@@ -77,7 +77,8 @@ void run_case(const Failure& one) {
       one.name, drove, stop.stopped_s, is_off, drives_again, stop.cause, away, fastest, rearmed);
 }
 
-/// At rest, armed at speed 0: pushed by hand, or only GPS noise.
+/// Arms the vehicle at rest with a commanded speed of 0. It is then pushed by hand at `pushed_mps`,
+/// or only its GPS has noise.
 void hold_still(double pushed_mps, double noise_mps) {
   World& w = world;
   w.gps_speed_noise = noise_mps;
@@ -115,8 +116,8 @@ void stand_on_slope(double pull, bool drives_first) {
          safety.is_armed());
 }
 
-/// A fault from the start: the compass is off by `offset_deg`, or the servo reversed. Drives, then
-/// heads 90 deg away.
+/// Drives with a fault from the start: the compass is off by `offset_deg`, or the servo is
+/// reversed. Then a heading 90 deg away is commanded.
 void drive_wrong(double offset_deg, double servo_sign) {
   World& w = world;
   w.compass_offset = offset_deg / 57.29578;
@@ -193,12 +194,12 @@ void drive_and_stop(double seconds) {
 void fill_the_lines(uint32_t phase_ms) {
   World& w = world;
   w.gps_delay_ms = phase_ms;
-  start_and_arm(0.2, 10);  // the calibration at rest takes a number of steps
+  start_and_arm(0.2, 10);  // 10 s, because the calibration at rest takes a fixed number of steps
   const bool was_armed = safety.is_armed();
   w.say("S 0.8\n");
   w.run(20);
   const bool drove = safety.is_armed() && w.u > 0.3;
-  w.keep = "KEEP\nKEEP\n", w.keep_period_ms = 1;  // 10 of 11.5 characters a ms
+  w.keep = "KEEP\nKEEP\n", w.keep_period_ms = 1;  // 10 characters per ms; the line takes 11.5
   w.run(3);
   w.keeps = false;
   std::string packet;

@@ -19,7 +19,7 @@ inline std::string frame(int sequence, const std::string& text) {
   return line;
 }
 
-/// True during the last fraction `share` of each period of time, for failures in bursts.
+/// True during the last fraction `share` of each period, for failures that come in bursts.
 inline bool is_in_burst(const World& w, uint32_t period_ms, double share) {
   return w.elapsed_ms % period_ms >= (1 - share) * period_ms;
 }

@@ -30,7 +30,7 @@ struct Setting {
 enum class Time {
   kWiring,   ///< before the start
   kStart,    ///< 1 s after the command to drive
-  kSteady,   ///< 12 s after it
+  kSteady,   ///< 12 s after the command to drive
   kTurning,  ///< when the vehicle then turns faster than kTurning_radps, or after 100 s
 };
 constexpr double kTurning_radps = 0.05;

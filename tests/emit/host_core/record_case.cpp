@@ -17,7 +17,7 @@ int rows(const char* name) {
 int main(int, char** argv) {
   World& w = world;
   const std::string broken = argv[1];
-  w.gps_speed_noise = 0.005;  // the slowest run is steady within 5 %
+  w.gps_speed_noise = 0.005;  // small enough that the slowest run counts as steady within 5 %
   setup();
   w.run(3);
   w.say("ARM\n");

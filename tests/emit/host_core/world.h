@@ -1,4 +1,4 @@
-// Simulated vehicle, sensors and operator for the sketches. Every quantity that a test case
+// Simulated vehicle, sensors and operator for the emitted sketches. Every quantity that a test case
 // modifies is a member.
 #pragma once
 #include <Arduino.h>

@@ -118,7 +118,7 @@ LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const
     std::ranges::sort(members, {}, &Member::settling_s);
     if (members.size() > 6) members.resize(6);
   };
-  // Speed gains are scattered less: they hardly move the heading.
+  // Speed gains are varied less, because they hardly affect the heading.
   std::vector<Vector> points{centre};
   for (int tries = 0; tries < 400 * options.scattered &&
                       points.size() < static_cast<std::size_t>(options.scattered);

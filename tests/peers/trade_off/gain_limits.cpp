@@ -18,7 +18,7 @@ using Vector4 = Eigen::Vector4d;
 struct Loop {
   double own_rate = 0.0;    ///< g3'/I'z of the body, 1/s
   double known_rate = 0.0;  ///< g3'/I'z of the model, which the law feeds forward, 1/s
-  double gain = 1.0;        ///< I'z of the model over the body's
+  double gain = 1.0;        ///< I'z of the model over that of the body
   double by_forces = 0.0;   ///< fraction of the moment that the wheel forces make
   double motor_s = 0.0;
   double latency_s = 0.0;

@@ -31,7 +31,7 @@ double after_step(const Friction& friction, double inertia, double w, double pus
   const double chord =
       (friction.alpha * std::pow(middle, friction.beta - 1.0) + friction.quadratic * middle) /
       inertia;
-  // Implicit trapezoid where it is stable, else implicit Euler.
+  // Implicit trapezoidal rule if it is stable, else implicit Euler.
   const double h = step * chord;
   if (h < 1.0) return (next - 0.5 * h * w) / (1.0 + 0.5 * h);
   return next / (1.0 + h);
@@ -237,7 +237,7 @@ RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& 
   const std::size_t readings = readings_of(course, vehicle);
   std::vector<State> past;
   past.reserve(readings);
-  // Returns a quantity as it was `late` seconds before the k-th sample.
+  // Returns the value of a quantity `late` seconds before the k-th sample.
   const auto read = [&](std::size_t k, double late, double State::*quantity) {
     const double time = std::max(0.0, static_cast<double>(k) - late / ts) + 1e-9;
     const auto before = static_cast<std::size_t>(time);

@@ -27,10 +27,10 @@ struct Body {
 struct Geometry {
   double front_axle_m = 0.0, half_track_m = 0.0;
   double steering_max_rad = 0.0, steering_rate_radps = 0.0;
-  double servo_s = 0.0;  ///< 0: no steering
+  double servo_s = 0.0;  ///< time constant of the servo; 0: no steering
   double sample_s = 0.0;
-  double force_min = -1.0, force_max = 1.0;  ///< of one wheel, over F_max
-  double motor_s = 0.0;                      ///< lag of the motors
+  double force_min = -1.0, force_max = 1.0;  ///< range of the force of one wheel, over F_max
+  double motor_s = 0.0;                      ///< time constant of the motors' lag
 };
 
 struct SensorErrors {
@@ -43,7 +43,7 @@ struct LawGains {
   double speed_mu = 0.0, speed_epsilon = 0.0;
   double friction_width_radps =
       0.02;  ///< below this yaw rate, dry friction is fed forward in proportion to the rate
-  double combined_friction_width_radps = 0.0;  ///< that rate in combined mode; 0: half
+  double combined_friction_width_radps = 0.0;  ///< the same in combined mode; 0: half of it
 };
 
 /// Friction width in combined mode.

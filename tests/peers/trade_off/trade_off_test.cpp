@@ -15,7 +15,7 @@ namespace {
 
 class TradeOff : public ::testing::TestWithParam<testing::TestVehicle> {};
 
-/// Distance of two sets of gains: the largest |ln| of the ratio of corresponding gains.
+/// Distance of two sets of gains: the largest |ln(a/b)| over corresponding gains a and b.
 double distance_of(const LawGains& a, const LawGains& b) {
   double most = 0.0;
   for (const double ratio : {a.lambda / b.lambda, a.mu / b.mu, a.epsilon / b.epsilon,

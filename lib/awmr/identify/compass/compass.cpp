@@ -201,7 +201,7 @@ Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>
 /// more than ten times the other, so that noise determines the heading.
 Status check_usable(const std::string& file, const CompassCalibration& c) {
   constexpr double kRounding =
-      1e-3;  // largest rounding error of the centre over the field: 0.06 deg
+      1e-3;  // largest rounding error of the centre, over the field: 0.06 deg of heading
   constexpr double kRoundest = 10.0;  // largest ratio of the longer axis to the shorter axis
   const double field = c.field.value;
   for (const double centre : {c.centre_ahead.value, c.centre_left.value}) {

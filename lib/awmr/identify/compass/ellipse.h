@@ -7,7 +7,7 @@
 namespace awmr::compass {
 
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 2>;
-/// Parameters of an ellipse: o_1, o_2, S_11, S_12, S_22.
+/// Parameters of an ellipse in the order o_1, o_2, S_11, S_12, S_22 (see Ellipse below).
 using Parameters = Eigen::Matrix<double, 5, 1>;
 
 /// Ellipse of the points f with |S (f - o)| = 1: centre o and gain S, a symmetric and positive

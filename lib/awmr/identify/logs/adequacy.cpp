@@ -77,9 +77,10 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
     if (test.p_value >= kSignificant || !test.name.starts_with("whiteness")) continue;
     findings.push_back(
         {file, 0, fit.widened >= kMuch ? Severity::kWarning : Severity::kNote, "coloured-residuals",
-         fmt::format("{}: the residuals are correlated (p = {:.2g}) beyond their noise model, so "
-                     "the model is incomplete. Standard errors are multiplied by up to {:.2g}, "
-                     "according to the scatter between parts of the logs",
+         fmt::format("{}: successive residuals are more strongly correlated than their noise model "
+                     "allows (p = {:.2g}), so the model is incomplete. Standard errors are "
+                     "multiplied by up to {:.2g}, according to the scatter between parts of the "
+                     "logs",
                      test.name, test.p_value, fit.widened)});
   }
   return findings;

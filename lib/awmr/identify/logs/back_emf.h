@@ -20,15 +20,17 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 /// Returns the options with k_e free, and with an initial guess of k_e if there was none.
 LogFitOptions with_back_emf(LogFitOptions options);
 
-/// True if a fit with k_e free should be tried after `fit`: the score test of k_e estimates a
-/// decrease of -2 ln L above 4, a slow drift of a channel may hide k_e, or `fit` did not converge.
-/// False if k_e is not among `candidate_terms`, those of the options of `fit`.
+/// True if another fit should be tried that also estimates k_e: because the score test of k_e
+/// predicts a decrease of -2 ln L above 4, because a slow drift of a channel may hide k_e, or
+/// because `fit` did not converge. False if k_e is not among `candidate_terms`, the terms that
+/// `fit` tested.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
 /// True if the fit with k_e lowers AIC by more than kFamilyAicThreshold and identifies k_e.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
-/// The warning `back-emf`: reports that the model with k_e is used, its k_e, and its gain of AIC.
+/// The warning `back-emf`: reports that the model with k_e is used, the value of k_e, and the
+/// decrease of AIC.
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without);
 
 }  // namespace awmr

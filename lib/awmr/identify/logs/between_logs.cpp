@@ -41,7 +41,8 @@ void add(const std::string& file, double coordinate, double variance, ByLog& by_
   by_log.weights.push_back(1.0 / variance);
 }
 
-/// Collects the estimates of the quantity `name` from the fits that identify it. `files`: by fit.
+/// Collects the estimates of the quantity `name` from the fits that identify it. `files`: the log
+/// file of each fit.
 ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& fits,
               const std::string& name) {
   ByLog found;
@@ -57,7 +58,7 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 /// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double std_error = 0.0;    ///< of the mean over logs, with the variance tau^2 between them
+  double std_error = 0.0;    ///< standard error of the mean over logs, incl. tau^2
   double mean_square = 0.0;  ///< Q/(L - 1), about 1 if the L logs agree
 };
 
@@ -142,10 +143,11 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   return disagreements;
 }
 
-/// The delay or command error outside the common fit whose score tests differ most between the
-/// logs; empty if no term differs by more than three standard errors (root mean square). The
-/// standard errors are those by the noise model. The scatter between blocks is no measure of this
-/// difference, because all blocks of one log have the same command error.
+/// Of the delays and command errors that the common fit does not contain, the one whose value by
+/// score test differs most between the logs. Empty if no value differs by more than three standard
+/// errors (root mean square). The standard errors are those of the noise model, because the scatter
+/// between blocks does not contain this difference: all blocks of a log have the same command
+/// error.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {

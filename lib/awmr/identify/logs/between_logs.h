@@ -30,8 +30,8 @@ struct LogComparison {
 };
 
 /// Fits every log on its own, starting from the optimum of the `common` fit of all logs, and
-/// compares the values. For a coordinate with the values x_l and the weights w_l = 1/var(x_l) in L
-/// logs,
+/// compares the values. For a coordinate (a quantity or its logarithm) with the values x_l and the
+/// weights w_l = 1/var(x_l) in L logs,
 ///
 ///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom if the logs agree,
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)
@@ -43,11 +43,11 @@ struct LogComparison {
 /// not compared, because they may differ between logs.
 ///
 /// The common fit may lack a delay or command error that differs between the logs, for example a
-/// steering trim that was changed between two logs. Of these terms, the one whose score tests
-/// differ most between the logs is therefore also fitted to each log, if they differ by more than
-/// three standard errors. If the logs disagree on this term, or on a steering trim, force imbalance
-/// or saturation of the common fit, all intervals of the common fit are invalid, because the other
-/// quantities absorb the effect.
+/// steering trim that was changed between two logs. A score test of each such term is therefore
+/// made on every log. The term whose results differ most between the logs is fitted to each log, if
+/// they differ by more than three standard errors. If the logs disagree on this term, or on a
+/// steering trim, force imbalance or saturation of the common fit, all intervals of the common fit
+/// are invalid, because the other quantities absorb the effect.
 ///
 /// A single log of 20 s or more is split: a fit of its first half predicts its second half and its
 /// last fifth (held_out.h). If both are predicted (p > 0.05), there is no disagreement. Otherwise

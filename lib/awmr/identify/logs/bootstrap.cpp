@@ -40,7 +40,7 @@ std::vector<Interval> block_bootstrap(const BootstrapInput& input,
                                       const BootstrapOptions& options) {
   if (options.resamples <= 0) return {};
   const std::size_t n = input.quantities.size();
-  std::vector<std::vector<double>> draws(n);  // by quantity: change of the coordinate, by resample
+  std::vector<std::vector<double>> draws(n);  // draws[i]: change of coordinate i in each resample
   Random random(options.seed, 2);
   const Eigen::VectorXd mean = mean_of(input.scores, eigen_index(n));
   for (int b = 0; b < options.resamples; ++b) {

@@ -84,7 +84,7 @@ class Evaluator : public ceres::EvaluationCallback {
   const SearchPoint& point_;
   std::vector<WindowSums> sums_;
   std::vector<Triangle> triangles_;
-  std::vector<bool> held_;  ///< by coordinate: true if fixed at its bound
+  std::vector<bool> held_;  ///< one per coordinate: true if fixed at its bound
 };
 
 /// Cost function of one window. Returns the results of Evaluator, reduced to a triangular matrix.

@@ -82,9 +82,9 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// Selects the errors from which a channel's drift is estimated: all, or about kEnough to 1.5
-/// kEnough if there are at least 2 kEnough. The selected errors are whole windows spread over the
-/// logs. kEnough errors determine the standard deviations to 1 %.
+/// Selects the errors from which a channel's drift is estimated: all if there are fewer than
+/// 2 kEnough, else about kEnough to 1.5 kEnough, in whole windows spread over the logs. kEnough
+/// errors determine the standard deviations to 1 %.
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;

@@ -46,7 +46,7 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
                       "file, so that gains are tuned for it",
                       input.value, input.error,
                       with_lag ? "in addition to the motors' lag"
-                               : "more likely by a dead time than by motor lag")};
+                               : "which is more likely a dead time than motor lag")};
 }
 
 /// Reports motor lag, dead time or late time stamps of the commands. If the fit has found none of
@@ -55,7 +55,7 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
-      "biased. Log the commands that reach the motors, or record slower steps";
+      "biased; log the commands that reach the motors, or record slower steps";
   std::vector<Finding> findings;
   for (const FoundTerm& lag : found_terms(fit, FreeQuantity::Kind::kMotorLag)) {
     findings.push_back(
@@ -114,9 +114,10 @@ std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
   for (const auto& [quantity, slip, error] : found_terms(fit, FreeQuantity::Kind::kWheelSlip)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "wheel-slip",
-         fmt::format("the wheels that measure {} slip: a wheel with the force F' rolls faster "
-                     "than over ground by F' times {}. The fit compensates this; measure without "
-                     "driven wheels (optical flow, GNSS, a gyroscope, a free wheel)",
+         fmt::format("the wheels that measure {} slip: a wheel with the force F' (over F_max) "
+                     "rolls faster than it moves over ground, by F' times {}. The fit compensates "
+                     "this; measure without driven wheels (optical flow, GNSS, a gyroscope, a free "
+                     "wheel)",
                      info(quantity.channel).name,
                      quantity.is_ratio
                          ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip, 100.0 * error)
@@ -215,10 +216,10 @@ std::vector<Finding> constant_error_findings(const LogFit& fit, const std::strin
   return findings;
 }
 
-/// Loss of force up to which the forces count as proportional to the commands.
+/// Relative loss of force up to which the forces count as proportional to the commands.
 constexpr double kLinear = 0.05;
 
-/// Sharpness of the saturation in the fit.
+/// Sharpness n of the saturation (force_saturation()): the fitted one, or the default if not free.
 double sharpness_of(const LogFit& fit) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
@@ -230,8 +231,8 @@ double sharpness_of(const LogFit& fit) {
 /// `force-saturation`, if large commands push less than in proportion.
 std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWithoutIntervals =
-      ", without intervals and without a comparison of parts of the logs, because the true form is "
-      "unknown";
+      " (without intervals and without a comparison of parts of the logs, because the true form of "
+      "the saturation is unknown)";
   const std::string_view withdrawn = saturates_much(fit) ? kWithoutIntervals : "";
   std::vector<Finding> findings;
   for (const FoundTerm& exponent : found_terms(fit, FreeQuantity::Kind::kForceExponent)) {
@@ -288,8 +289,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   if (!withdrawn) return findings;
   for (Finding& finding : findings) {
     if (finding.code == "force-saturation" && saturates_much(fit)) continue;
-    finding.message +=
-        ". Its interval is withdrawn too, because the model error may cause this effect";
+    finding.message += ". This value has no interval, because the model error may cause the effect";
   }
   return findings;
 }

@@ -9,8 +9,8 @@
 namespace awmr {
 
 struct CrossValidation {
-  std::vector<LeaveOneOut> leave_one_out;  ///< by log: values of the fit without this log
-  std::vector<Finding> findings;           ///< `held-out-log` with the prediction errors, by log
+  std::vector<LeaveOneOut> leave_one_out;  ///< one per log: values of the fit to the other logs
+  std::vector<Finding> findings;  ///< one `held-out-log` per log, with its prediction errors
 };
 
 /// Leaves out each log in turn, fits the others and predicts the omitted log. `options`: those of

@@ -45,7 +45,8 @@ double akaike_of(const NoiseIteration& fit) {
   return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities));
 }
 
-/// Frees the terms `more` and fits one round, starting with white noise in place of drift.
+/// Adds the terms `more` to the estimated quantities and fits one round, starting with white noise
+/// in place of drift.
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss) {
   constexpr double kLargestFirstStep = 3.0;  // in large changes
   std::vector<FreeQuantity> quantities;
@@ -78,7 +79,7 @@ class LowestAic {
     best_ = std::move(fit);
     return true;
   }
-  /// Empty if no fit had a lower AIC than the start.
+  /// The kept fit; empty if no fit had a lower AIC than the start.
   std::optional<NoiseIteration>& best() { return best_; }
 
  private:
@@ -145,14 +146,14 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
-/// True if a motor lag is given or free.
+/// True if a motor lag is given in the vehicle file or estimated.
 bool has_motor_lag(const LogModel& model) {
   return model.vehicle.motor_time_constant_s ||
          has_kind(model.quantities, FreeQuantity::Kind::kMotorLag);
 }
 
-/// Considers a motor lag in place of the command delay `found_s` and in addition to it: the
-/// commands can also be delayed, or their time stamps late.
+/// Considers two replacements for the command delay `found_s`: a motor lag in its place, and a
+/// motor lag together with a delay (negative if time stamps are late).
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;
@@ -168,7 +169,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
   constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
   constexpr double kBeyondDoubt = 20.0;
   LowestAic lowest(settled);
-  std::optional<NoiseIteration> strongest;  // of the first candidate, if its test is beyond doubt
+  std::optional<NoiseIteration> strongest;  // first candidate, if above kBeyondDoubt
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);

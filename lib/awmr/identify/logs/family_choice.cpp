@@ -20,7 +20,8 @@ bool is_of_yaw(ParameterId term) {
   return term == ParameterId::kYawCoulomb || term == ParameterId::kYawQuadratic;
 }
 
-/// Largest gain of the score tests of surge terms, or of yaw terms (`of_yaw`); 0 without terms.
+/// Largest decrease of -2 ln L that the score tests predict for a term of the yaw resistance
+/// (`of_yaw`) or of the surge resistance; 0 without terms.
 double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate_terms,
                     bool of_yaw) {
   double most = 0.0;
@@ -32,9 +33,9 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
   return most;
 }
 
-/// True if a family with more terms may be better: the score test of a term estimates a large gain,
-/// the errors have a slow drift, which can hide a missing term, or `fit` did not converge.
-/// `of_yaw`: true for terms of yaw, false for terms of surge.
+/// True if a family with more terms may be better: because the score test of a term predicts a
+/// large decrease of -2 ln L, because the errors have a slow drift, which can hide a missing term,
+/// or because `fit` did not converge. `of_yaw`: true for terms of yaw, false for terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
   if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
@@ -85,7 +86,7 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                  fmt::format("these logs do not decide between {} and {}: the AIC of the latter is "
                              "lower by {:.1f}, which is not significant, but {} changes by {:.1f} "
                              "standard errors. The intervals are valid for {} only; record a log "
-                             "with more different speeds",
+                             "at more different speeds",
                              families_in_words(best.surge, best.yaw),
                              families_in_words(alternative.surge, alternative.yaw), gain, name,
                              apart, families_in_words(best.surge, best.yaw))};
@@ -293,9 +294,9 @@ struct FamilyComparison {
   const LogFitOptions& power_law;
   const FamilyContest& contest;
   BestFamily result;
-  LogFit power_fit;                 ///< the best fit of the families of the start
-  std::pair<Family, Family> start;  ///< families of the start, surge and yaw
-  std::map<bool, LogFit> winners;   ///< by axis (true: yaw), before delays are searched again
+  LogFit power_fit;                 ///< the best fit under the families of `start`
+  std::pair<Family, Family> start;  ///< first families: surge, yaw
+  std::map<bool, LogFit> winners;   ///< key true: yaw; fits before delays were searched again
 
   std::pair<Family, Family> families() const { return {result.best.surge, result.best.yaw}; }
 

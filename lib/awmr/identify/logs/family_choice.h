@@ -11,7 +11,7 @@ namespace awmr {
 struct FamilyContest {
   bool surge = true;  ///< true: compares all surge families; false: keeps that of `first`
   bool yaw = false;   ///< true: compares all yaw families; false: keeps that of `first`
-  double lead = 0.0;  ///< another family replaces that of `first` if its AIC is lower by more
+  double lead = 0.0;  ///< a family replaces that of `first` if its AIC is lower by more than this
   /// True: fits other families only if a score test or a slow drift suggests a missing term, or if
   /// `first` did not converge.
   bool only_candidates = true;
@@ -27,7 +27,8 @@ struct BestFamily {
   bool is_out_of_time = false;
 };
 
-/// Reports of the fits for /estimates, each with its AIC under the noise of `reference`.
+/// Reports of the fits for /estimates of model.json. The AIC of each fit is computed under the
+/// noise model of `reference`, so that the values are comparable.
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 

@@ -21,7 +21,8 @@ void hold_exponent(LogFitOptions& options, ParameterId beta) {
   options.initial_guess[at(beta)] = 1.0;
 }
 
-/// Frees a term. Sets its initial guess to `guess` unless it already has one.
+/// Makes a term free, so that the fit estimates it. Sets its initial guess to `guess` unless it
+/// already has one.
 void free_term(LogFitOptions& options, ParameterId id, double guess) {
   if (!options.frees(id)) options.free.push_back(id);
   double& value = options.initial_guess[at(id)];

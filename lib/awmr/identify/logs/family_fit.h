@@ -23,7 +23,8 @@ bool is_over(const LogFitOptions& options);
 /// command errors of `fit`, searches no others and tests no candidate terms.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
-/// Fits the logs with options whose free terms are those of the families `surge` and `yaw`.
+/// Fits the logs under the families `surge` and `yaw`. Precondition: `options` already frees the
+/// terms of these families.
 FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, Family surge,
                    Family yaw);
 
@@ -34,7 +35,8 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
 /// Fits the logs under the families `surge` and `yaw`, starting from the optimum of `inner`, a fit
 /// of other families. There are two starts: the curves of the new families nearest to those of
 /// `inner`, and the values of `inner`, with the initial guess of `power_law` for terms that are 0
-/// in `inner`. If `inner` did not converge, as fit_family(). `more`: terms that are freed too.
+/// in `inner`. If `inner` did not converge, does the same as fit_family(). `more`: further terms to
+/// estimate.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw,
                    const std::vector<FreeTerm>& more = {});

@@ -13,7 +13,7 @@
 namespace awmr {
 namespace {
 
-constexpr double kStandardErrors = 2.0;  // smallest force that is reported
+constexpr double kStandardErrors = 2.0;  // smallest reported force, in its standard errors
 
 /// An identified quantity with its standard error.
 struct FoundForce {

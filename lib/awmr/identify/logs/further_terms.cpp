@@ -103,7 +103,8 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(force_imbalance());
   }
   const double full_command = largest_command(problem);
-  // Only one of them: together they fit every curve, also one that ends at a wrong small force.
+  // Only one of exponent and saturation is added: both together fit every curve, even one with
+  // wrong forces at small commands.
   if (full_command > 0.0 && !has_kind(quantities, Kind::kForceExponent) &&
       !has_kind(quantities, Kind::kForceSaturation)) {
     found.push_back(force_exponent());

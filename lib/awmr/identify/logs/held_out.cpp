@@ -83,7 +83,7 @@ FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::Ve
 /// Change d of the compared coordinates, each divided by its large change, with its covariance.
 /// `directions`: number of directions that the rows determine.
 struct Change {
-  Eigen::VectorXd size;  ///< d
+  Eigen::VectorXd size;  ///< d, one per compared coordinate
   Eigen::MatrixXd covariance;
   double p_value = 1.0;
   Eigen::Index directions = 0;

@@ -89,10 +89,10 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Widens a standard error to that from the scatter of the scores, if the scores scatter more than
-/// the noise model predicts between blocks, or significantly more between three or more logs.
+/// Raises standard errors to those computed from the scatter of the scores, if the scores of blocks
+/// scatter more than the noise model predicts, or those of three or more logs significantly more.
 void widen(const Scores& scores, Identifiability& found) {
-  constexpr double kManyDegrees = 1e6;  // Student's t is then the normal distribution
+  constexpr double kManyDegrees = 1e6;  // with these, Student's t is the normal distribution
   constexpr std::size_t kEnoughLogs = 3;
   found.degrees_of_freedom.assign(at(found.covariance.rows()), kManyDegrees);
   found.factor.assign(at(found.covariance.rows()), 1.0);
@@ -117,14 +117,15 @@ void refuse_dependent(Eigen::Index stopped, const std::vector<FreeQuantity>& qua
         !(std::abs(correlation) > kDependent))
       continue;
     found.refusal_reason[at(i)] = fmt::format(
-        "it depends on {} (correlation {:.2f}), whose search ended at a limit of its range",
+        "it depends on {} (correlation {:.2f}), whose search ended at a limit of the accepted "
+        "range",
         quantities[at(stopped)].name(), correlation);
   }
 }
 
 std::string why_stopped(const FreeQuantity& q, double coordinate) {
   std::string why =
-      fmt::format("the search ended at a limit of the range, {:.4g}", q.value(coordinate));
+      fmt::format("the search ended at {:.4g}, a limit of the accepted range", q.value(coordinate));
   if (q.is(ParameterId::kSurgeBeta)) why += "; widen surge_beta_range in the vehicle file";
   if (q.is(ParameterId::kYawBeta)) why += "; widen yaw_beta_range in the vehicle file";
   return why;

@@ -22,12 +22,12 @@ struct Identifiability {
   /// Covariance of the coordinates, n x n. A coordinate that the logs do not identify has a large
   /// variance, which propagates to all correlated coordinates.
   Eigen::MatrixXd covariance;
-  std::vector<double> degrees_of_freedom;   ///< of the standard errors, by quantity
-  std::vector<std::string> refusal_reason;  ///< by quantity: why it is refused; empty if identified
+  std::vector<double> degrees_of_freedom;   ///< one per quantity, of its standard error
+  std::vector<std::string> refusal_reason;  ///< one per quantity; empty text: it is identified
   int rank = 0;                             ///< number of directions that the logs determine
-  double condition_number = 0.0;  ///< of the Jacobian by coordinates in units of large changes
-  /// By quantity: factor by which the standard error was multiplied, >= 1. Above 1, parts of the
-  /// logs scatter more than the noise model predicts.
+  double condition_number = 0.0;  ///< of the Jacobian, with coordinates in units of large changes
+  /// One per quantity: factor by which its standard error was multiplied, >= 1. Above 1: parts of
+  /// the logs scatter more than the noise model predicts.
   std::vector<double> factor;
 
   /// Largest of the factors.

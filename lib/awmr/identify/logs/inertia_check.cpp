@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// I'z/m' of real vehicles over that of a uniform box.
+/// Usual range of I'z/m' of real vehicles, divided by that of a uniform box.
 constexpr Interval kUsual{0.3, 2.0};
 
 /// Names a unit of the speed that would explain I'z/m'. Empty if I'z/m' is not too large, or if the
@@ -36,7 +36,7 @@ std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_
   return " (speed_mps may be a rate of rotation of the wheels: multiply it by their radius)";
 }
 
-/// Estimate of the log fit, or of other trials; null without a value.
+/// Estimate of a parameter by the log fit, else by other trials; null if neither has a value.
 const Estimate* estimate_of(const Model& model, const LogStage& stage, ParameterId id) {
   const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
   if (found != stage.main.end()) return &found->estimate;
@@ -78,8 +78,7 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   const double times = inertia_over_vehicle(vehicle, *inertia->value, *mass->value);
   return fmt::format(
       "the fitted I'z/m' is {:.3g} times Iz/m of the vehicle, which no distribution of its mass "
-      "can "
-      "give: a unit or a sign is wrong{}, or a moment outside the model turns the vehicle",
+      "can give: a unit or a sign is wrong{}, or a moment outside the model turns the vehicle",
       times, speed_unit_hint(logs, times));
 }
 

@@ -183,7 +183,7 @@ Plant<double> with_stribeck(Plant<double> p, const ExtraForces& extra) {
   return p;
 }
 
-/// True if `one` is not 0, or one of both is free or not 0.
+/// True if the force `one` is not 0, or if `one` or `other` is free.
 bool has_force(const ExtraForces& extra, ExtraForce one, ExtraForce other) {
   return extra[one] != 0.0 || std::ranges::any_of(extra.columns, [&](const ExtraColumn& column) {
            return column.force == one || column.force == other;

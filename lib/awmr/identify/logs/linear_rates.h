@@ -54,7 +54,7 @@ struct LinearPlant {
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
                        double longest_step_s = 0.0, const ExtraForces& extra_forces = {});
   Plant<double> plant;
-  FrictionRates<double> friction;  ///< at rest: by c + s, with the Stribeck friction s
+  FrictionRates<double> friction;  ///< friction at rest: Coulomb c plus Stribeck s
   ExtraForces extra;
   LinearResistance surge;
   LinearResistance yaw;
@@ -100,7 +100,7 @@ struct LinearRates {
   State<double> rates{};
   StateSlopes by_state{};
   std::array<DrivenSlopes, kParameterCount> by_parameter{};
-  std::array<DrivenSlopes, kExtraForceCount> by_extra{};  ///< only of the free ones
+  std::array<DrivenSlopes, kExtraForceCount> by_extra{};  ///< 0 for forces that are not free
   DrivenSlopes by_force_left;
   DrivenSlopes by_force_right;
   double steering_by_command = 0.0;

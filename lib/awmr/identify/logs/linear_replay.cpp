@@ -372,7 +372,7 @@ DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, d
 
 DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path) {
   constexpr double kMoment_s = 1e-6;
-  const auto row_at = [&](double at_s) {  // a change at this time has happened
+  const auto row_at = [&](double at_s) {  // a change exactly at this time counts
     return ActingRow(signals.log->t_s, at_s + 2.0 * kSameTime_s).row();
   };
   return command_over(signals,

@@ -19,7 +19,7 @@ namespace awmr {
 struct LinearMotion {
   State<double> state{};
   std::vector<double> by_column;  ///< derivatives, [kStateSize][columns]; empty without columns
-  /// Derivatives of one component of the state, by column. `channel`: the component.
+  /// Derivatives of one component of the state, one per column. `channel`: the component.
   const double* row(LogChannel channel, std::size_t columns) const;
   double* row(LogChannel channel, std::size_t columns);
 };
@@ -101,7 +101,7 @@ void for_each_force_column(const CommandColumns& c, const DelayedCommand& comman
   if (c.sharpness) visit(*c.sharpness, command.by_sharpness);
 }
 
-/// The command that reaches the wheels at the time t. A change at this time has happened.
+/// The command that reaches the wheels at the time t. A change exactly at t is included.
 DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path);
 
 /// Integrates the state and its derivatives step by step.

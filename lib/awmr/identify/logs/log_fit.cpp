@@ -107,7 +107,10 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   }
   Multistart search = multistart(guess, options);
   if (search.ends.empty()) {
-    return without_solution("all initial guesses diverged (non-finite residuals)", search.starts);
+    return without_solution(
+        "all initial guesses diverged (non-finite residuals); check the units and signs of the "
+        "columns",
+        search.starts);
   }
   std::optional<LogFit> fit;
   for (std::size_t i = 0; i < std::min(kTries, search.ends.size()) && !fit; ++i) {
@@ -115,7 +118,9 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   }
   if (!fit) {
     return without_solution(
-        "failed: the simulation of the logs is not finite where the search ended", search.starts);
+        "failed: the simulation of the logs is not finite where the search ended; check the units "
+        "and signs of the columns",
+        search.starts);
   }
   fit->report.starts = std::move(search.starts);
   return *std::move(fit);

@@ -20,15 +20,15 @@ namespace awmr {
 /// Result of fit_logs().
 struct LogFit {
   std::vector<FreeQuantity> quantities;
-  std::vector<double> coordinates;  ///< by quantity
+  std::vector<double> coordinates;  ///< one per quantity: its value or logarithm
   Eigen::MatrixXd covariance;       ///< of the coordinates; large variance if not identifiable
-  std::vector<std::string> refusal_reason;  ///< by quantity: why it is refused; empty if identified
+  std::vector<std::string> refusal_reason;  ///< one per quantity; empty text: it is identified
   NoiseLevels noise;
   ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI, not whitened
-  /// By LogFitOptions::candidate_terms: score-test estimate of the decrease of -2 ln L if the term
-  /// were free, >= 0.
+  /// One per term in LogFitOptions::candidate_terms: decrease of -2 ln L if the term were also
+  /// estimated, predicted by a score test, >= 0.
   std::vector<double> candidate_gain;
-  double widened = 1.0;    ///< see Identifiability::widened()
+  double widened = 1.0;    ///< largest widening factor: Identifiability::widened()
   EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
   bool usable = false;     ///< true if the final search converged
 

@@ -34,7 +34,7 @@ class Effort {
 
 struct LogFitOptions {
   Vehicle vehicle;
-  /// By ParameterId: initial guess of a free parameter, or value of a fixed parameter.
+  /// One per ParameterId: initial guess of a free parameter, or value of a fixed parameter.
   ParameterValues<double> initial_guess{};
   /// Free parameters whose initial guess is only an order of magnitude. The multistart varies them.
   /// Empty if other trials gave all initial guesses; one search then suffices.

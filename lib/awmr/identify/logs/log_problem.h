@@ -24,11 +24,11 @@ inline constexpr double kPriorStd = 5.0;
 struct LogProblem {
   LogModel model;
   std::vector<FitWindow> windows;
-  std::vector<double> initial;   ///< coordinate of the initial guess, by quantity
-  std::vector<Interval> bounds;  ///< of the coordinate, by quantity
+  std::vector<double> initial;   ///< one per quantity: coordinate of its initial guess
+  std::vector<Interval> bounds;  ///< one per quantity: bounds of its coordinate
   int threads = 0;               ///< 0: every core
-  std::optional<std::chrono::steady_clock::time_point> deadline;  ///< of all searches
-  std::shared_ptr<Effort> effort;                                 ///< of all searches
+  std::optional<std::chrono::steady_clock::time_point> deadline;  ///< end of all searches
+  std::shared_ptr<Effort> effort;                                 ///< work of all searches
   bool ends_at_limit = true;  ///< true: a search stops at the limit of effort
 
   /// Number of unknowns: the quantities, and the free initial states of all windows.
@@ -39,8 +39,8 @@ struct LogProblem {
 
 /// The unknowns of a LogProblem.
 struct SearchPoint {
-  std::vector<double> coordinates;     ///< by quantity
-  std::vector<double> initial_states;  ///< by window, then by component
+  std::vector<double> coordinates;     ///< one per quantity
+  std::vector<double> initial_states;  ///< all components of one window after the other
 };
 
 /// Longest integration step at these coordinates, s: that of replay_step_s(), except that fast sway
@@ -59,8 +59,8 @@ SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordin
 /// or models, and the first round of settle_noise().
 inline constexpr double kRoughStep = 2.0;
 
-/// Compute the errors, or the sums, of every window in parallel. The result does not depend on the
-/// number of threads. `block_s`: length of the blocks, see sums_of().
+/// These functions compute the errors, or the sums, of all windows in parallel. The results do not
+/// depend on the number of threads. `block_s`: length of the blocks, see sums_of().
 std::vector<WindowErrors> errors_at(const LogProblem& problem, const SearchPoint& point);
 std::vector<WindowSums> sums_at(const LogProblem& problem, const SearchPoint& point,
                                 double block_s = 0.0);

@@ -15,7 +15,7 @@ struct LogReportInput {
   const LogProblem& problem;
   const Solved& solved;
   const Identifiability& found;
-  /// 95 % intervals of the values by the bootstrap, by quantity; empty if not requested.
+  /// One per quantity: 95 % interval of its value by the bootstrap. Empty if not requested.
   const std::vector<Interval>& bootstrap95;
 };
 
@@ -31,7 +31,7 @@ inline void withdraw(EstimatorParameter& parameter) {
 }
 /// Removes the standard errors and intervals from the report. Keeps the values.
 void withdraw_intervals(EstimatorReport& report);
-/// Removes those of the quantity with this name.
+/// Removes standard error and interval of the quantity with this name.
 void withdraw_interval(EstimatorReport& report, std::string_view name);
 
 }  // namespace awmr

@@ -76,8 +76,8 @@ bool turns(const std::vector<DrivingLog>& logs) {
   });
 }
 
-/// Channels with a free offset: those that the user requested, the yaw rate if the heading
-/// determines its bias, and the heading if the course over ground determines its offset.
+/// Channels whose constant offset is estimated: those that the user requested, the yaw rate if the
+/// heading determines its bias, and the heading if the course over ground determines its offset.
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
                                         std::vector<LogChannel> requested) {
   const auto add = [&](LogChannel channel, bool is_biased) {

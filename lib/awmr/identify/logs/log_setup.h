@@ -13,8 +13,8 @@
 namespace awmr {
 
 /// Returns the options of a fit of power laws. Free are the `requested` parameters and those
-/// without a value in `model`, with initial guesses from the logs. Adds to `reasons`, by parameter,
-/// why the channels and commands of the logs cannot identify it.
+/// without a value in `model`, with initial guesses from the logs. If the channels and commands of
+/// the logs cannot identify a parameter, adds the reason to `reasons`.
 LogFitOptions log_setup(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const std::vector<ParameterId>& requested,
                         const Model& model, std::map<ParameterId, std::string>& reasons);

@@ -85,7 +85,8 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
                      one.withdraws ? "The fit uses one value for all logs, so all intervals are "
                                      "withdrawn; identify each log separately"
                      : one.refuses
-                         ? "An interval for all logs would be too wide, so this quantity is refused"
+                         ? "An interval for all logs would be too wide, so this quantity gets no "
+                           "value; identify each log separately"
                      : withdrawn ? "Its interval is withdrawn"
                                  : "Its interval is widened: it covers the mean over such logs, "
                                    "not an individual log")});
@@ -120,8 +121,8 @@ Finding impossible_servo_finding(const std::string& file) {
                       kSlowestServo_s, option_text("starts"))};
 }
 
-/// Takes the parameters that the fit identifies into `stage`. Parameters with a value from other
-/// trials are replaced only if `overrule`.
+/// Copies the parameters that the fit identifies to `stage`. Parameters with a value from other
+/// trials are replaced only if `overrule` is true.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
@@ -168,7 +169,8 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   }
   FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
   show_step(options, "comparing the logs with each other");
-  // An inexact form of a large saturation gives every part of the logs other values.
+  // The true form of a large saturation is unknown, so every part of the logs gives other values,
+  // even if the vehicle has not changed: no comparison.
   const LogComparison compared =
       saturates_much(chosen.fit) ? LogComparison{} : compare_logs(logs, chosen);
   stage.withdraws_intervals =

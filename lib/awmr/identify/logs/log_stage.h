@@ -25,7 +25,8 @@ struct LogStage {
   Family surge_family = Family::kPower;  ///< families of the fit
   Family yaw_family = Family::kPower;
   Eigen::MatrixXd block;  ///< covariance of the fit's coordinates
-  /// Why the logs do not identify a parameter that is requested or has no value, by parameter.
+  /// For each parameter that is requested or has no value, but that the logs do not identify: the
+  /// reason.
   std::map<ParameterId, std::string> reasons;
   /// True if k_e was free in the fit but is not identified. The model then has no value of k_e,
   /// because the other parameters are not those of a model with k_e = 0.
@@ -42,8 +43,8 @@ struct LogStage {
 /// `coloured-residuals`, `model-inadequate`, `power-law-inadequate`, `family-undecided`,
 /// `back-emf`, `steering-measured`, `speed-controlled`, `logs-disagree`, `not-identifiable`,
 /// `not-converged`, `held-out-misses`, `inertia-mismatch`, `held-out-log`, `families-not-compared`
-/// (a limit was reached), and those of command_findings.h. Errors (input): as check_replay(), for a
-/// time constant that is too small.
+/// (a limit was reached), and those of command_findings.h. Errors (input): that of check_replay(),
+/// for a time constant that is too small.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
                                const std::vector<ParameterId>& requested, const Model& model,

@@ -26,7 +26,7 @@ void announce(const IdentifyOptions& options, double numbers, const std::string&
   const double about_s = numbers / kNumbersPerSecond;
   if (!options.notice || about_s <= kLong_s) return;
   options.notice(fmt::format(
-      "{} may take up to about {:.0f} s of one processor; use a part of the logs ({}) to save time",
+      "{} may take up to about {:.0f} s on one processor; use a part of the logs ({}) to save time",
       what, about_s, option_text("from S")));
 }
 
@@ -87,7 +87,8 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
     return term.quantity.kind == FreeQuantity::Kind::kSteeringDelay;
   });
   const FamilyFit follows = fit_first_family(with_measured_steering(logs), from, options);
-  // A lag with equally late time stamps describes measured angles as well, with two terms more.
+  // A servo lag together with equally late time stamps also describes measured angles, but with two
+  // more terms.
   const double threshold = late_stamps_s > 0.0 ? 0.0 : kFamilyAicThreshold;
   return follows.fit.usable && aic_lead(follows.fit, first.fit) > threshold;
 }

@@ -21,9 +21,10 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
 /// Returns the logs with the steering command as the measured steering angle.
 std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs);
 
-/// True if the column of steering commands contains measured angles: the servo's time constant in
-/// the fit `first`, less late time stamps of the steering, is below half a row, and a fit that uses
-/// the column as the angle is significantly better.
+/// True if the column of steering commands seems to contain measured angles. Two conditions: in the
+/// fit `first`, the servo's time constant minus the time by which the steering's time stamps are
+/// late is below half of the row spacing; and a fit that uses the column as the angle is
+/// significantly better.
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                           const FamilyFit& first, const IdentifyOptions& options);
 

@@ -89,8 +89,8 @@ double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   return change;
 }
 
-/// Square root of the weight of a robust loss at the standardised residual r. The constants give 95
-/// % efficiency for normal errors. The weights are
+/// Square root of the weight of a robust loss at the standardised residual r. The constants give an
+/// efficiency of 95 % for normal errors. The weights are
 ///
 ///     Huber 1 for |r| <= 1.345, else 1.345/|r|;   Cauchy 1/(1 + (r/2.385)^2);
 ///     Tukey (1 - (r/4.685)^2)^2 for |r| < 4.685, else 0

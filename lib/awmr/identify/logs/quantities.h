@@ -40,20 +40,20 @@ struct FreeQuantity {
     kSwayAngle             ///< angle by which the sway sensor is turned to the left
   };
   Kind kind = Kind::kParameter;
-  ParameterId id = ParameterId::kMassNorm;  ///< of kParameter
+  ParameterId id = ParameterId::kMassNorm;  ///< for kParameter
   LogChannel channel =
-      LogChannel::kX;  ///< of kSensorDelay (kX: x and y together), kSensorLag, kWheelSlip, kBias
-  ExtraForce force = ExtraForce::kSlopeX;  ///< of kExtraForce
+      LogChannel::kX;  ///< for kSensorDelay (kX: x and y), kSensorLag, kWheelSlip, kBias
+  ExtraForce force = ExtraForce::kSlopeX;  ///< for kExtraForce
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
   /// a bias (SI); 0.2 for a term of a family or Stribeck friction; 0.1 for a delay or lag (s), trim
   /// or angle (rad), imbalance, saturation, wheel slip or offset (m); 0.5 for a slope (m/s^2).
   /// Standard deviations of priors and limits of identifiability are multiples of this change.
   double large_change = 1.0;
-  double full_command = 1.0;  ///< of kForceSaturation: F'm of force_saturation(), > 0
-  double fastest = 1.0;       ///< of a Stribeck speed: largest speed of the logs
-  bool is_at_rows = false;    ///< of kSensorLag: the filter of sensor_lag_of() at the rows of a log
-  bool is_ratio = false;      ///< of kWheelSlip: WheelSlip::is_ratio
+  double full_command = 1.0;  ///< for kForceSaturation: F'm of force_saturation(), > 0
+  double fastest = 1.0;       ///< for a Stribeck speed: largest speed (m/s or rad/s) of the logs
+  bool is_at_rows = false;    ///< for kSensorLag: true: one filter step per row of a log
+  bool is_ratio = false;      ///< for kWheelSlip: true: slip ratio, see WheelSlip::is_ratio
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
@@ -91,8 +91,8 @@ FreeQuantity motor_lag();
 /// Steering angle at a command of 0, rad; positive to the left.
 FreeQuantity steering_trim();
 
-/// Largest rate of the steering angle, rad/s, in place of the vehicle file's. `begin_radps`: initial
-/// guess, > 0.
+/// Largest rate of the steering angle, rad/s, in place of the vehicle file's. `begin_radps`:
+/// initial guess, > 0.
 FreeQuantity servo_rate(double begin_radps);
 
 /// Force imbalance e: the left motors push with 1 - e times their command, the right with 1 + e
@@ -114,7 +114,7 @@ FreeQuantity force_saturation(double full_command);
 
 /// Sharpness n of the saturation; a limit that begins at once has a large n.
 FreeQuantity saturation_sharpness();
-inline constexpr double kDefaultSharpness = 4.0;  ///< of a fit without free sharpness
+inline constexpr double kDefaultSharpness = 4.0;  ///< value of n in fits without free sharpness
 
 /// Stribeck friction (`force`: its s of surge or yaw), or a component of the slope.
 FreeQuantity extra_force(ExtraForce force);
@@ -157,10 +157,10 @@ std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities,
 /// Free quantities of a fit, in the order of FreeQuantity::Kind.
 std::vector<FreeQuantity> free_quantities(const LogFitOptions& options);
 
-/// By quantity: coordinate of the initial guess; 0 for a bias.
+/// One per quantity: coordinate of its initial guess; 0 for a bias.
 std::vector<double> initial_coordinates(const LogFitOptions& options);
 
-/// By quantity: bounds of the coordinate. `initial`: coordinates of the initial guess.
+/// One per quantity: bounds of its coordinate. `initial`: coordinates of the initial guess.
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,
                                         const std::vector<double>& initial, const Vehicle& vehicle);
 
@@ -170,7 +170,7 @@ ParameterValues<double> parameters_at(ParameterValues<double> held,
                                       const std::vector<FreeQuantity>& quantities,
                                       const std::vector<double>& coordinates);
 
-/// By quantity: value at its coordinate.
+/// One per quantity: its value at the given coordinate.
 std::vector<double> values_at(const std::vector<FreeQuantity>& quantities,
                               const std::vector<double>& coordinates);
 

@@ -147,7 +147,7 @@ LinearMotion first_motion(const LogModel& model, const Unpacked& u, std::size_t 
   return motion;
 }
 
-/// Simulated sensor filters of a window, by channel; empty for channels without a filter.
+/// Simulated sensor filters of a window, one per channel; empty for channels without a filter.
 using SmoothedChannels = std::array<std::optional<SmoothedChannel>, kChannelCount>;
 
 SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
@@ -225,9 +225,9 @@ void follow(const DrivingLog& log, std::size_t row, bool has_before, const Linea
 }
 
 /// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured,
-/// `row` its derivatives by column; `row` is empty if there are no columns, and the visitor may
-/// overwrite it. A sensor with latency is compared with the state one delay earlier, a filtered
-/// sensor with the output of the filter.
+/// `row` has its derivatives, one per column; the visitor may overwrite it. Empty without columns.
+/// A sensor with latency is compared with the state one delay earlier, a filtered sensor with the
+/// output of the filter.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const Unpacked& u,
                     std::size_t columns, Visit visit) {
@@ -238,7 +238,7 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   LinearStepper stepper(u.plant, columns, u.parameters, command_columns, h, u.extra);
   LinearStepper back(u.plant, columns, u.parameters, command_columns, h, u.extra);
   const bool any_late = u.any_late();
-  std::vector<LinearMotion> motions;  // by row; kept only if a sensor has latency
+  std::vector<LinearMotion> motions;  // one per row; kept only if a sensor has latency
   Sensors sensors(window, u, columns);
   std::size_t next = 0;
   SmoothedChannels smoothed = smoothed_channels(window, u, columns);

@@ -31,8 +31,8 @@ struct WindowErrors {
   bool finite = false;           ///< false if the simulation is not finite
 };
 
-/// Simulates one window and returns its errors. `coordinates`: by free quantity. `initial_state`:
-/// by free component of the initial state.
+/// Simulates one window and returns its errors. `coordinates`: one per free quantity.
+/// `initial_state`: one value per free component of the initial state.
 WindowErrors errors_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                        const double* initial_state);
 

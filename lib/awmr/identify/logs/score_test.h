@@ -9,7 +9,7 @@ namespace awmr {
 
 /// Result of a score test.
 struct ScoreTest {
-  double value = 0.0;  ///< estimate of the candidate by one Gauss-Newton step from 0
+  double value = 0.0;  ///< estimated value of the candidate: one Gauss-Newton step from 0
   /// Standard error of `value`: by the noise model or by the scatter of blocks, whichever is
   /// larger.
   double std_error = 0.0;

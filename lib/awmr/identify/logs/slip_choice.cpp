@@ -38,7 +38,8 @@ std::string_view explanation(const FamilyFit& fit) {
                                  : "wheel slip in proportion to the force";
 }
 
-/// The channels with slip; without slip, those that slip may have (delays.h).
+/// The channels whose readings have slip among `terms`. Without such terms, the channels that
+/// slipping wheels may measure: the speed, and the yaw rate if left and right forces differ.
 std::vector<LogChannel> slipping_channels(const Terms& terms, const std::vector<DrivingLog>& logs) {
   std::vector<LogChannel> channels;
   for (const FreeTerm& term : terms) {
@@ -55,7 +56,7 @@ std::vector<LogChannel> slipping_channels(const Terms& terms, const std::vector<
   return channels;
 }
 
-/// The terms with slip of this form in place of other slip and of late commands.
+/// Returns the terms with slip of this form (`is_ratio`) instead of other slip and late commands.
 Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ratio) {
   constexpr double kGuess = 0.05;
   std::erase_if(terms, [](const FreeTerm& t) { return is_slip(t) || is_late_commands(t); });
@@ -65,8 +66,8 @@ Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ra
   return terms;
 }
 
-/// The terms with late commands in place of slip. The yaw rate gets a latency if only the speed
-/// slips, so that only the speed can be early.
+/// Returns the terms with late commands instead of slip. If only the speed has slip, the yaw rate
+/// gets a latency, so that only the speed can be ahead of the commands.
 Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels) {
   constexpr double kGuess_s = 0.01;
   using Kind = FreeQuantity::Kind;

@@ -29,7 +29,7 @@ class SmoothedChannel {
   SmoothedChannel(const SensorFilter& filter, double first, std::size_t columns)
       : filter_(filter), y_(first), by_column_(columns, 0.0) {}
 
-  /// Advances the filter by h_s seconds to the input u with the derivatives `by`, by column.
+  /// Advances the filter by h_s seconds to the input u. `by`: derivatives of u, one per column.
   void next(double u, const double* by, double h_s, std::size_t columns);
   double value() const { return y_; }
   const std::vector<double>& by_column() const { return by_column_; }

@@ -9,7 +9,7 @@ namespace {
 struct Side {
   double SideForces<double>::*force;
   double offset_m;  ///< to the left of the centre; w = u - offset r
-  double share;     ///< of its slip in the reading
+  double share;     ///< weight of its slip in the reading
 };
 
 /// Force of a wheel of one side on the ground, with derivatives.
@@ -32,8 +32,8 @@ GroundForce ground_force(double command, double w, const Plant<double>& plant) {
           .by_back_emf = -w};
 }
 
-/// Adds the derivatives of the slip of one side. `size`: d slip / d F' times the share.
-/// `by_speed`: d slip / d w times the share.
+/// Adds the derivatives of one side's slip to the columns. `size` and `by_speed`: derivatives of
+/// the slip by F' and by the wheel speed w, each times Side::share.
 void add_columns(const Side& side, const SlippingWheels& wheels, const DelayedCommand& command,
                  const GroundForce& f, double size, double by_speed, const LinearMotion& motion,
                  std::size_t columns, double* by_column) {

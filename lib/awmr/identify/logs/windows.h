@@ -30,7 +30,7 @@ struct FitWindow {
   std::shared_ptr<const LogSignals> signals;               ///< commands of the log
   std::shared_ptr<const std::vector<Sample>> all_samples;  ///< in the order of rows, never empty
   State<double> measured{};  ///< measured initial state; components without a measurement are 0
-  /// Square root of the robust loss's weight, by sample; empty: all are 1.
+  /// One per sample: square root of its weight under the robust loss. Empty: all weights are 1.
   std::vector<double> weights;
 
   const std::vector<Sample>& samples() const { return *all_samples; }
@@ -56,7 +56,7 @@ struct InitialComponent {
 /// The components of the initial state that affect a measured channel of the logs.
 std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs);
 
-/// Measured initial states of all windows, by window, then by component.
+/// Measured initial states: all components of the first window, then of the next, and so on.
 std::vector<double> measured_initial_states(const std::vector<FitWindow>& windows,
                                             const std::vector<InitialComponent>& components);
 

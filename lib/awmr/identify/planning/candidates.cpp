@@ -17,7 +17,7 @@ namespace {
 
 /// Rate of the rows of logs and coast-downs.
 constexpr double kRate_hz = 100.0;
-/// Speed (m/s) or yaw rate (rad/s) in place of rest, whose logarithm does not exist.
+/// Speed (m/s) or yaw rate (rad/s) that replaces 0, whose logarithm does not exist.
 constexpr double kAtRest = 1e-6;
 
 /// Relative standard deviation of the model's measured rows of this kind of trial about its
@@ -255,12 +255,11 @@ std::optional<double> fastest_surge_mps(const Model& model) {
 std::string purpose_of(const Model& model) {
   if (const auto& scrub = model.yaw_scrub) {
     return fmt::format(
-        "the tyre scrub by {} turns is {:.3g} to {:.3g} m (95 %). Four times as many turns halve "
-        "the "
-        "interval; compare --break-even shows whether this is needed",
+        "the tyre scrub, measured in {} turns, is {:.3g} to {:.3g} m (95 % interval). Four times "
+        "as many turns halve the interval; compare --break-even shows whether this is needed",
         scrub->rows, scrub->ci95_m.lo, scrub->ci95_m.hi);
   }
-  return model.yaw_held_m ? fmt::format("the scrub is at least {:.3g} m", *model.yaw_held_m)
+  return model.yaw_held_m ? fmt::format("the tyre scrub is at least {:.3g} m", *model.yaw_held_m)
                           : std::string("the tyre scrub is not known yet");
 }
 
@@ -297,8 +296,7 @@ ScrubPlan scrub_plan(const Model& model) {
   if (plan.turns.size() < kTurns) {
     plan.about += fmt::format(
         "; the wheel forces suffice for only {} of {} yaw rates at a mean F' of {:.3g}. Three "
-        "turns "
-        "are needed: repeat turns, also at other speeds",
+        "turns are needed: repeat turns, also at other speeds",
         plan.turns.size(), kTurns, straight);
   }
   return plan;

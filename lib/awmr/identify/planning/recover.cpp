@@ -19,9 +19,8 @@
 namespace awmr {
 namespace {
 
-/// Quantity that has the error by the assumption of the estimator under test: of the log-linear
-/// one, the logarithm of the force; of the nonlinear one, which also fits every family other than
-/// the power law, the one that is requested.
+/// Quantity that has the error, as the estimator under test assumes. Log-linear: the logarithm of
+/// the force. Nonlinear, which also fits every family other than the power law: the requested one.
 ErrorModel error_of(const IdentifyOptions& options, Family family) {
   if (options.method != Method::kNonlinear && family == Family::kPower) {
     return ErrorModel::kLogForce;
@@ -37,10 +36,10 @@ std::optional<ErrorModel> error_model_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// Error of the simulated rows: the scatter of the fit of the model's surge or yaw resistance,
-/// under the requested error model. Without a request, under that of the estimator under test, or
-/// if the model has no such fit, under that of the first fit of the model's family. Errors (input):
-/// the model has no fit to take the scatter from.
+/// Error of the simulated rows: residual standard deviation of a fit of the surge or yaw resistance
+/// in the model. The fit is that with the requested error model. Without a request: the fit with
+/// the error model of the estimator under test, else the first fit of the model's family. Errors
+/// (input): the model has no such fit.
 Result<RowError> row_error(const Model& model, FitSubject subject, const RecoverOptions& options) {
   const bool is_surge = subject == FitSubject::kSurge;
   const Family family = is_surge ? model.surge_family : model.yaw_family;
@@ -128,7 +127,7 @@ double top_speed_mps(const Model& model) {
   return top;
 }
 
-/// Errors of the rows of the tables that are simulated. Errors (input): as row_error().
+/// Errors of the rows of the simulated tables. Errors (input): those of row_error().
 Result<RowNoise> noise_of(const Model& model, const TablePlan& plan,
                           const RecoverOptions& options) {
   constexpr double kStopWatch_s = 0.02;
@@ -213,7 +212,7 @@ OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyO
   }
   for (std::size_t i = 0; i < truths.size(); ++i) {
     const Estimate& estimate = identified->model[truths[i].id];
-    // An assumed sway resistance is not an estimate.
+    // Skips an assumed sway resistance, which is not an estimate from the trials.
     if (estimate.method != kAssumedSwayMethod) run.found.estimates[i] = interval_of(estimate);
   }
   return run;

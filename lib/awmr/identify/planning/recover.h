@@ -15,7 +15,7 @@ namespace awmr {
 enum class RecoverPlan {
   kTables,  ///< tables with the settings of the model's own trials
   kCurve,   ///< these tables with a coast-down curve in place of the stop times
-  kLog,     ///< only a driving log
+  kLog,     ///< a driving log instead of tables
 };
 
 /// Values of `--error`.
@@ -71,7 +71,7 @@ struct Recovery {
 /// runs. If the model has only parameters of straight motion, the log drives straight and only a1,
 /// b1 and m' are fitted. Errors (input): the model lacks a parameter that a trial of the plan
 /// needs, or has no trials for the plan; fewer than 2 runs; a simulated log of fewer than 20 or
-/// more than a million rows; as check_replay(). Errors (refused): no run estimates a requested
+/// more than a million rows; that of check_replay(). Errors (refused): no run estimates a requested
 /// parameter, or any parameter.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);
@@ -79,7 +79,7 @@ Result<Recovery> recover(const Model& model, const RecoverOptions& options,
 /// Content of recover.json.
 std::string recovery_text(const Recovery& recovery, const Provenance& provenance);
 
-/// Table of the statistics for a terminal, one line per parameter.
+/// Table of the statistics, one line per parameter, to print on a terminal.
 std::string recovery_table(const Recovery& recovery);
 
 /// The JSON Schema of recover.json.

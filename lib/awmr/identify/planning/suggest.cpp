@@ -15,8 +15,8 @@
 namespace awmr {
 namespace {
 
-/// Assumed standard error of the coordinate of a parameter whose standard error is unknown (a
-/// factor of e^2), so that trials that measure the parameter rank high.
+/// Assumed standard error of the coordinate of a parameter whose standard error is unknown: a
+/// factor of e^2 for a logarithm. It is large, so that trials that measure the parameter rank high.
 constexpr double kUnknownStd = 2.0;
 
 /// Covariance of the n uncertain parameters, in the coordinates z of model/transform.h. With the

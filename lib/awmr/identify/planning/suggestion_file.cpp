@@ -98,8 +98,7 @@ std::string coasting_sheet(const Suggestion& suggestion) {
       "[ ]    steer while coasting: at {:.3g} m/s switch the motors off, steer {:.3g} deg at once, "
       "log yaw\n"
       "       rate and speed. Predicted yaw rate: 3-DOF model 0 deg/s, wheels that roll without "
-      "slip "
-      "{:.3g} deg/s\n",
+      "slip {:.3g} deg/s\n",
       coasting->speed_mps, coasting->steering_deg, coasting->rolling_yaw_rate_degps);
 }
 

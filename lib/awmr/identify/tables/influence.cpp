@@ -116,7 +116,7 @@ Influence leave_one_out(const Subject& subject, const SteadyProblem& problem, bo
     const std::string moved = what_moves(subject, coordinates, without, fit);
     if (!moved.empty()) {
       influence.findings.push_back({subject.file, entry.line, Severity::kNote, "influential-row",
-                                    "without this run, " + moved});
+                                    "without this run, " + moved + "; repeat the run to check it"});
     }
     influence.without.push_back(std::move(entry));
   }

@@ -9,7 +9,7 @@
 namespace awmr {
 
 struct Influence {
-  /// Parameter values of the fit without each run. Excludes runs without which the fit fails.
+  /// One entry per run: parameter values of the fit without this run. No entry if that fit fails.
   std::vector<LeaveOneOut> without;
   /// `influential-row` for each run without which a parameter changes by more than one standard
   /// error.

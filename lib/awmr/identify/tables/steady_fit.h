@@ -44,17 +44,17 @@ struct SteadyProblem {
 /// A fitted curve. "Unit of the noise" below is the unit of the quantity that has the error: of
 /// force, rate or time, or 1 for the log force.
 struct SteadyFit {
-  TransformedParameters theta{};  ///< fitted coordinates; 0 if not in the family (beta: 1)
+  TransformedParameters theta{};  ///< fitted coordinates; 0 (beta: 1) for terms outside the family
   /// Free coordinates of the family. A term that ended at 0, its lower bound, is included, so that
   /// it contributes to the uncertainty of the others. An exponent at a bound is excluded.
   std::vector<TransformedParameter> free;
   std::vector<TransformedParameter> at_bound;  ///< coordinates whose search ended at a bound
   Eigen::MatrixXd covariance;  ///< free x free, positive definite; 0 x 0 without degrees of freedom
-  Eigen::VectorXd residuals;   ///< curve - measured, by point, in the unit of the noise
-  Eigen::VectorXd leverages;   ///< by point, in [0, 1]; empty without full rank
+  Eigen::VectorXd residuals;   ///< one per point: curve - measured, in the unit of the noise
+  Eigen::VectorXd leverages;   ///< one per point, in [0, 1]; empty without full rank
   double residual_std = 0.0;   ///< in the unit of the noise; 0 without degrees of freedom
   int degrees_of_freedom = 0;  ///< points - free; may be negative
-  int rank = 0;                ///< of the Jacobian by the coordinates in `free`
+  int rank = 0;                ///< rank of the Jacobian by the coordinates in `free`
   double condition_number = 0.0;  ///< of the Jacobian by all coordinates; infinite below full rank
   std::string stop_reason;
   bool usable = false;  ///< the search converged, and the Jacobian has full rank
@@ -97,7 +97,7 @@ bool is_physical(const Resistance<double>& law);
 
 /// Residuals of a table and their derivatives, without the weights of a robust loss.
 struct SteadyRows {
-  Eigen::VectorXd residuals;  ///< by point
+  Eigen::VectorXd residuals;  ///< one per point
   Eigen::MatrixXd jacobian;   ///< points x coordinates
 };
 /// Residuals at the coordinates `theta`, and their derivatives by the coordinates `by`. Empty if a

@@ -30,11 +30,11 @@ class SteadySearch {
   /// loss from the residuals.
   void solve_robustly();
 
-  /// Residuals by point, in the unit of the noise, before the robust loss. Empty if one is not
-  /// finite.
+  /// Residuals, one per point, in the unit of the noise, without the weights of the robust loss.
+  /// Empty if one is not finite.
   std::optional<Eigen::VectorXd> residuals();
-  /// Derivatives of the residuals, points x `columns`, before the robust loss. Empty if one is not
-  /// finite.
+  /// Derivatives of the residuals, points x `columns`, without the weights of the robust loss.
+  /// Empty if one is not finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<TransformedParameter>& columns);
 
   const TransformedParameters& theta() const { return theta_; }

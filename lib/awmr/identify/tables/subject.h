@@ -1,5 +1,5 @@
-/// Subject of a table fit: surge or yaw resistance with its runs and parameters. Private to
-/// identify/.
+/// Subject of a table fit: the resistance to be fitted (surge or yaw), with its runs and
+/// parameters. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -46,7 +46,7 @@ ParameterId parameter_of(const Subject& subject, TransformedParameter c);
 Estimate estimate_of(const SteadyFit& fit, TransformedParameter c,
                      const std::optional<Interval>& interval, const std::string& method);
 
-/// Report of a fit for /estimates of model.json. `noise`: name of the quantity with the error.
+/// Report of a fit for /estimates of model.json. `noise`: name of the quantity that has the error.
 EstimatorReport report_of(const Subject& subject, const SteadyFit& fit, Family family,
                           Estimator estimator, std::string_view noise);
 

@@ -16,8 +16,8 @@
 namespace awmr {
 namespace {
 
-/// AICc difference from which on another family is significantly better (a likelihood ratio of
-/// e^5).
+/// Decrease of AICc from which on another family is significantly better than the power law (a
+/// likelihood ratio of e^5).
 constexpr double kTablesPlainlyBetter = 10.0;
 
 /// Smallest number n of runs with an AICc, whose denominator n - p - 2 must be positive. The
@@ -66,7 +66,8 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
   if (!tried) {
     return about(
         subject, Severity::kError, "too-few-rows",
-        fmt::format("{} rows are too few for the requested resistance family; record more runs",
+        fmt::format("{} rows are too few for the requested resistance family; record more runs, or "
+                    "request the power law",
                     subject.points.size()));
   }
   return about(subject, Severity::kError, "not-converged",
@@ -146,8 +147,10 @@ void add_diagnostics(const Subject& subject, std::size_t report, SubjectFit& res
     append(std::move(influence.findings), result.findings);
     if (rows_of(subject.points) > kExactRows) {
       chosen.stop_reason += chosen.leave_one_out.empty()
-                                ? "; no leave-one-out fits with a robust loss and this many rows"
-                                : "; leave-one-out by one step from the fit of all rows";
+                                ? "; without leave-one-out fits, because of the robust loss and "
+                                  "the number of rows"
+                                : "; leave-one-out fits approximated by one step from the fit of "
+                                  "all rows";
     }
   }
 }
@@ -165,7 +168,8 @@ std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& op
   const bool by_time = options.method != Method::kLogLinear && wanted == ErrorModel::kTime;
   if (by_time && !all_timed(subject.points)) {
     return about(subject, Severity::kError, "not-timed",
-                 fmt::format("{} needs distance_m (or turns) and elapsed_s in every row",
+                 fmt::format("{} needs distance_m (or turns) and elapsed_s in every row; add them, "
+                             "or remove the option",
                              option_text("noise time")));
   }
   return std::nullopt;

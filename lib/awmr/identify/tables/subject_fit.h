@@ -16,7 +16,7 @@ struct SubjectFit {
   std::optional<SteadyFit> chosen;
   /// Why no fit is accepted. Empty if a fit was chosen or the rows cannot determine the law.
   std::string refusal_reason;
-  SteadyProblem problem;    ///< of the chosen fit
+  SteadyProblem problem;    ///< input of the chosen fit
   bool log_linear = false;  ///< the chosen fit is log-linear
   std::string method;       ///< description of the method
   /// The chosen fit, then the fits under the other error models (noise_average.h). Empty without a

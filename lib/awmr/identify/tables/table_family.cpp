@@ -16,8 +16,8 @@ namespace {
 /// With more runs, the interval from the standard error is nearly the same.
 constexpr Eigen::Index kMaximumProfileRows = kExactRows;
 
-/// Adds the profile interval of every parameter that has a standard error to the report. Skips
-/// intervals that the data do not bound at both ends.
+/// Adds to the report the profile-likelihood interval of every parameter that has a standard error.
+/// Skips intervals that the data do not bound at both ends.
 void add_profiles(FamilyCandidate& candidate) {
   const std::vector<TransformedParameter> coordinates = coordinates_of(candidate.problem.family);
   for (std::size_t i = 0; i < candidate.report.parameters.size(); ++i) {
@@ -40,8 +40,8 @@ FamilyCandidate candidate_from(const Subject& subject, const SteadyProblem& prob
   candidate.report.aicc = squared ? aicc(fit) : std::nullopt;
   if (problem.noise == wanted && squared && fit.has_covariance() && fit.usable) {
     if (rows_of(problem.points) > kMaximumProfileRows) {
-      candidate.report.stop_reason +=
-          fmt::format("; no profile intervals above {} rows", kMaximumProfileRows);
+      candidate.report.stop_reason += fmt::format(
+          "; no profile intervals, because there are more than {} rows", kMaximumProfileRows);
     } else {
       add_profiles(candidate);
     }

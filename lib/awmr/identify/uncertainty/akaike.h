@@ -6,10 +6,10 @@
 
 namespace awmr {
 
-/// In a log fit, unless the user selects a family, another family (or back-EMF) replaces the power
-/// law if its AIC is lower by more than this. It is twice the usual threshold of 10, because near
-/// rest the simulation replaces the resistance, except Coulomb friction, by a straight line, which
-/// also changes the AIC. Also the threshold of `power-law-inadequate` for coast-down curves.
+/// Decrease of AIC above which another resistance family, or back-EMF, replaces the power law in a
+/// log fit, unless the user selects a family. Twice the usual threshold of 10, because near rest
+/// the simulation replaces the resistance, except Coulomb friction, by a straight line, which also
+/// changes the AIC. For coast-down curves it is the threshold of `power-law-inadequate`.
 inline constexpr double kFamilyAicThreshold = 20.0;
 
 /// AICc of a fit with n normal residuals, their sum of squares SSE and k = free + 1 estimated

@@ -15,19 +15,20 @@ namespace awmr {
 /// gradient of each parameter in a row of G.
 class JointCovariance {
  public:
-  /// Derivatives of one parameter by the numbers of the blocks, by the number's index over all
-  /// blocks. Absent derivatives are 0.
+  /// Derivatives of one parameter by the numbers of the blocks. Key: index of the number, counted
+  /// over all blocks. Absent derivatives are 0.
   using Gradient = std::map<Eigen::Index, double>;
 
   /// Appends a block and returns the index of its first number.
   Eigen::Index add_block(const Eigen::MatrixXd& covariance);
-  /// Sets the gradient of a parameter; replaces an earlier gradient.
+  /// Sets the gradient of a parameter. Replaces an earlier gradient.
   void set(ParameterId id, Gradient gradient) { gradients_[id] = std::move(gradient); }
   bool has(ParameterId id) const { return gradients_.contains(id); }
   /// Variance of a parameter with this gradient.
   double variance(const Gradient& gradient) const;
   const Gradient& gradient(ParameterId id) const { return gradients_.at(id); }
-  /// Covariance of the parameters with a gradient, in the order of ParameterId. Exactly symmetric.
+  /// Covariance of all parameters for which set() was called, in the order of ParameterId. Exactly
+  /// symmetric.
   Covariance covariance() const;
 
  private:

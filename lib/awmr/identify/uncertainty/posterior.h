@@ -1,5 +1,5 @@
-/// Joint distribution of several estimated numbers: a mixture over alternative assumptions, such as
-/// error models. Private to identify/.
+/// Joint probability distribution of several estimated numbers: a mixture over alternative
+/// assumptions, such as error models. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
