@@ -421,6 +421,59 @@ TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
   expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
 }
 
+/// A log at 20 Hz of a vehicle whose commands change smoothly at 100 Hz.
+DrivingLog log_of_smooth_commands(const Plant<double>& vehicle) {
+  constexpr int kRows = 6000;
+  constexpr int kEvery = 5;
+  DrivingLog fast;
+  fast.steering_command_rad.emplace();
+  for (int i = 0; i < kRows; ++i) {
+    const double t_s = 0.01 * i;
+    fast.t_s.push_back(t_s);
+    const double force = 0.25 + 0.12 * std::sin(0.9 * t_s) + 0.08 * std::sin(2.3 * t_s + 1.0);
+    fast.force_left.push_back(force);
+    fast.force_right.push_back(force);
+    fast.steering_command_rad->push_back(0.15 * std::sin(1.7 * t_s) + 0.1 * std::sin(4.1 * t_s));
+  }
+  std::vector<State<double>> states;
+  replay<double>(LogSignals(fast), 0, fast.rows(), vehicle, nullptr, 0.002, {},
+                 [&](std::size_t, const State<double>& s) { states.push_back(s); });
+  DrivingLog log;
+  log.file = "smooth.csv";
+  log.steering_command_rad.emplace();
+  Random random(4, 2);
+  const std::map<LogChannel, double> noise{
+      {LogChannel::kSpeed, 0.01}, {LogChannel::kYawRate, 0.01}, {LogChannel::kHeading, 0.01}};
+  for (const auto& [channel, std] : noise) log[channel].emplace();
+  for (std::size_t i = 0; i < fast.rows(); i += kEvery) {
+    log.t_s.push_back(fast.t_s[i]);
+    log.line.push_back(static_cast<int>(log.t_s.size()) + 1);
+    log.force_left.push_back(fast.force_left[i]);
+    log.force_right.push_back(fast.force_right[i]);
+    log.steering_command_rad->push_back((*fast.steering_command_rad)[i]);
+    for (const auto& [channel, std] : noise) {
+      Measured& measured = *log[channel];
+      measured.value.push_back(channel_of(states[i], channel) + std * random.normal());
+      measured.fresh.push_back(true);
+      ++measured.fresh_count;
+    }
+  }
+  return log;
+}
+
+TEST(LateLog, InterpolatesCommandsThatChangeFasterThanTheRows) {
+  const Truth& t = kTruths[1];
+  TrialData data;
+  data.logs = {log_of_smooth_commands(plant(t))};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "interpolated-commands"));
+  EXPECT_FALSE(has_finding(*result, "late-commands"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+}
+
 class ForceImbalance : public ::testing::TestWithParam<double> {};
 
 TEST_P(ForceImbalance, IsFound) {

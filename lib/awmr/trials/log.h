@@ -45,6 +45,7 @@ struct DrivingLog {
   std::vector<int> line;            ///< line in the file
   std::vector<std::size_t> mapped;  ///< used mappings: indices in TrialOptions::columns
   bool joined = false;              ///< joined from signals of different rates: unequal time steps
+  bool has_interpolated_commands = false;  ///< rows without measurements were inserted
   bool is_geographic = false;       ///< x_m is east and y_m north, from latitude and longitude
   std::vector<double> t_s;          ///< s, strictly rising
   std::vector<double> force_left;   ///< F'L of each left wheel, over F_max, forward positive

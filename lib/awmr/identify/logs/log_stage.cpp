@@ -15,6 +15,7 @@
 #include "awmr/identify/logs/cross_validation.h"
 #include "awmr/identify/logs/force_findings.h"
 #include "awmr/identify/logs/inertia_check.h"
+#include "awmr/identify/logs/interpolated_commands.h"
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/log_setup.h"
 #include "awmr/identify/logs/model_choice.h"
@@ -151,6 +152,40 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   }
 }
 
+/// Compares the logs with each other, or the halves of a single log. Adds what contradicts the fit
+/// to the findings.
+void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogStage& stage) {
+  // An inexact form of a large saturation gives every part of the logs other values.
+  const bool saturates = saturates_much(chosen.fit);
+  const LogComparison compared = saturates ? LogComparison{} : compare_logs(logs, chosen);
+  stage.withdraws_intervals =
+      stage.withdraws_intervals || compared.missed || saturates ||
+      std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws);
+  append(stage.findings, in_words(compared.disagreements, stage.withdraws_intervals));
+  if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
+}
+
+/// The logs with their commands read in another way, and the finding that reports it.
+struct ReadAgain {
+  std::vector<DrivingLog> logs;
+  Finding finding;
+};
+
+/// Other commands that describe the logs significantly better than the fit `first`; empty if there
+/// are none.
+std::optional<ReadAgain> read_again(const std::vector<DrivingLog>& logs,
+                                    const LogFitOptions& power_law, const FamilyFit& first,
+                                    const IdentifyOptions& options) {
+  const std::string& file = logs.front().file;
+  if (are_commands_smooth(logs, power_law, first, options)) {
+    return ReadAgain{interpolated(logs), interpolated_commands_finding(file)};
+  }
+  if (is_steering_measured(logs, power_law, first, options)) {
+    return ReadAgain{with_measured_steering(logs), measured_steering_finding(file)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
@@ -161,27 +196,25 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   LogFitOptions power_law = log_setup(vehicle, logs, options, requested, model, stage.reasons);
   AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), logs.front().file));
   FamilyFit first = fit_first_family(logs, power_law, options);
-  if (is_steering_measured(logs, power_law, first, options)) {
-    Result<LogStage> measured =
-        run_log_stage(vehicle, with_measured_steering(logs), options, requested, model, overrule);
-    if (measured) measured->findings.push_back(measured_steering_finding(logs.front().file));
-    return measured;
+  if (const auto other = read_again(logs, power_law, first, options)) {
+    Result<LogStage> again =
+        run_log_stage(vehicle, other->logs, options, requested, model, overrule);
+    if (again) again->findings.push_back(other->finding);
+    return again;
   }
   FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
-  show_step(options, "comparing the logs with each other");
-  // The true form of a large saturation is unknown, so every part of the logs gives other values,
-  // even if the vehicle has not changed: no comparison.
-  const LogComparison compared =
-      saturates_much(chosen.fit) ? LogComparison{} : compare_logs(logs, chosen);
-  stage.withdraws_intervals =
-      stage.withdraws_intervals || compared.missed || saturates_much(chosen.fit) ||
-      std::ranges::any_of(compared.disagreements, &LogDisagreement::withdraws);
+  std::optional<double> set_point_mps;
+  if (std::ranges::find(stage.findings, "model-inadequate", &Finding::code) !=
+      stage.findings.end()) {
+    set_point_mps = speed_per_set_point(vehicle, logs);
+  }
+  stage.withdraws_intervals = stage.withdraws_intervals || set_point_mps;
   if (chosen.fit.usable && has_impossible_servo(chosen.fit)) {
     stage.withdraws_intervals = true;
     stage.findings.push_back(impossible_servo_finding(logs.front().file));
   }
-  append(stage.findings, in_words(compared.disagreements, stage.withdraws_intervals));
-  if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
+  show_step(options, "comparing the logs with each other");
+  compare_parts(logs, chosen, stage);
   withdraw_by_stribeck(chosen.fit);
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;
@@ -191,7 +224,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     return stage;
   }
   take(chosen.fit, model, overrule, file, stage);
-  append(stage.findings, speed_control_findings(vehicle, logs, stage));
+  append(stage.findings, speed_control_findings(vehicle, logs, stage, set_point_mps));
   check_inertia(vehicle, logs, model, stage);
   if (options.cross_validate && logs.size() > 1) {
     show_step(options, "predicting each log from the others");

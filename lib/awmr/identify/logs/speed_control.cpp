@@ -37,11 +37,10 @@ std::optional<double> fitted_speed_per_command(const Vehicle& vehicle,
   return vehicle.driven_wheels() / surge;
 }
 
-/// Median ratio of the steady speeds of the wheels to their commands, m/s. Empty if a ratio differs
-/// from it by more than 5 %, if fewer than six speeds are known within 5 %, or if their commands
-/// differ by less than a factor of 3. (A power law with b1 = 0.9 gives differences of 6 %.)
-std::optional<double> steady_speed_per_command(const Vehicle& vehicle,
-                                               const std::vector<DrivingLog>& logs) {
+}  // namespace
+
+std::optional<double> speed_per_set_point(const Vehicle& vehicle,
+                                          const std::vector<DrivingLog>& logs) {
   constexpr SteadyRule kRule{.settling_s = 0.5, .shortest_s = 0.5, .drift = 0.1};
   constexpr double kKnown = 0.05;
   constexpr double kProportional = 0.05;
@@ -66,13 +65,12 @@ std::optional<double> steady_speed_per_command(const Vehicle& vehicle,
   return middle;
 }
 
-}  // namespace
-
 std::vector<Finding> speed_control_findings(const Vehicle& vehicle,
                                             const std::vector<DrivingLog>& logs,
-                                            const LogStage& stage) {
-  std::optional<double> slope_mps = fitted_speed_per_command(vehicle, logs, stage);
-  if (!slope_mps && stage.withdraws_intervals) slope_mps = steady_speed_per_command(vehicle, logs);
+                                            const LogStage& stage,
+                                            std::optional<double> set_point_mps) {
+  const std::optional<double> slope_mps =
+      set_point_mps ? set_point_mps : fitted_speed_per_command(vehicle, logs, stage);
   if (!slope_mps) return {};
   return {
       {logs.front().file, 0, Severity::kWarning, "speed-controlled",

@@ -1,11 +1,18 @@
 /// Detects logs whose force columns are set-points of a speed controller. Private to identify/.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "awmr/identify/logs/log_stage.h"
 
 namespace awmr {
+
+/// Median ratio of the steady speeds of the wheels to their commands, m/s. Empty if a ratio differs
+/// from it by more than 5 %, if fewer than six speeds are known within 5 %, or if their commands
+/// differ by less than a factor of 3. (A power law with b1 = 0.9 gives differences of 6 %.)
+std::optional<double> speed_per_set_point(const Vehicle& vehicle,
+                                          const std::vector<DrivingLog>& logs);
 
 /// The warning `speed-controlled`, if each wheel rolls at a speed in proportion to its command:
 ///   - both fitted resistances are linear and the yaw coefficient is d^2 times the surge
@@ -13,12 +20,13 @@ namespace awmr {
 ///
 ///         tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 ///
-///   - or the intervals of the fit are withdrawn, and the steady speeds of the wheels are in
-///     proportion to their commands.
+///   - or the model does not describe the logs, and `set_point_mps`, the result of
+///     speed_per_set_point(), is not empty.
 ///
 /// The cause is motor drag, or a speed controller whose set-points were logged as forces.
 std::vector<Finding> speed_control_findings(const Vehicle& vehicle,
                                             const std::vector<DrivingLog>& logs,
-                                            const LogStage& stage);
+                                            const LogStage& stage,
+                                            std::optional<double> set_point_mps);
 
 }  // namespace awmr

@@ -1,0 +1,121 @@
+#include "awmr/identify/logs/interpolated_commands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "awmr/identify/logs/family_score.h"
+#include "awmr/identify/logs/model_choice.h"
+#include "awmr/identify/uncertainty/akaike.h"
+
+namespace awmr {
+namespace {
+
+/// Parts into which the time between two rows is divided. Commands are constant in each part.
+constexpr std::size_t kParts = 4;
+
+/// True if forces or steering command change in at least half of the rows.
+bool changes_often(const DrivingLog& log) {
+  std::size_t changes = 0;
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    const auto& steering = log.steering_command_rad;
+    changes += log.force_left[i] != log.force_left[i - 1] ||
+               log.force_right[i] != log.force_right[i - 1] ||
+               (steering && (*steering)[i] != (*steering)[i - 1]);
+  }
+  return 2 * changes >= log.rows();
+}
+
+/// Where the rows of an interpolated log are: after row `row` of the log by the fraction `share` of
+/// the time to the next row, < 1.
+struct Place {
+  std::size_t row;
+  double share;
+};
+
+std::vector<Place> places_of(const DrivingLog& log) {
+  const double gap_s = kGapSteps * log.median_step_s();
+  std::vector<Place> places;
+  for (std::size_t row = 0; row < log.rows(); ++row) {
+    const bool is_interpolated =
+        row + 1 < log.rows() && log.t_s[row + 1] - log.t_s[row] <= gap_s;
+    for (std::size_t part = 0; part < (is_interpolated ? kParts : 1); ++part) {
+      places.push_back({row, static_cast<double>(part) / kParts});
+    }
+  }
+  return places;
+}
+
+/// The signal at the places, shifted by `later` of the time between two rows, < 1.
+std::vector<double> at_places(const std::vector<double>& signal, const std::vector<Place>& places,
+                              double later) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::size_t row = places[i].row;
+    const bool is_last_part = i + 1 == places.size() || places[i + 1].row != row;
+    const bool is_only_part = is_last_part && places[i].share == 0.0;
+    const double step = is_only_part ? 0.0 : signal[row + 1] - signal[row];
+    values.push_back(signal[row] + (places[i].share + later) * step);
+  }
+  return values;
+}
+
+DrivingLog interpolated(const DrivingLog& log) {
+  constexpr double kMiddle = 0.5 / kParts;  // of a part: the mean of the command over it
+  const std::vector<Place> places = places_of(log);
+  DrivingLog fine = log;
+  fine.has_interpolated_commands = true;
+  fine.t_s = at_places(log.t_s, places, 0.0);
+  fine.force_left = at_places(log.force_left, places, kMiddle);
+  fine.force_right = at_places(log.force_right, places, kMiddle);
+  if (log.steering_command_rad) {
+    fine.steering_command_rad = at_places(*log.steering_command_rad, places, kMiddle);
+  }
+  if (!log.line.empty()) {
+    fine.line.clear();
+    for (const Place& place : places) fine.line.push_back(log.line[place.row]);
+  }
+  for (auto& channel : fine.measured) {
+    if (!channel) continue;
+    const std::vector<bool> fresh = std::exchange(channel->fresh, {});
+    channel->value = at_places(channel->value, places, 0.0);
+    for (const Place& place : places) {
+      channel->fresh.push_back(place.share == 0.0 && fresh[place.row]);
+    }
+  }
+  return fine;
+}
+
+bool is_late_commands(const FreeTerm& term) {
+  return term.quantity.kind == FreeQuantity::Kind::kDelay && term.begin < 0.0;
+}
+
+}  // namespace
+
+std::vector<DrivingLog> interpolated(const std::vector<DrivingLog>& logs) {
+  std::vector<DrivingLog> fine;
+  for (const DrivingLog& log : logs) fine.push_back(interpolated(log));
+  return fine;
+}
+
+bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                         const FamilyFit& first, const IdentifyOptions& options) {
+  const auto is_smooth = [](const DrivingLog& log) {
+    return !log.has_interpolated_commands && changes_often(log);
+  };
+  if (!std::ranges::all_of(logs, is_smooth)) return false;
+  LogFitOptions from = from_optimum(power_law, first);
+  const bool has_late_commands = std::erase_if(from.terms, is_late_commands) > 0;
+  const FamilyFit lines = fit_first_family(interpolated(logs), from, options);
+  return lines.fit.usable &&
+         aic_lead(lines.fit, first.fit) > (has_late_commands ? 0.0 : kFamilyAicThreshold);
+}
+
+Finding interpolated_commands_finding(const std::string& file) {
+  return {file, 0, Severity::kWarning, "interpolated-commands",
+          "the commands change from row to row, and straight lines between the rows describe the "
+          "motion better than steps; the fit uses such lines. Log every command when it is sent, "
+          "or at a higher rate"};
+}
+
+}  // namespace awmr
