@@ -28,17 +28,16 @@ bool changes_often(const DrivingLog& log) {
 
 /// Where the rows of an interpolated log are: after row `row` of the log by the fraction `share` of
 /// the time to the next row, < 1.
-struct Place {
+struct RowPart {
   std::size_t row;
   double share;
 };
 
-std::vector<Place> places_of(const DrivingLog& log) {
+std::vector<RowPart> places_of(const DrivingLog& log) {
   const double gap_s = kGapSteps * log.median_step_s();
-  std::vector<Place> places;
+  std::vector<RowPart> places;
   for (std::size_t row = 0; row < log.rows(); ++row) {
-    const bool is_interpolated =
-        row + 1 < log.rows() && log.t_s[row + 1] - log.t_s[row] <= gap_s;
+    const bool is_interpolated = row + 1 < log.rows() && log.t_s[row + 1] - log.t_s[row] <= gap_s;
     for (std::size_t part = 0; part < (is_interpolated ? kParts : 1); ++part) {
       places.push_back({row, static_cast<double>(part) / kParts});
     }
@@ -47,7 +46,7 @@ std::vector<Place> places_of(const DrivingLog& log) {
 }
 
 /// The signal at the places, shifted by `later` of the time between two rows, < 1.
-std::vector<double> at_places(const std::vector<double>& signal, const std::vector<Place>& places,
+std::vector<double> at_places(const std::vector<double>& signal, const std::vector<RowPart>& places,
                               double later) {
   std::vector<double> values;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -62,7 +61,7 @@ std::vector<double> at_places(const std::vector<double>& signal, const std::vect
 
 DrivingLog interpolated(const DrivingLog& log) {
   constexpr double kMiddle = 0.5 / kParts;  // of a part: the mean of the command over it
-  const std::vector<Place> places = places_of(log);
+  const std::vector<RowPart> places = places_of(log);
   DrivingLog fine = log;
   fine.has_interpolated_commands = true;
   fine.t_s = at_places(log.t_s, places, 0.0);
@@ -73,21 +72,17 @@ DrivingLog interpolated(const DrivingLog& log) {
   }
   if (!log.line.empty()) {
     fine.line.clear();
-    for (const Place& place : places) fine.line.push_back(log.line[place.row]);
+    for (const RowPart& place : places) fine.line.push_back(log.line[place.row]);
   }
   for (auto& channel : fine.measured) {
     if (!channel) continue;
     const std::vector<bool> fresh = std::exchange(channel->fresh, {});
     channel->value = at_places(channel->value, places, 0.0);
-    for (const Place& place : places) {
+    for (const RowPart& place : places) {
       channel->fresh.push_back(place.share == 0.0 && fresh[place.row]);
     }
   }
   return fine;
-}
-
-bool is_late_commands(const FreeTerm& term) {
-  return term.quantity.kind == FreeQuantity::Kind::kDelay && term.begin < 0.0;
 }
 
 }  // namespace

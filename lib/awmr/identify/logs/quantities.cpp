@@ -187,6 +187,10 @@ FreeQuantity extra_force(ExtraForce force) {
           .large_change = is_slope ? 0.5 : 0.2};
 }
 
+bool is_late_commands(const FreeTerm& term) {
+  return term.quantity.kind == FreeQuantity::Kind::kDelay && term.begin < 0.0;
+}
+
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest) {
   const bool is_of_yaw = force == ExtraForce::kYawStribeck;
   const FreeQuantity speed{

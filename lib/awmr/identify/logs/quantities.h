@@ -144,6 +144,9 @@ struct FreeTerm {
   double begin;  ///< coordinate of the initial guess
 };
 
+/// True for a negative delay of the commands: late time stamps.
+bool is_late_commands(const FreeTerm& term);
+
 /// Speed scale w_s of the Stribeck friction `force`, with its initial guess. `fastest`: largest
 /// speed (m/s or rad/s) of the logs.
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest);

@@ -17,9 +17,6 @@ namespace {
 using Terms = std::vector<FreeTerm>;
 
 bool is_slip(const FreeTerm& term) { return term.quantity.kind == FreeQuantity::Kind::kWheelSlip; }
-bool is_late_commands(const FreeTerm& term) {
-  return term.quantity.kind == FreeQuantity::Kind::kDelay && term.begin < 0.0;
-}
 
 /// True if the fit has significant slip or late commands (LogFit::is_significant()).
 bool reads_early(const LogFit& fit) {
