@@ -237,7 +237,7 @@ PilOptions resolved(PilOptions options, const Inputs& in) {
     const bool by_table = in.emit.resistance == ResistanceForm::kTable;
     const double period_cycles = in.setup.sample_time_s * kClockHz;
     options.cycles_max =
-        count == 0 ? (by_table ? 12000U : 24000U) : static_cast<unsigned>(0.75 * period_cycles);
+        count == 0 ? (by_table ? 13000U : 24000U) : static_cast<unsigned>(0.75 * period_cycles);
   }
   if (!options.heading_max_deg) {
     options.heading_max_deg = avoids || in.setup.scenario.sensors ? 2.0 : 0.05;

@@ -39,7 +39,7 @@ void add_link(CLI::App& command, PilOptions& options) {
 void add_bounds(CLI::App& command, PilOptions& options) {
   command
       .add_option("--cycles-max", options.cycles_max,
-                  "Largest permitted clock cycles of a control step [12000 with resistance "
+                  "Largest permitted clock cycles of a control step [13000 with resistance "
                   "tables, 24000 with powf; with optional parts or a position estimate, 75 % of "
                   "the sample time]")
       ->check(within(1U, kAnyCount));

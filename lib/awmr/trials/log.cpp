@@ -175,8 +175,9 @@ void check_time(TrialReader& reader, RowSpan run) {
     reader.fault(
         ErrorCode::kWrongOrder, i, "t_s",
         fmt::format("found {} after {}: time must increase{}", t_s[i], t_s[i - 1],
-                    t_s[i] == t_s[i - 1] ? "; delete repeated rows, or write the time with "
-                                           "more digits (counted from the start of the log)"
+                    t_s[i] == t_s[i - 1] ? "; delete repeated rows, join rows of several topics "
+                                           "into one, or write the time with more digits (counted "
+                                           "from the start of the log)"
                     : reader.has("run")  ? ""
                                          : "; several runs in one file need a column run"));
   }
