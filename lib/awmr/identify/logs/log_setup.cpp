@@ -105,7 +105,9 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
                           const IdentifyOptions& options) {
   LogFitOptions fit;
   fit.vehicle = vehicle;
-  if (options.fit_input_delay) fit.terms = {{input_delay(), 0.0}};
+  // Commands that were logged too slowly are known only up to a delay of their own step.
+  const bool is_interpolated = std::ranges::any_of(logs, &DrivingLog::has_interpolated_commands);
+  if (options.fit_input_delay || is_interpolated) fit.terms = {{input_delay(), 0.0}};
   fit.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
                          ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
                          ParameterId::kYawQuadratic};
