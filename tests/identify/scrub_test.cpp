@@ -298,7 +298,7 @@ TEST(Scrub, SuggestsTheNextDifferentialTurns) {
     const double scrub_m = moment_of(turn.least) - resisted_m(model, turn.yaw_rate_degps);
     EXPECT_NEAR(scrub_m, std::max(0.0, model.yaw_scrub->ci95_m.lo), 1e-12);
   }
-  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("scrub by 4 turns"));
+  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("measured in 4 turns"));
 }
 
 TEST(Scrub, IsPartOfYawResistanceWithoutSteeredTurns) {

@@ -193,7 +193,7 @@ TEST(Goal, RefusesGoalsWithoutMeaning) {
   TuneOptions unevaluated = options_with(quick_and_calm());
   unevaluated.evaluation_draws = 0;
   EXPECT_THAT(why(unevaluated), HasSubstr("judged_draws has to be above 0"));
-  EXPECT_THAT(why(options_with(quick_and_calm(1.0))), HasSubstr("a share of 1"));
+  EXPECT_THAT(why(options_with(quick_and_calm(1.0))), HasSubstr("the share 1 "));
   EXPECT_THAT(why(options_with({})), HasSubstr("without a limit"));
   EXPECT_THAT(why(options_with({.at_most = {{"speed", 1.0}}, .mode = {}})),
               HasSubstr("unknown or given twice"));
