@@ -185,6 +185,13 @@ TEST(LogConsistency, AMisalignedCompassAndScalesThatAreOffAreNamed) {
     EXPECT_EQ(calibrations(wheel, "scale-mismatch", "or that of the positions"), 1) << seed;
     wheel[LogChannel::kHeading].reset();
     EXPECT_EQ(calibrations(wheel, "scale-mismatch", "or that of the positions"), 1) << seed;
+    DrivingLog odometry = sound_log(seed);
+    scale(odometry[LogChannel::kYawRate]->value, 0.92);
+    scale(odometry[LogChannel::kHeading]->value, 0.92);
+    EXPECT_EQ(calibrations(odometry, "scale-mismatch", "by the positions"), 1) << seed;
+    EXPECT_EQ(calibrations(odometry, "heading-offset"), 0) << seed;
+    odometry[LogChannel::kHeading].reset();
+    EXPECT_EQ(calibrations(odometry, "scale-mismatch", "by the positions"), 1) << seed;
     DrivingLog alone = sound_log(seed, {.position = false});
     scale(alone[LogChannel::kYawRate]->value, 1.1);
     EXPECT_EQ(calibrations(alone, "scale-mismatch", "or that of the heading"), 1) << seed;

@@ -1,11 +1,13 @@
 #include "awmr/trials/calibration_checks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "awmr/core/linear_algebra.h"
 #include "awmr/core/option_text.h"
@@ -142,6 +144,16 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
                    found->scatter};
 }
 
+/// Integral of the yaw rate from the first row, rad, by row.
+std::vector<double> integrated_rate(const DrivingLog& log) {
+  const std::vector<double>& rate = log[LogChannel::kYawRate]->value;
+  std::vector<double> psi(log.rows(), 0.0);
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    psi[i] = psi[i - 1] + 0.5 * (rate[i - 1] + rate[i]) * (log.t_s[i] - log.t_s[i - 1]);
+  }
+  return psi;
+}
+
 /// Scale ratio s (calibration_checks.h) of a log without heading. Empty if a channel is missing, if
 /// there are fewer than 15 windows, or if the windows do not determine s.
 std::optional<Calibration> distance_scale(const DrivingLog& log) {
@@ -151,11 +163,7 @@ std::optional<Calibration> distance_scale(const DrivingLog& log) {
   }
   const std::vector<LogWindow> windows = calibration_windows(log);
   if (windows.size() < kMinWindows) return std::nullopt;
-  const std::vector<double>& rate = log[LogChannel::kYawRate]->value;
-  std::vector<double> psi(log.rows(), 0.0);
-  for (std::size_t i = 1; i < log.rows(); ++i) {
-    psi[i] = psi[i - 1] + 0.5 * (rate[i - 1] + rate[i]) * (log.t_s[i] - log.t_s[i - 1]);
-  }
+  const std::vector<double> psi = integrated_rate(log);
   Eigen::MatrixXd left(static_cast<Eigen::Index>(windows.size()), 7);
   Eigen::VectorXd right(left.rows());
   for (std::size_t w = 0; w < windows.size(); ++w) {
@@ -195,6 +203,45 @@ std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
   const auto found = regression(left, right);
   if (!found) return std::nullopt;
   return Calibration{found->coefficients(0), found->std_errors(0)};
+}
+
+/// Factor k between the turning of the course over ground and the change of the heading psi, which
+/// is the integral of the yaw rate if the log has no heading (calibration_checks.h). Empty if a
+/// channel is missing, with fewer than 15 windows in motion, or if the windows do not determine k.
+std::optional<Calibration> course_over_heading(const DrivingLog& log) {
+  constexpr double kMoving = 0.3;  // of the longest displacement
+  for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed}) {
+    if (!log[channel]) return std::nullopt;
+  }
+  if (!log[LogChannel::kHeading] && !log[LogChannel::kYawRate]) return std::nullopt;
+  const std::vector<double> psi =
+      log[LogChannel::kHeading] ? log[LogChannel::kHeading]->value : integrated_rate(log);
+  const std::vector<LogWindow> windows = calibration_windows(log);
+  std::vector<CourseWindow> sums;
+  double longest_m = 0.0;
+  for (const LogWindow& window : windows) {
+    sums.push_back(course_window(log, window, psi));
+    longest_m = std::max(longest_m, std::abs(sums.back().moved));
+  }
+  std::vector<double> angles_rad;
+  std::vector<Eigen::RowVector4d> rows;  // psi, turn, time, 1
+  double before_rad = 0.0;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    if (!(std::abs(sums[w].moved) > kMoving * longest_m)) continue;
+    const double angle_rad = std::arg(sums[w].moved * std::conj(sums[w].driven));
+    before_rad += std::remainder(angle_rad - before_rad, 2.0 * std::numbers::pi);
+    angles_rad.push_back(before_rad);
+    const std::size_t first = windows[w].begin;
+    const std::size_t last = windows[w].end - 1;
+    rows.emplace_back(0.5 * (psi[first] + psi[last]), psi[last] - psi[first], log.t_s[first], 1.0);
+  }
+  if (rows.size() < kMinWindows) return std::nullopt;
+  Eigen::MatrixXd left(static_cast<Eigen::Index>(rows.size()), 4);
+  for (std::size_t i = 0; i < rows.size(); ++i) left.row(static_cast<Eigen::Index>(i)) = rows[i];
+  const Eigen::VectorXd right = Eigen::Map<Eigen::VectorXd>(angles_rad.data(), left.rows());
+  const auto found = regression(left, right);
+  if (!found) return std::nullopt;
+  return Calibration{1.0 + found->coefficients(0), found->std_errors(0)};
 }
 
 bool is_off_one(const Calibration& scale) {
@@ -253,6 +300,26 @@ std::optional<Finding> rate_mismatch(const DrivingLog& log,
                                    compared, rate, heading));
 }
 
+/// A heading and a yaw rate that agree with each other, but not with the positions.
+std::optional<Finding> turn_mismatch(const DrivingLog& log,
+                                     std::span<const ColumnMapping> mappings) {
+  const auto scale = course_over_heading(log);
+  if (!scale || !is_off_one(*scale)) return std::nullopt;
+  std::vector<std::string> columns;
+  std::vector<std::string> options;
+  for (const LogChannel channel : {LogChannel::kHeading, LogChannel::kYawRate}) {
+    if (!log[channel]) continue;
+    columns.emplace_back(info(channel).column);
+    options.push_back(mapping_option(mappings, info(channel).column, scale->value));
+  }
+  return scale_finding(
+      log,
+      fmt::format("by the positions, the vehicle turns {:.3f} +- {:.3f} times as far as by {}: "
+                  "their scale is wrong (track width of the odometry, gyroscope). Map with {}",
+                  scale->value, scale->std_error, fmt::join(columns, " and "),
+                  fmt::join(options, " and ")));
+}
+
 /// `scale`: s of calibration_checks.h.
 std::optional<Finding> speed_mismatch(const DrivingLog& log, const Calibration& scale,
                                       std::span<const ColumnMapping> mappings) {
@@ -286,7 +353,12 @@ std::optional<Calibration> heading_offset_rad(const DrivingLog& log) {
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings) {
   std::vector<Finding> findings;
-  if (auto rate = rate_mismatch(log, mappings)) findings.push_back(*std::move(rate));
+  if (auto rate = rate_mismatch(log, mappings)) {
+    findings.push_back(*std::move(rate));
+  } else if (auto turn = turn_mismatch(log, mappings)) {
+    // With a wrong scale of the heading, the comparisons below have no meaning.
+    return {*std::move(turn)};
+  }
   const auto course = course_fit(log);
   const auto scale = course
                          ? std::optional(Calibration{std::abs(course->factor), course->std_error})

@@ -26,6 +26,13 @@
 /// rate, and k_1 is the latency between the two:
 ///
 ///     psi(t1) - psi(t0) = k int r dt + k_0 (t1 - t0) + k_1 (r(t1) - r(t0))
+///
+/// If heading and yaw rate agree, both can have a wrong scale, as from odometry with a wrong track
+/// width. Then the angle from a to the displacement grows with the heading, with k the ratio of the
+/// turning of the course to that of the heading:
+///
+///     arg((p(t1) - p(t0))/a) = phi + (k - 1) (psi(t0) + psi(t1))/2
+///                              + k_2 (psi(t1) - psi(t0)) + k_3 t0
 #pragma once
 
 #include <optional>
@@ -51,7 +58,8 @@ std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 /// Returns the warnings `heading-offset`, if there is a heading_offset_rad(), and `scale-mismatch`,
 /// for two channels whose scales differ by more than 3 % and five standard errors. For heading and
 /// yaw rate, `scale-mismatch` names the wrong one if the positions agree with the other; else it
-/// names both channels. `mappings`: column mappings with which the log was read.
+/// names both channels, also if they agree with each other but not with the positions.
+/// `mappings`: column mappings with which the log was read.
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings);
 
