@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "awmr/core/option_text.h"
 #include "awmr/trials/log_evidence.h"
 #include "force_units.h"
 #include "motion_units.h"
@@ -77,7 +78,13 @@ std::optional<Contradiction> check_force(const Evidence& evidence, std::string_v
       unit_fixes.empty()
           ? ""
           : scaled_mapping(evidence, column, unit_fixes[0].factor, unit_fixes[0].offset);
-  return Contradiction{std::string(column), beyond + words_of(units), likeliest,
+  std::string words = beyond + words_of(units);
+  if (unit_fixes.empty()) {
+    words += fmt::format(", or like commands before the controller limits them (map them with {})",
+                         option_text(fmt::format("column '{0}=min({1:g}, max({2:g}, {0}))'", column,
+                                                 limit.hi, limit.lo)));
+  }
+  return Contradiction{std::string(column), words, likeliest,
                        remedy_of(units, unit_fixes, evidence.mappings)};
 }
 
