@@ -100,7 +100,11 @@ bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOption
   };
   if (!std::ranges::all_of(logs, is_smooth)) return false;
   LogFitOptions from = from_optimum(power_law, first);
-  const bool has_late_commands = std::erase_if(from.terms, is_late_commands) > 0;
+  const bool has_late_commands = std::ranges::any_of(from.terms, is_late_commands);
+  std::erase_if(from.terms, [](const FreeTerm& term) {
+    return term.quantity.kind == FreeQuantity::Kind::kDelay;
+  });
+  from.terms.push_back({input_delay(), 0.0});
   const FamilyFit lines = fit_first_family(interpolated(logs), from, options);
   return lines.fit.usable &&
          aic_lead(lines.fit, first.fit) > (has_late_commands ? 0.0 : kFamilyAicThreshold);
