@@ -25,14 +25,13 @@ constexpr double kSignificance = 5.0;  // smallest significant error, in standar
 constexpr double kMinScale = 0.03;
 constexpr double kMinOffset_rad = 0.0175;
 
-/// Divides the log into windows of a twentieth of its length, but 1 to 5 s. Longer windows reduce
-/// the effect of noise at their ends, but accumulate sideslip and heading errors.
-std::vector<LogWindow> calibration_windows(const DrivingLog& log) {
+/// Divides the log into this number of windows, but each 1 to 5 s long. Longer windows reduce the
+/// effect of noise at their ends, but accumulate sideslip and heading errors.
+std::vector<LogWindow> calibration_windows(const DrivingLog& log, double count = 20.0) {
   constexpr double kShortest_s = 1.0;
   constexpr double kLongest_s = 5.0;
-  constexpr double kWindows = 20.0;
   const double duration_s = log.t_s.back() - log.t_s.front();
-  return evidence_rows(log, std::clamp(duration_s / kWindows, kShortest_s, kLongest_s));
+  return evidence_rows(log, std::clamp(duration_s / count, kShortest_s, kLongest_s));
 }
 
 struct Regression {
@@ -210,13 +209,14 @@ std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
 /// channel is missing, with fewer than 15 windows in motion, or if the windows do not determine k.
 std::optional<Calibration> course_over_heading(const DrivingLog& log) {
   constexpr double kMoving = 0.3;  // of the longest displacement
+  constexpr double kWindows = 60.0;
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed}) {
     if (!log[channel]) return std::nullopt;
   }
   if (!log[LogChannel::kHeading] && !log[LogChannel::kYawRate]) return std::nullopt;
   const std::vector<double> psi =
       log[LogChannel::kHeading] ? log[LogChannel::kHeading]->value : integrated_rate(log);
-  const std::vector<LogWindow> windows = calibration_windows(log);
+  const std::vector<LogWindow> windows = calibration_windows(log, kWindows);
   std::vector<CourseWindow> sums;
   double longest_m = 0.0;
   for (const LogWindow& window : windows) {

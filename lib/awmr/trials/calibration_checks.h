@@ -29,7 +29,7 @@
 ///
 /// If heading and yaw rate agree, both can have a wrong scale, as from odometry with a wrong track
 /// width. Then the angle from a to the displacement grows with the heading, with k the ratio of the
-/// turning of the course to that of the heading:
+/// turning of the course to that of the heading (windows of a sixtieth of the log, 1 to 5 s):
 ///
 ///     arg((p(t1) - p(t0))/a) = phi + (k - 1) (psi(t0) + psi(t1))/2
 ///                              + k_2 (psi(t1) - psi(t0)) + k_3 t0

@@ -95,6 +95,7 @@ std::vector<DrivingLog> interpolated(const std::vector<DrivingLog>& logs) {
 
 bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          const FamilyFit& first, const IdentifyOptions& options) {
+  constexpr double kAlike = 10.0;  // of AIC
   const auto is_smooth = [](const DrivingLog& log) {
     return !log.has_interpolated_commands && changes_often(log);
   };
@@ -107,7 +108,7 @@ bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOption
   from.terms.push_back({input_delay(), 0.0});
   const FamilyFit lines = fit_first_family(interpolated(logs), from, options);
   return lines.fit.usable &&
-         aic_lead(lines.fit, first.fit) > (has_late_commands ? 0.0 : kFamilyAicThreshold);
+         aic_lead(lines.fit, first.fit) > (has_late_commands ? -kAlike : kFamilyAicThreshold);
 }
 
 Finding interpolated_commands_finding(const std::string& file) {
