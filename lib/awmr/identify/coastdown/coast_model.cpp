@@ -29,12 +29,6 @@ struct CoastCandidate {
   double aicc = std::numeric_limits<double>::infinity();
 };
 
-double top_mps(const std::vector<CoastCurve>& curves) {
-  double top = 0.0;
-  for (const CoastCurve& curve : curves) top = std::max(top, std::ranges::max(curve.speed_mps));
-  return top;
-}
-
 /// Root mean square of noise_of() over all rows.
 double pooled_noise(const std::vector<CoastCurve>& curves) {
   double squares = 0.0;
@@ -135,7 +129,8 @@ std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCan
     return std::abs(at.log_mass - best.at.log_mass) > kDifferent;
   };
   if (other.aicc < best.aicc + kClose && differs(other.at) &&
-      !is_implausible(data.surge.law(), top_mps(data.curves), std::exp(other.at.log_mass))) {
+      !is_implausible(data.surge.law(), highest_speed_mps(data.curves),
+                      std::exp(other.at.log_mass))) {
     return other.at;
   }
   const bool slow = is_slow(best.at, data);
@@ -182,7 +177,7 @@ bool is_described(const CoastData& data, const CoastCandidate& given) {
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge) {
   constexpr double kExact = 1e-4;  // of the speed: smaller errors are those of the integration
   const std::vector<CoastCurve>& curves = readings.curves;
-  const double exact_mps = kExact * top_mps(curves);
+  const double exact_mps = kExact * highest_speed_mps(curves);
   const CoastData data{curves, surge,
                        std::max({pooled_noise(curves), readings.quantum_mps, exact_mps})};
   const CoastCandidate given = fit_once(data, {guess_log_mass(curves, surge.law())}, 0.0);

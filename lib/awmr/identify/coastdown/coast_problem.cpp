@@ -311,13 +311,18 @@ void CoastProblem::step(const std::vector<TransformedParameter>& free, const Eig
   }
 }
 
+double highest_speed_mps(const std::vector<CoastCurve>& curves) {
+  double highest_mps = 0.0;
+  for (const CoastCurve& curve : curves) {
+    highest_mps = std::max(highest_mps, std::ranges::max(curve.speed_mps));
+  }
+  return highest_mps;
+}
+
 double fall_time_s(const std::vector<CoastCurve>& curves, const Resistance<double>& law,
                    double log_mass) {
-  double top_mps = 0.0;
-  for (const CoastCurve& curve : curves) {
-    top_mps = std::max(top_mps, std::ranges::max(curve.speed_mps));
-  }
-  return std::exp(log_mass) * top_mps / law.at(top_mps);
+  const double highest_mps = highest_speed_mps(curves);
+  return std::exp(log_mass) * highest_mps / law.at(highest_mps);
 }
 
 double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law) {

@@ -87,6 +87,9 @@ class CoastProblem {
   ceres::Solver::Summary summary_;
 };
 
+/// Highest speed of the curves, m/s.
+double highest_speed_mps(const std::vector<CoastCurve>& curves);
+
 /// Time constant m' u0/g(u0) of the deceleration at the highest speed of the curves.
 double fall_time_s(const std::vector<CoastCurve>& curves, const Resistance<double>& law,
                    double log_mass);

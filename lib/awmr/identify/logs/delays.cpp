@@ -220,15 +220,21 @@ Extended with_both_of_turning(NoiseIteration fit) {
                   std::vector<double>(other.size(), 0.0));
 }
 
-/// The fit with one more term free; empty if no term lowers AIC by more than kPlainly.
+/// The fit that begins at `from`, to convergence; empty if its AIC is not lower than that of
+/// `settled` by more than kPlainly.
+std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from,
+                                                Loss loss) {
+  constexpr double kPlainly = 10.0;
+  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
+  if (!(akaike_of(settled) - akaike_of(fit) > kPlainly)) return std::nullopt;
+  return fit;
+}
+
+/// The fit with one more term free; empty if no term lowers AIC enough (settled_if_better()).
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
-  constexpr double kPlainly = 10.0;  // smallest decrease of AIC
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
   if (!more) return std::nullopt;
-  Extended from = with_both_of_turning(*std::move(more));
-  more = settle_noise(std::move(from.problem), std::move(from.point), loss);
-  if (!(akaike_of(settled) - akaike_of(*more) > kPlainly)) return std::nullopt;
-  return more;
+  return settled_if_better(settled, with_both_of_turning(*std::move(more)), loss);
 }
 
 /// The fit with a motor lag in place of all filters of the sensors. Empty with fewer than two
@@ -277,10 +283,9 @@ double demanded_rate_radps(const NoiseIteration& settled) {
                   radians(model.vehicle.steering_max_rate_degps));
 }
 
-/// The fit with a servo that is slower than the vehicle file says; empty if AIC is not lower by
-/// more than kPlainly. (A score test does not show it: a limit that is not reached has no effect.)
+/// The fit with a servo that is slower than the vehicle file says; empty if it does not lower AIC
+/// enough. (A score test does not show it: a limit that is not reached has no effect.)
 std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss) {
-  constexpr double kPlainly = 10.0;
   if (has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kServoRate)) return {};
   const double demanded_radps = demanded_rate_radps(settled);
   LowestAic lowest(settled);
@@ -291,10 +296,8 @@ std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, L
     }
   }
   if (!lowest.best()) return {};
-  NoiseIteration fit =
-      settle_noise(std::move(lowest.best()->problem), std::move(lowest.best()->point), loss);
-  if (!(akaike_of(settled) - akaike_of(fit) > kPlainly)) return {};
-  return fit;
+  NoiseIteration& best = *lowest.best();
+  return settled_if_better(settled, {std::move(best.problem), std::move(best.point)}, loss);
 }
 
 /// The fit with the next term that lowers AIC; empty if there is none.

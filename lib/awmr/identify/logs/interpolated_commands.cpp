@@ -7,6 +7,7 @@
 #include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/model_choice.h"
 #include "awmr/identify/uncertainty/akaike.h"
+#include "awmr/trials/held_signal.h"
 
 namespace awmr {
 namespace {
@@ -16,12 +17,10 @@ constexpr std::size_t kParts = 4;
 
 /// True if forces or steering command change in at least half of the rows.
 bool changes_often(const DrivingLog& log) {
+  const LogSignals signals(log);
   std::size_t changes = 0;
   for (std::size_t i = 1; i < log.rows(); ++i) {
-    const auto& steering = log.steering_command_rad;
-    changes += log.force_left[i] != log.force_left[i - 1] ||
-               log.force_right[i] != log.force_right[i - 1] ||
-               (steering && (*steering)[i] != (*steering)[i - 1]);
+    changes += signals.forces_differ(i, i - 1) || signals.steering_commands_differ(i, i - 1);
   }
   return 2 * changes >= log.rows();
 }
