@@ -202,6 +202,40 @@ TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
+/// The log with one channel averaged over the rows from `reach` before to `reach` after each row.
+DrivingLog with_centred_mean(DrivingLog log, LogChannel channel, std::size_t reach) {
+  const std::vector<double> raw = log[channel]->value;
+  for (std::size_t i = reach; i + reach < raw.size(); ++i) {
+    double sum = 0.0;
+    for (std::size_t k = i - reach; k <= i + reach; ++k) sum += raw[k];
+    log[channel]->value[i] = sum / static_cast<double>(2 * reach + 1);
+  }
+  return log;
+}
+
+TEST(LateLog, AllowsForSpeedAndYawRateThatWereSmoothedAfterTheDrive) {
+  constexpr std::size_t kReach = 8;
+  const Truth& t = kTruths[1];
+  TrialData data;
+  data.logs = {drive(t, 8, {.duration_s = 40.0})};
+  for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
+    data.logs.front() = with_centred_mean(std::move(data.logs.front()), channel, kReach);
+  }
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  // Variance of a uniform distribution over 2 k + 1 rows: k (k + 1)/3 in units of rows^2.
+  const double variance_s2 = kReach * (kReach + 1) / 3.0 * kStep_s * kStep_s;
+  for (const char* const name : {"smoothing_s2.speed_mps", "smoothing_s2.yaw_rate_radps"}) {
+    const auto smoothing = estimated(*result, name);
+    ASSERT_TRUE(smoothing && smoothing->std_error) << name;
+    EXPECT_NEAR(smoothing->value, variance_s2, 0.1 * variance_s2) << name;
+  }
+  EXPECT_TRUE(has_finding(*result, "smoothed-channel"));
+  EXPECT_FALSE(has_finding(*result, "late-commands"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
+
 /// The log with the readings of a sway sensor that sits `ahead_m` ahead of the centre of gravity
 /// and is turned to the left by `turned_rad`.
 DrivingLog with_sway_sensor(DrivingLog log, double ahead_m, double turned_rad) {

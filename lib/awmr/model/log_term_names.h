@@ -1,7 +1,7 @@
 /// Names, in /estimates of model.json, of the vehicle and sensor errors that a fit of logs can
 /// estimate: steering trim, largest rate of the servo, imbalance of left and right motors,
-/// saturation of the forces, Stribeck friction, slope of the ground, delay, filter time constant
-/// and wheel slip of a sensor.
+/// saturation of the forces, Stribeck friction, slope of the ground, delay, filter time constant,
+/// smoothing and wheel slip of a sensor.
 #pragma once
 
 #include <array>
@@ -24,7 +24,9 @@ inline constexpr std::array<std::string_view, 6> kExtraForceNames = {
 inline constexpr std::string_view kSensorDelayPrefix =
     "delay.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSensorLagPrefix =
-    "lag.";                                               ///< followed by the channel's column name
+    "lag.";  ///< followed by the channel's column name
+inline constexpr std::string_view kSmoothingPrefix =
+    "smoothing_s2.";                                      ///< followed by the channel's column name
 inline constexpr std::string_view kSlipPrefix = "slip.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSlipRatioPrefix =
     "slip_ratio.";  ///< followed by the channel's column name

@@ -83,7 +83,7 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
 }
 
 /// `sensor-delay` for every sensor with an identified latency, `sensor-lag` for every identified
-/// low-pass filter.
+/// low-pass filter, `smoothed-channel` for every identified symmetric smoothing.
 std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, value_s, error_s] :
@@ -104,6 +104,16 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
          fmt::format("{} is low-pass filtered with a time constant of {:.3f} +- {:.3f} s; the fit "
                      "compensates this. Log the unfiltered reading, or make the filter faster",
                      info(quantity.channel).name, value_s, error_s)});
+  }
+  for (const auto& [quantity, variance_s2, error_s2] :
+       found_terms(fit, FreeQuantity::Kind::kSmoothing)) {
+    const double width_s = std::sqrt(variance_s2);
+    findings.push_back(
+        {file, 0, Severity::kWarning, "smoothed-channel",
+         fmt::format("{} is smoothed over the times before and after each row, with a standard "
+                     "deviation of {:.3f} +- {:.3f} s; the fit compensates this. Log the reading "
+                     "itself, without smoothing, interpolation or central differences",
+                     info(quantity.channel).name, width_s, 0.5 * error_s2 / width_s)});
   }
   return findings;
 }

@@ -7,11 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "awmr/core/index.h"
-#include "awmr/core/units.h"
+#include "awmr/identify/logs/actuator_terms.h"
 #include "awmr/identify/logs/further_terms.h"
-#include "awmr/identify/logs/information.h"
-#include "awmr/identify/logs/score_test.h"
+#include "awmr/identify/logs/term_trials.h"
 #include "awmr/trials/log_start.h"
 
 namespace awmr {
@@ -40,52 +38,6 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   std::ranges::stable_sort(found, std::greater{}, &CandidateTerm::significance);
   return found;
 }
-
-double akaike_of(const NoiseIteration& fit) {
-  return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities));
-}
-
-/// Adds the terms `more` to the estimated quantities and fits one round, starting with white noise
-/// in place of drift.
-NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss) {
-  constexpr double kLargestFirstStep = 3.0;  // in large changes
-  std::vector<FreeQuantity> quantities;
-  std::vector<double> begin;
-  for (const FreeTerm& term : more) {
-    quantities.push_back(term.quantity);
-    const double most = kLargestFirstStep * term.quantity.large_change;
-    begin.push_back(term.quantity.is_form() ? term.begin : std::clamp(term.begin, -most, most));
-  }
-  Extended from = extended(with_white_noise(settled.problem), settled.point, quantities, begin);
-  return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
-}
-
-/// Channels that are often filtered before logging.
-bool may_be_smoothed(LogChannel channel) {
-  return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate ||
-         channel == LogChannel::kHeading;
-}
-
-/// The fit with the lowest AIC among those considered.
-class LowestAic {
- public:
-  explicit LowestAic(const NoiseIteration& start) : criterion_(akaike_of(start)) {}
-
-  /// Keeps the fit if its AIC is lower by more than `by`; returns true if it was kept.
-  bool consider(NoiseIteration fit, double by = 0.0) {
-    const double criterion = akaike_of(fit);
-    if (!(criterion + by < criterion_)) return false;
-    criterion_ = criterion;
-    best_ = std::move(fit);
-    return true;
-  }
-  /// The kept fit; empty if no fit had a lower AIC than the start.
-  std::optional<NoiseIteration>& best() { return best_; }
-
- private:
-  std::optional<NoiseIteration> best_;
-  double criterion_;
-};
 
 /// Considers a filter of each channel, continuous or at the rows of the log, with its lag. A filter
 /// is kept only if it lowers AIC by more than kLikelierFilter.
@@ -135,6 +87,16 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
+/// The smoothing of all channels that are candidates for it. (One program often smooths several.)
+std::vector<FreeTerm> smoothing_terms(const std::vector<CandidateTerm>& terms) {
+  std::vector<FreeTerm> smoothing;
+  for (const CandidateTerm& term : terms) {
+    if (term.quantity.kind != FreeQuantity::Kind::kSmoothing) continue;
+    smoothing.push_back({term.quantity, term.value});
+  }
+  return smoothing;
+}
+
 /// The slip of the speed together with slip of the same form of the yaw rate, if that is a
 /// candidate too.
 std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<CandidateTerm>& terms,
@@ -144,12 +106,6 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
       terms, [&](const CandidateTerm& term) { return term.quantity.name() == yaw.name(); });
   if (found == terms.end()) return std::nullopt;
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
-}
-
-/// True if a motor lag is given in the vehicle file or estimated.
-bool has_motor_lag(const LogModel& model) {
-  return model.vehicle.motor_time_constant_s ||
-         has_kind(model.quantities, FreeQuantity::Kind::kMotorLag);
 }
 
 /// Considers two replacements for the command delay `found_s`: a motor lag in its place, and a
@@ -193,11 +149,13 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
       }
     }
     if (more.kind == FreeQuantity::Kind::kDelay) consider_motor_lag(settled, found_s, loss, lowest);
-    if (found_s > 0.0 && is_sensor && may_be_smoothed(more.channel)) {
+    if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel)) {
       filters.emplace_back(more.channel, found_s);
     }
   }
   consider_filters(settled, filters, loss, lowest);
+  const std::vector<FreeTerm> smoothing = smoothing_terms(terms);
+  if (smoothing.size() > 1) lowest.consider(tried(settled, smoothing, loss));
   // One round can be too few to lower AIC if the drift had absorbed a large effect of the term.
   return lowest.best() ? std::move(lowest.best()) : std::move(strongest);
 }
@@ -220,16 +178,6 @@ Extended with_both_of_turning(NoiseIteration fit) {
                   std::vector<double>(other.size(), 0.0));
 }
 
-/// The fit that begins at `from`, to convergence; empty if its AIC is not lower than that of
-/// `settled` by more than kPlainly.
-std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from,
-                                                Loss loss) {
-  constexpr double kPlainly = 10.0;
-  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
-  if (!(akaike_of(settled) - akaike_of(fit) > kPlainly)) return std::nullopt;
-  return fit;
-}
-
 /// The fit with one more term free; empty if no term lowers AIC enough (settled_if_better()).
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
@@ -237,73 +185,11 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss 
   return settled_if_better(settled, with_both_of_turning(*std::move(more)), loss);
 }
 
-/// The fit with a motor lag in place of all filters of the sensors. Empty with fewer than two
-/// filters, with a motor lag that is given or free, or if AIC is not lower. In nearly linear motion
-/// the lag and the filters have the same effect, and the filters were added one by one.
-std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss) {
-  using Kind = FreeQuantity::Kind;
-  LogProblem problem = settled.problem;
-  SearchPoint point = settled.point;
-  if (has_motor_lag(problem.model)) return std::nullopt;
-  std::vector<double> lags_s;
-  for (std::size_t i = problem.model.quantities.size(); i-- > 0;) {
-    if (problem.model.quantities[i].kind != Kind::kSensorLag) continue;
-    lags_s.push_back(point.coordinates[i]);
-    const auto at_i = static_cast<std::ptrdiff_t>(i);
-    problem.model.quantities.erase(problem.model.quantities.begin() + at_i);
-    problem.initial.erase(problem.initial.begin() + at_i);
-    problem.bounds.erase(problem.bounds.begin() + at_i);
-    point.coordinates.erase(point.coordinates.begin() + at_i);
-  }
-  if (lags_s.size() < 2) return std::nullopt;
-  Extended from = extended(with_white_noise(std::move(problem)), std::move(point), {motor_lag()},
-                           {std::ranges::min(lags_s)});
-  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
-  if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
-  return fit;
-}
-
-/// Largest rate that the servo's time constant demands, rad/s: all of the range of the steering
-/// commands over it. At most the vehicle file's largest rate; 0 if the time constant is not free.
-double demanded_rate_radps(const NoiseIteration& settled) {
-  const LogModel& model = settled.problem.model;
-  const auto lag = place_of(model.quantities, ParameterId::kSteeringTimeConstant);
-  if (!lag) return 0.0;
-  Interval commands{0.0, 0.0};
-  for (const FitWindow& window : settled.problem.windows) {
-    const DrivingLog& log = *window.rows.log;
-    if (!log.steering_command_rad) continue;
-    for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
-      commands.lo = std::min(commands.lo, (*log.steering_command_rad)[row]);
-      commands.hi = std::max(commands.hi, (*log.steering_command_rad)[row]);
-    }
-  }
-  const double lag_s = model.quantities[*lag].value(settled.point.coordinates[*lag]);
-  return std::min((commands.hi - commands.lo) / lag_s,
-                  radians(model.vehicle.steering_max_rate_degps));
-}
-
-/// The fit with a servo that is slower than the vehicle file says; empty if it does not lower AIC
-/// enough. (A score test does not show it: a limit that is not reached has no effect.)
-std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss) {
-  if (has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kServoRate)) return {};
-  const double demanded_radps = demanded_rate_radps(settled);
-  LowestAic lowest(settled);
-  for (const double share : {0.6, 0.25}) {
-    const double begin_radps = share * demanded_radps;
-    if (begin_radps > 0.0) {
-      lowest.consider(tried(settled, {{servo_rate(begin_radps), begin_radps}}, loss));
-    }
-  }
-  if (!lowest.best()) return {};
-  NoiseIteration& best = *lowest.best();
-  return settled_if_better(settled, {std::move(best.problem), std::move(best.point)}, loss);
-}
-
 /// The fit with the next term that lowers AIC; empty if there is none.
 std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled, Loss loss) {
   if (auto more = with_one_more(settled, loss)) return more;
-  return with_slower_servo(settled, loss);
+  if (auto more = with_slower_servo(settled, loss)) return more;
+  return with_motor_lag_beside_delay(settled, loss);
 }
 
 }  // namespace

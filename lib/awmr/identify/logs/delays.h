@@ -14,7 +14,7 @@ namespace awmr {
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
 ///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw
 ///     rate or the heading.
-///   - As soon as no term is added, a servo slower than the vehicle file says is tried.
+///   - As soon as no term is added, the terms of actuator_terms.h are tried.
 ///   - Steering trim and force imbalance have nearly the same effect. If one of them is found and
 ///     the commands allow both, both are freed.
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss);

@@ -7,6 +7,14 @@
 namespace awmr {
 namespace {
 
+bool is_filtered(const std::vector<FreeQuantity>& quantities, LogChannel channel) {
+  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) {
+    const bool is_filter =
+        q.kind == FreeQuantity::Kind::kSensorLag || q.kind == FreeQuantity::Kind::kSmoothing;
+    return is_filter && q.channel == channel;
+  });
+}
+
 bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) {
   return std::ranges::any_of(quantities, [&](const FreeQuantity& q) {
     const bool is_of_sensor =
@@ -82,6 +90,11 @@ void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 
 }  // namespace
 
+bool is_often_filtered(LogChannel channel) {
+  return channel == LogChannel::kSpeed || channel == LogChannel::kYawRate ||
+         channel == LogChannel::kHeading;
+}
+
 std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
@@ -93,6 +106,11 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(sensor_delay_of(channel));
   }
   if (found.size() == 1) found.clear();
+  for (const auto& [channel, noise] : problem.model.noise) {
+    if (is_often_filtered(channel) && !is_filtered(quantities, channel)) {
+      found.push_back(smoothing_of(channel));
+    }
+  }
   if (frees_servo(quantities) && !has_kind(quantities, Kind::kSteeringDelay)) {
     found.push_back(steering_delay());
   }

@@ -29,10 +29,16 @@ double step_s_at(const LogModel& model, const std::vector<double>& coordinates) 
   plant.sway_alpha = 0.0;
   plant.steering_time_constant_s = std::numeric_limits<double>::infinity();
   // The lower limit matters only for guesses with time constants shorter than those of any vehicle.
-  return std::max(
-      kShortestReplayStep_s,
-      std::min({replay_step_s(plant), std::max(sway_s, model.row_spacing_s / kSwayStepsOfRow),
-                std::max(servo_s, model.row_spacing_s / kServoStepsOfRow)}));
+  return std::max(kShortestReplayStep_s,
+                  std::min({replay_step_s(plant), model.row_spacing_s,
+                            std::max(sway_s, model.row_spacing_s / kSwayStepsOfRow),
+                            std::max(servo_s, model.row_spacing_s / kServoStepsOfRow)}));
+}
+
+double rough_step_s(const LogModel& model) {
+  constexpr double kRougher = 2.0;
+  return std::max(model.longest_step_s,
+                  std::min(kRougher * model.longest_step_s, model.row_spacing_s));
 }
 
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {

@@ -45,7 +45,9 @@ struct SearchPoint {
 
 /// Longest integration step at these coordinates, s: that of replay_step_s(), except that fast sway
 /// shortens it to no less than 1/4 of the row spacing, and a fast servo to no less than 1/8. (Sway
-/// that is faster is slowed, LinearPlant::sway_pace.) At least kShortestReplayStep_s.
+/// that is faster is slowed, LinearPlant::sway_pace.) At most the row spacing: a chord of the
+/// resistance near rest (Resistance::rest_speed) is the longer, the longer the step. At least
+/// kShortestReplayStep_s.
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 
 /// Builds the problem at the initial guess, with the noise by sensor_noise() and without weights of
@@ -55,9 +57,9 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
 /// Returns the point with these coordinates and with the measured initial state of every window.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 
-/// Factor on the longest integration step in rough searches: those that only rank initial guesses
-/// or models, and the first round of settle_noise().
-inline constexpr double kRoughStep = 2.0;
+/// Longest integration step of rough searches, s: those that only rank initial guesses or models,
+/// and the first round of settle_noise(). Twice the step of the model, but at most the row spacing.
+double rough_step_s(const LogModel& model);
 
 /// These functions compute the errors, or the sums, of all windows in parallel. The results do not
 /// depend on the number of threads. `block_s`: length of the blocks, see sums_of().

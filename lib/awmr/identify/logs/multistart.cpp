@@ -24,7 +24,7 @@ LogProblem rough_problem(const LogProblem& problem) {
   constexpr std::size_t kParts = 12;
   constexpr double kPart_s = 2.5;
   LogProblem rough = problem;
-  rough.model.longest_step_s = kRoughStep * problem.model.longest_step_s;
+  rough.model.longest_step_s = rough_step_s(problem.model);
   rough.threads = 1;  // the searches run in parallel with each other
   rough.ends_at_limit = false;
   std::vector<FitWindow> parts;

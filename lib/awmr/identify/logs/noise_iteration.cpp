@@ -127,8 +127,9 @@ NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss, in
   constexpr double kSettled = 0.01;
   constexpr double kMiddling = 1e-6;
   const double fine_step_s = problem.model.longest_step_s;
+  const double first_step_s = rough_step_s(problem.model);
   for (int round = 0; round < rounds; ++round) {
-    problem.model.longest_step_s = round == 0 ? kRoughStep * fine_step_s : fine_step_s;
+    problem.model.longest_step_s = round == 0 ? first_step_s : fine_step_s;
     point = solve(problem, std::move(point), kMiddling).point;
     problem.model.longest_step_s = fine_step_s;
     const std::vector<WindowErrors> errors = errors_at(problem, point);

@@ -20,7 +20,7 @@ ErrorsByChannel errors_by_channel(const LogProblem& problem,
 inline constexpr int kNoiseRounds = 6;
 /// Fits the coordinates and estimates the noise from the residuals in turn, until no noise level
 /// changes by 1 % or more, at most `rounds` times. The first round integrates with longer steps
-/// (kRoughStep). Use one round for fits that only rank models.
+/// (rough_step_s()). Use one round for fits that only rank models.
 NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
                             int rounds = kNoiseRounds);
 

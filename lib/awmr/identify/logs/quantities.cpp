@@ -71,6 +71,7 @@ Interval range_of(const FreeQuantity& quantity) {
     case Kind::kMotorLag:
     case Kind::kSensorDelay:
     case Kind::kSensorLag:
+    case Kind::kSmoothing:
       return {0.0, kLongest_s};
     case Kind::kWheelSlip:
       return {0.0, kLargestSlip};
@@ -121,6 +122,8 @@ std::string FreeQuantity::name() const {
       return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
     case Kind::kSensorLag:
       return fmt::format("{}{}", kSensorLagPrefix, info(channel).name);
+    case Kind::kSmoothing:
+      return fmt::format("{}{}", kSmoothingPrefix, info(channel).name);
     case Kind::kWheelSlip:
       return fmt::format("{}{}", is_ratio ? kSlipRatioPrefix : kSlipPrefix, info(channel).name);
     case Kind::kSwayOffset:
@@ -210,6 +213,10 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows) {
           .channel = channel,
           .large_change = 0.1,
           .is_at_rows = is_at_rows};
+}
+
+FreeQuantity smoothing_of(LogChannel channel) {
+  return {.kind = FreeQuantity::Kind::kSmoothing, .channel = channel, .large_change = 0.01};
 }
 
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio) {

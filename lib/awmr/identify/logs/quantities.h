@@ -35,19 +35,19 @@ struct FreeQuantity {
     kBias,                 ///< constant offset of a channel
     kSensorDelay,          ///< latency of a channel
     kSensorLag,            ///< time constant of a filter that smooths a channel
+    kSmoothing,            ///< variance of a symmetric kernel that smooths a channel
     kWheelSlip,            ///< slip of the wheels that measure a channel (wheel_slip.h)
     kSwayOffset,           ///< distance of the sway sensor ahead of the centre of gravity
     kSwayAngle             ///< angle by which the sway sensor is turned to the left
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< for kParameter
-  LogChannel channel =
-      LogChannel::kX;  ///< for kSensorDelay (kX: x and y), kSensorLag, kWheelSlip, kBias
+  LogChannel channel = LogChannel::kX;  ///< for kSensorDelay (kX: x and y), kSensorLag, ..., kBias
   ExtraForce force = ExtraForce::kSlopeX;  ///< for kExtraForce
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
   /// a bias (SI); 0.2 for a term of a family or Stribeck friction; 0.1 for a delay or lag (s), trim
-  /// or angle (rad), imbalance, saturation, wheel slip or offset (m); 0.5 for a slope (m/s^2).
+  /// or angle (rad), imbalance, saturation, wheel slip or offset (m); 0.5 for a slope (m/s^2); 0.01 for smoothing (s^2).
   /// Standard deviations of priors and limits of identifiability are multiples of this change.
   double large_change = 1.0;
   double full_command = 1.0;  ///< for kForceSaturation: F'm of force_saturation(), > 0
@@ -67,7 +67,7 @@ struct FreeQuantity {
   /// so that 0 is an end of their range.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
-           kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
+           kind == Kind::kSmoothing || kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
            is(ExtraForce::kSurgeStribeck) || is(ExtraForce::kYawStribeck);
   }
   std::string name() const;
@@ -123,6 +123,16 @@ FreeQuantity extra_force(ExtraForce force);
 /// filter with one step for each row of the log, y(row) = e y(row - 1) + (1 - e) u(row), in place
 /// of a continuous filter (smoothed_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
+
+/// Variance s of the symmetric kernel that smooths a channel, s^2. With a = sqrt(2 s), the sensor
+/// reads
+///
+///     x(t - a)/4 + x(t)/2 + x(t + a)/4
+///
+/// in place of the kernel's true form. (Central differences, interpolation between the rows of
+/// another log and smoothing after the drive have such kernels.) If a is shorter than half of the
+/// row spacing, that takes its place, and the outer weights are lower, so that the variance is s.
+FreeQuantity smoothing_of(LogChannel channel);
 
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);

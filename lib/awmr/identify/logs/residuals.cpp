@@ -9,8 +9,7 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/linear_replay.h"
 #include "awmr/identify/logs/product_sums.h"
-#include "awmr/identify/logs/smoothed_channel.h"
-#include "awmr/identify/logs/wheel_slip.h"
+#include "awmr/identify/logs/sensors.h"
 #include "awmr/identify/logs/whitener.h"
 #include "awmr/model/sliding.h"
 
@@ -24,18 +23,8 @@ struct Unpacked {
   std::vector<ParameterColumn> parameters;
   CommandPath path;
   ExtraForces extra;
-  std::array<double, kChannelCount> bias{};
-  std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
-  std::array<std::optional<DelayColumn>, kChannelCount> sensor_delay{};
-  std::array<std::optional<SensorFilter>, kChannelCount> sensor_lag{};
-  std::vector<WheelSlip> slips;
-  std::optional<OffsetColumn> sway_offset;
-  std::optional<OffsetColumn> sway_angle;
+  SensorTerms sensors;
   State<double> initial{};
-
-  bool any_late() const {
-    return std::ranges::any_of(sensor_delay, [](const auto& d) { return d.has_value(); });
-  }
 };
 
 /// Raises a servo time constant below h/2 to h/2, which Runge-Kutta steps of h seconds resolve, and
@@ -95,24 +84,29 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         u.extra.columns.push_back({quantity.force, i, quantity.jacobian(coordinates[i])});
         break;
       case FreeQuantity::Kind::kSensorLag:
-        u.sensor_lag[at(quantity.channel)] = {{number, i}, quantity.is_at_rows};
+        u.sensors.lag[at(quantity.channel)] = {{number, i}, quantity.is_at_rows};
+        break;
+      case FreeQuantity::Kind::kSmoothing:
+        u.sensors.smoothing[at(quantity.channel)] = {number, i};
         break;
       case FreeQuantity::Kind::kSensorDelay:
-        u.sensor_delay[at(quantity.channel)] = {number, i};
-        if (quantity.channel == LogChannel::kX) u.sensor_delay[at(LogChannel::kY)] = {number, i};
+        u.sensors.delay[at(quantity.channel)] = {number, i};
+        if (quantity.channel == LogChannel::kX) {
+          u.sensors.delay[at(LogChannel::kY)] = {number, i};
+        }
         break;
       case FreeQuantity::Kind::kWheelSlip:
-        u.slips.push_back({quantity.channel, {number, i}, quantity.is_ratio});
+        u.sensors.slips.push_back({quantity.channel, {number, i}, quantity.is_ratio});
         break;
       case FreeQuantity::Kind::kSwayOffset:
-        u.sway_offset = {number, i};
+        u.sensors.sway_offset = {number, i};
         break;
       case FreeQuantity::Kind::kSwayAngle:
-        u.sway_angle = {number, i};
+        u.sensors.sway_angle = {number, i};
         break;
       case FreeQuantity::Kind::kBias:
-        u.bias[at(quantity.channel)] = number;
-        u.bias_column[at(quantity.channel)] = i;
+        u.sensors.bias[at(quantity.channel)] = number;
+        u.sensors.bias_column[at(quantity.channel)] = i;
         break;
     }
   }
@@ -154,63 +148,12 @@ SmoothedChannels smoothed_channels(const FitWindow& window, const Unpacked& u,
                                    std::size_t columns) {
   SmoothedChannels smoothed;
   for (const LogChannel channel : kChannels) {
-    const auto& lag = u.sensor_lag[at(channel)];
+    const auto& lag = u.sensors.lag[at(channel)];
     if (!lag) continue;
     smoothed[at(channel)].emplace(*lag, channel_of(window.measured, channel), columns);
   }
   return smoothed;
 }
-
-/// Readings of the sensors at the motion of one time, without latency, filter and bias.
-class Sensors {
- public:
-  Sensors(const FitWindow& window, const Unpacked& u, std::size_t columns)
-      : signals_(*window.signals),
-        u_(u),
-        wheels_{u.plant, u.parameters, columns_of(u.path)},
-        row_(columns) {}
-
-  /// Returns the reading at the time t of the motion. row() then has its derivatives.
-  double read(LogChannel c, const LinearMotion& motion, double t_s) {
-    if (!row_.empty()) std::copy_n(motion.row(c, row_.size()), row_.size(), row_.begin());
-    double value = channel_of(motion.state, c);
-    for (const WheelSlip& slip : u_.slips) {
-      if (slip.channel != c) continue;
-      value += add_wheel_slip(slip, wheels_, command_at(signals_, t_s, u_.path), motion,
-                              row_.size(), row_.data());
-    }
-    return c == LogChannel::kSway ? sway(motion) : value;
-  }
-  std::vector<double>& row() { return row_; }
-
- private:
-  /// Reading of the sway sensor (sway_offset()).
-  double sway(const LinearMotion& motion) {
-    const State<double>& s = motion.state;
-    const double x = u_.sway_offset ? u_.sway_offset->value : 0.0;
-    const double angle = u_.sway_angle ? u_.sway_angle->value : 0.0;
-    const double along = std::sin(angle);
-    const double across = std::cos(angle);
-    const std::size_t columns = row_.size();
-    if (columns > 0 && (u_.sway_offset || u_.sway_angle)) {
-      const double* const by_u = motion.row(LogChannel::kSpeed, columns);
-      const double* const by_r = motion.row(LogChannel::kYawRate, columns);
-      for (std::size_t c = 0; c < columns; ++c) {
-        row_[c] = across * row_[c] - along * by_u[c] + x * by_r[c];
-      }
-      if (u_.sway_offset) row_[u_.sway_offset->column] += s.r_radps;
-      if (u_.sway_angle) {
-        row_[u_.sway_angle->column] -= along * s.v_mps + across * s.u_mps;
-      }
-    }
-    return across * s.v_mps - along * s.u_mps + x * s.r_radps;
-  }
-
-  const LogSignals& signals_;
-  const Unpacked& u_;
-  SlippingWheels wheels_;
-  std::vector<double> row_;
-};
 
 /// Passes the readings at a row of the log to the filters of smoothed channels. `has_before`: true
 /// if the row is not the first of the window.
@@ -224,48 +167,106 @@ void follow(const DrivingLog& log, std::size_t row, bool has_before, const Linea
   }
 }
 
+/// Simulated readings of one window at the rows of its log, with derivatives.
+class Readings {
+ public:
+  Readings(const LogModel& model, const FitWindow& window, const Unpacked& u, std::size_t columns)
+      : model_(model),
+        window_(window),
+        u_(u),
+        aside_(u.plant, columns, u.parameters, columns_of(u.path), model.longest_step_s, u.extra),
+        sensors_(*window.signals, u.sensors, u.path, u.plant, u.parameters, columns),
+        smoothed_(smoothed_channels(window, u, columns)),
+        row_(columns) {}
+
+  /// Adds the motion at the next row, for sensors that read other times.
+  void add(const LinearMotion& motion) { motions_.push_back(motion); }
+  const std::vector<LinearMotion>& motions() const { return motions_; }
+  /// Advances the filters to a row; call it for every row in order.
+  void go_to(std::size_t row, const LinearMotion& now) {
+    follow(*window_.rows.log, row, row > window_.rows.begin, now, sensors_, smoothed_);
+  }
+  /// Returns the reading of a channel at the row at which go_to() was called last. row() then has
+  /// its derivatives.
+  double read(LogChannel c, double t_s, const LinearMotion& now) {
+    const SensorTerms& terms = u_.sensors;
+    if (terms.delay[at(c)] || terms.smoothing[at(c)]) return read_other_times(c, t_s);
+    if (const auto& smooth = smoothed_[at(c)]) {
+      row_ = smooth->by_column();
+      return smooth->value();
+    }
+    const double value = sensors_.read(c, now, t_s);
+    row_ = sensors_.row();
+    return value;
+  }
+  std::vector<double>& row() { return row_; }
+
+ private:
+  double read_other_times(LogChannel c, double t_s) {
+    const SensorTerms& terms = u_.sensors;
+    std::ranges::fill(row_, 0.0);
+    double value = 0.0;
+    std::vector<TimeColumn> shifts;
+    for (const ReadingTime& time : reading_times(terms, c, t_s, model_.row_spacing_s)) {
+      shifts.clear();
+      if (terms.delay[at(c)]) shifts.push_back({terms.delay[at(c)]->column, -1.0});
+      if (time.time_by != 0.0) shifts.push_back({terms.smoothing[at(c)]->column, time.time_by});
+      const LinearMotion motion = motion_at(*window_.signals, window_.rows.begin, motions_, aside_,
+                                            time.t_s, shifts, model_.longest_step_s, u_.path);
+      const double reading = sensors_.read(c, motion, time.t_s);
+      value += time.weight * reading;
+      for (std::size_t k = 0; k < row_.size(); ++k) row_[k] += time.weight * sensors_.row()[k];
+      if (!row_.empty() && terms.smoothing[at(c)]) {
+        row_[terms.smoothing[at(c)]->column] += time.weight_by * reading;
+      }
+    }
+    return value;
+  }
+
+  const LogModel& model_;
+  const FitWindow& window_;
+  const Unpacked& u_;
+  LinearStepper aside_;
+  Sensors sensors_;
+  SmoothedChannels smoothed_;
+  std::vector<LinearMotion> motions_;  // one per row; kept only if sensors read other times
+  std::vector<double> row_;
+};
+
 /// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured,
 /// `row` has its derivatives, one per column; the visitor may overwrite it. Empty without columns.
 /// A sensor with latency is compared with the state one delay earlier, a filtered sensor with the
-/// output of the filter.
+/// output of the filter, a smoothed sensor with the mean of an earlier and a later state.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const Unpacked& u,
                     std::size_t columns, Visit visit) {
   const DrivingLog& log = *window.rows.log;
   const std::vector<Sample>& samples = window.samples();
   const double h = model.longest_step_s;
-  const CommandColumns command_columns = columns_of(u.path);
-  LinearStepper stepper(u.plant, columns, u.parameters, command_columns, h, u.extra);
-  LinearStepper back(u.plant, columns, u.parameters, command_columns, h, u.extra);
-  const bool any_late = u.any_late();
-  std::vector<LinearMotion> motions;  // one per row; kept only if a sensor has latency
-  Sensors sensors(window, u, columns);
+  LinearStepper stepper(u.plant, columns, u.parameters, columns_of(u.path), h, u.extra);
+  Readings readings(model, window, u, columns);
   std::size_t next = 0;
-  SmoothedChannels smoothed = smoothed_channels(window, u, columns);
-  const auto compare = [&](const LinearMotion& motion, double t_s, const Sample& sample) {
-    const LogChannel c = sample.channel;
-    const auto& smooth = smoothed[at(c)];
-    const double shown = smooth ? smooth->value() : sensors.read(c, motion, t_s);
-    if (smooth && columns > 0) sensors.row() = smooth->by_column();
-    const double error = shown + u.bias[at(c)] - log[c]->value[sample.row];
-    if (columns > 0 && u.bias_column[at(c)]) sensors.row()[*u.bias_column[at(c)]] += 1.0;
-    visit(next, error, sensors.row());
+  const auto compare_at = [&](std::size_t at_row, const LinearMotion& now) {
+    readings.go_to(at_row, now);
+    for (; next < samples.size() && samples[next].row == at_row; ++next) {
+      const LogChannel c = samples[next].channel;
+      const double read = readings.read(c, log.t_s[at_row], now);
+      const double error = read + u.sensors.bias[at(c)] - log[c]->value[at_row];
+      const auto& bias_column = u.sensors.bias_column[at(c)];
+      if (columns > 0 && bias_column) readings.row()[*bias_column] += 1.0;
+      visit(next, error, readings.row());
+    }
   };
+  const bool waits = u.sensors.reads_later();  // for the motion after a row
+  const bool keeps = u.sensors.reads_other_times();
   replay_linear(*window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
                 first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
-                  if (any_late) motions.push_back(now);
-                  follow(log, at_row, at_row > window.rows.begin, now, sensors, smoothed);
-                  for (; next < samples.size() && samples[next].row == at_row; ++next) {
-                    const auto& latency = u.sensor_delay[at(samples[next].channel)];
-                    if (!latency) {
-                      compare(now, log.t_s[at_row], samples[next]);
-                      continue;
-                    }
-                    compare(earlier_motion(*window.signals, window.rows.begin, motions, back,
-                                           *latency, h, u.path),
-                            log.t_s[at_row] - latency->delay_s, samples[next]);
-                  }
+                  if (keeps) readings.add(now);
+                  if (!waits) compare_at(at_row, now);
                 });
+  for (std::size_t i = 0; waits && i < readings.motions().size(); ++i) {
+    compare_at(window.rows.begin + i, readings.motions()[i]);
+  }
 }
 
 /// Residual of the weak prior of a component of the initial state, which is centred on its

@@ -1,0 +1,93 @@
+#include "awmr/identify/logs/actuator_terms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/core/units.h"
+#include "awmr/identify/logs/term_trials.h"
+
+namespace awmr {
+
+bool has_motor_lag(const LogModel& model) {
+  return model.vehicle.motor_time_constant_s ||
+         has_kind(model.quantities, FreeQuantity::Kind::kMotorLag);
+}
+
+std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss) {
+  using Kind = FreeQuantity::Kind;
+  LogProblem problem = settled.problem;
+  SearchPoint point = settled.point;
+  if (has_motor_lag(problem.model)) return std::nullopt;
+  std::vector<double> lags_s;
+  for (std::size_t i = problem.model.quantities.size(); i-- > 0;) {
+    if (problem.model.quantities[i].kind != Kind::kSensorLag) continue;
+    lags_s.push_back(point.coordinates[i]);
+    const auto at_i = static_cast<std::ptrdiff_t>(i);
+    problem.model.quantities.erase(problem.model.quantities.begin() + at_i);
+    problem.initial.erase(problem.initial.begin() + at_i);
+    problem.bounds.erase(problem.bounds.begin() + at_i);
+    point.coordinates.erase(point.coordinates.begin() + at_i);
+  }
+  if (lags_s.size() < 2) return std::nullopt;
+  Extended from = extended(with_white_noise(std::move(problem)), std::move(point), {motor_lag()},
+                           {std::ranges::min(lags_s)});
+  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
+  if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
+  return fit;
+}
+
+std::optional<NoiseIteration> with_motor_lag_beside_delay(const NoiseIteration& settled,
+                                                          Loss loss) {
+  constexpr double kShare = 0.5;  // of the delay, as the initial guess
+  const std::vector<FreeQuantity>& quantities = settled.problem.model.quantities;
+  const auto delay = std::ranges::find(quantities, FreeQuantity::Kind::kDelay, &FreeQuantity::kind);
+  if (delay == quantities.end() || has_motor_lag(settled.problem.model)) return {};
+  const double delay_s = settled.point.coordinates[at(delay - quantities.begin())];
+  if (!(delay_s > 0.0)) return {};
+  NoiseIteration lagged = tried(settled, {{motor_lag(), kShare * delay_s}}, loss);
+  if (!(akaike_of(lagged) < akaike_of(settled))) return {};
+  return settled_if_better(settled, {std::move(lagged.problem), std::move(lagged.point)}, loss);
+}
+
+namespace {
+
+/// Largest rate that the servo's time constant demands, rad/s: all of the range of the steering
+/// commands over it. At most the vehicle file's largest rate; 0 if the time constant is not free.
+double demanded_rate_radps(const NoiseIteration& settled) {
+  const LogModel& model = settled.problem.model;
+  const auto lag = place_of(model.quantities, ParameterId::kSteeringTimeConstant);
+  if (!lag) return 0.0;
+  Interval commands{0.0, 0.0};
+  for (const FitWindow& window : settled.problem.windows) {
+    const DrivingLog& log = *window.rows.log;
+    if (!log.steering_command_rad) continue;
+    for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
+      commands.lo = std::min(commands.lo, (*log.steering_command_rad)[row]);
+      commands.hi = std::max(commands.hi, (*log.steering_command_rad)[row]);
+    }
+  }
+  const double lag_s = model.quantities[*lag].value(settled.point.coordinates[*lag]);
+  return std::min((commands.hi - commands.lo) / lag_s,
+                  radians(model.vehicle.steering_max_rate_degps));
+}
+
+}  // namespace
+
+std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss) {
+  if (has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kServoRate)) return {};
+  const double demanded_radps = demanded_rate_radps(settled);
+  LowestAic lowest(settled);
+  for (const double share : {0.6, 0.25}) {
+    const double begin_radps = share * demanded_radps;
+    if (begin_radps > 0.0) {
+      lowest.consider(tried(settled, {{servo_rate(begin_radps), begin_radps}}, loss));
+    }
+  }
+  if (!lowest.best()) return {};
+  NoiseIteration& best = *lowest.best();
+  return settled_if_better(settled, {std::move(best.problem), std::move(best.point)}, loss);
+}
+
+}  // namespace awmr

@@ -1,0 +1,85 @@
+#include "awmr/identify/logs/sensors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/core/index.h"
+
+namespace awmr {
+namespace {
+
+bool has_value(const std::optional<DelayColumn>& delay) { return delay.has_value(); }
+bool is_smoothed(const std::optional<OffsetColumn>& smoothing) { return smoothing.has_value(); }
+
+}  // namespace
+
+bool SensorTerms::reads_other_times() const {
+  return reads_later() || std::ranges::any_of(delay, &has_value);
+}
+
+bool SensorTerms::reads_later() const { return std::ranges::any_of(smoothing, &is_smoothed); }
+
+std::vector<ReadingTime> reading_times(const SensorTerms& terms, LogChannel channel, double t_s,
+                                       double row_spacing_s) {
+  const auto& delay = terms.delay[at(channel)];
+  const auto& smoothing = terms.smoothing[at(channel)];
+  const double middle_s = delay ? t_s - delay->delay_s : t_s;
+  if (!smoothing) return {{.t_s = middle_s}};
+  const double shortest_s = 0.5 * row_spacing_s;
+  const double width_s = std::sqrt(2.0 * smoothing->value);
+  if (width_s >= shortest_s) {
+    const double by = 1.0 / width_s;
+    return {{.t_s = middle_s - width_s, .weight = 0.25, .time_by = -by},
+            {.t_s = middle_s, .weight = 0.5},
+            {.t_s = middle_s + width_s, .weight = 0.25, .time_by = by}};
+  }
+  const double per_s2 = 1.0 / (shortest_s * shortest_s);
+  const double share = smoothing->value * per_s2;
+  return {{.t_s = middle_s - shortest_s, .weight = 0.5 * share, .weight_by = 0.5 * per_s2},
+          {.t_s = middle_s, .weight = 1.0 - share, .weight_by = -per_s2},
+          {.t_s = middle_s + shortest_s, .weight = 0.5 * share, .weight_by = 0.5 * per_s2}};
+}
+
+Sensors::Sensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
+                 const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
+                 std::size_t columns)
+    : signals_(signals),
+      terms_(terms),
+      path_(path),
+      wheels_{plant, parameters, columns_of(path)},
+      row_(columns) {}
+
+double Sensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
+  if (!row_.empty()) std::copy_n(motion.row(c, row_.size()), row_.size(), row_.begin());
+  double value = channel_of(motion.state, c);
+  for (const WheelSlip& slip : terms_.slips) {
+    if (slip.channel != c) continue;
+    value += add_wheel_slip(slip, wheels_, command_at(signals_, t_s, path_), motion, row_.size(),
+                            row_.data());
+  }
+  return c == LogChannel::kSway ? sway(motion) : value;
+}
+
+/// Reading of the sway sensor (sway_offset()).
+double Sensors::sway(const LinearMotion& motion) {
+  const State<double>& s = motion.state;
+  const double x = terms_.sway_offset ? terms_.sway_offset->value : 0.0;
+  const double angle = terms_.sway_angle ? terms_.sway_angle->value : 0.0;
+  const double along = std::sin(angle);
+  const double across = std::cos(angle);
+  const std::size_t columns = row_.size();
+  if (columns > 0 && (terms_.sway_offset || terms_.sway_angle)) {
+    const double* const by_u = motion.row(LogChannel::kSpeed, columns);
+    const double* const by_r = motion.row(LogChannel::kYawRate, columns);
+    for (std::size_t c = 0; c < columns; ++c) {
+      row_[c] = across * row_[c] - along * by_u[c] + x * by_r[c];
+    }
+    if (terms_.sway_offset) row_[terms_.sway_offset->column] += s.r_radps;
+    if (terms_.sway_angle) {
+      row_[terms_.sway_angle->column] -= along * s.v_mps + across * s.u_mps;
+    }
+  }
+  return across * s.v_mps - along * s.u_mps + x * s.r_radps;
+}
+
+}  // namespace awmr

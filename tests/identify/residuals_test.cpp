@@ -1,0 +1,91 @@
+/// Derivatives of the residuals of a log fit by its delays, lags and smoothing, against differences
+/// of the cost.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/logs/interpolated_commands.h"
+#include "awmr/identify/logs/log_problem.h"
+#include "identify/synthetic_log.h"
+
+namespace awmr {
+namespace {
+
+using testing::drive;
+using testing::kTruths;
+using testing::robot;
+using testing::Truth;
+
+double cost_of(const LogProblem& problem, const SearchPoint& point) {
+  double cost = 0.0;
+  for (const WindowSums& window : sums_at(problem, point)) cost += window.cost();
+  return cost;
+}
+
+LogFitOptions options_with(const Truth& t, const std::vector<FreeTerm>& terms) {
+  LogFitOptions options;
+  options.vehicle = robot();
+  ParameterValues<double>& guess = options.initial_guess;
+  guess[at(ParameterId::kSurgeAlpha)] = t.a1;
+  guess[at(ParameterId::kSurgeBeta)] = t.b1;
+  guess[at(ParameterId::kYawAlpha)] = t.a3;
+  guess[at(ParameterId::kYawBeta)] = t.b3;
+  guess[at(ParameterId::kSwayAlpha)] = 10.0;
+  guess[at(ParameterId::kMassNorm)] = 1.2 * t.mass_norm;
+  guess[at(ParameterId::kInertiaNorm)] = 0.2 * t.mass_norm;
+  guess[at(ParameterId::kSteeringTimeConstant)] = 0.1;
+  options.free = {ParameterId::kMassNorm, ParameterId::kInertiaNorm};
+  options.terms = terms;
+  return options;
+}
+
+struct TermCase {
+  std::string name;
+  std::vector<FreeTerm> terms;
+};
+
+class TermDerivatives : public ::testing::TestWithParam<TermCase> {};
+
+TEST_P(TermDerivatives, AgreeWithDifferencesOfTheCost) {
+  constexpr double kStep = 1e-6;
+  const Truth& t = kTruths[1];
+  const DrivingLog steps = drive(t, 3, {.duration_s = 10.0});
+  for (const bool is_interpolated : {false, true}) {
+    std::vector<DrivingLog> logs = {steps};
+    if (is_interpolated) logs = interpolated(logs);
+    const LogProblem problem = log_problem(logs, options_with(t, GetParam().terms));
+    const SearchPoint point = from_measured(problem, problem.initial);
+    const std::vector<WindowSums> sums = sums_at(problem, point);
+    for (std::size_t i = 0; i < point.coordinates.size(); ++i) {
+      double gradient = 0.0;
+      for (const WindowSums& window : sums) {
+        gradient += window.products(eigen_index(i), window.products.cols() - 1);
+      }
+      SearchPoint more = point;
+      SearchPoint less = point;
+      more.coordinates[i] += kStep;
+      less.coordinates[i] -= kStep;
+      const double difference = (cost_of(problem, more) - cost_of(problem, less)) / (2.0 * kStep);
+      // Commands that change within a step make the cost rough at the scale of the differences.
+      EXPECT_NEAR(gradient, difference, 0.02 * std::abs(difference))
+          << problem.model.quantities[i].name() << " interpolated " << is_interpolated;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfEachKind, TermDerivatives,
+    ::testing::Values(
+        TermCase{"DelayAndLag", {{input_delay(), 0.031}, {motor_lag(), 0.047}}},
+        TermCase{"SensorDelay", {{sensor_delay_of(LogChannel::kYawRate), 0.013}}},
+        TermCase{"SensorLag", {{sensor_lag_of(LogChannel::kSpeed), 0.08}}},
+        TermCase{"WideSmoothing", {{smoothing_of(LogChannel::kSpeed), 0.0031}}},
+        TermCase{"NarrowSmoothing", {{smoothing_of(LogChannel::kYawRate), 2e-6}}},
+        TermCase{"DelayAndSmoothing",
+                 {{sensor_delay_of(LogChannel::kSpeed), 0.023},
+                  {smoothing_of(LogChannel::kSpeed), 0.0017}}}),
+    [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace awmr
