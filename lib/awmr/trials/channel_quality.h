@@ -10,7 +10,7 @@ namespace awmr {
 
 /// Reason why a sensor repeats its values.
 enum class Repeats {
-  kNone,    ///< most rows bring a new value
+  kNone,    ///< values are rarely repeated
   kSlow,    ///< sensor slower than the log: values are repeated until the next reading
   kCoarse,  ///< coarse resolution: the value changes only when the signal reaches the next step
 };
@@ -31,18 +31,19 @@ struct ChannelQuality {
   double saturated_at = 0.0;        ///< the value in these rows
 };
 
-/// Reason why `value` repeats its readings: sets `repeats`, `fresh` and `quantum` as
-/// channel_quality() does. With fewer than 8 changes of the value, every row is a measurement.
+/// Determines why `value` contains repeated readings: sets only `repeats`, `fresh` and `quantum`,
+/// by the rules of channel_quality(). With fewer than 8 changes of the value, every row counts as a
+/// measurement.
 ChannelQuality find_repeats(std::span<const double> value);
 
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
-/// signal, by row, in any scale. A signal that is constant while `activity` changes is stuck.
+/// signal, by row, in any unit. A signal that is constant while `activity` changes is stuck.
 ///
-/// A slow sensor changes its value in every second row at most, at a multiple of its interval. A
-/// coarse sensor changes it at any time, also in neighbouring rows, mostly by one step of its
-/// resolution. Of a slow sensor, only the rows with a new reading are measurements. Of a coarse
-/// sensor, every row is one: an unchanged value means that the signal did not reach the next step.
-/// Rows with spikes, stuck values (except the first) or saturated values are not measurements.
+/// A slow sensor changes its value at multiples of its sample interval, two rows or more. A coarse
+/// sensor can change it in any row, mostly by one step of its resolution. Rows of a slow sensor are
+/// measurements only if they have a new reading. Every row of a coarse sensor is a measurement,
+/// because an unchanged value means that the signal did not reach the next step. Rows with spikes,
+/// stuck values (except the first one) or saturated values are not measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

@@ -50,8 +50,8 @@ double value_in(std::string_view bytes, const FieldKind& kind);
 std::string text_of(std::string_view bytes);
 
 /// Parses the 86 bytes after the header of an FMT record: type, length, name[4], format[16],
-/// labels[64]. Errors: a number of names that is not the number of fields, an unknown format
-/// character, a wrong length.
+/// labels[64]. Errors: `labels` and `format` have different numbers of fields; an unknown format
+/// character; a length that is not that of the fields.
 tl::expected<Format, std::string> format_of(std::string_view bytes);
 
 }  // namespace awmr::dataflash

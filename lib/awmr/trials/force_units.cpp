@@ -49,8 +49,8 @@ bool may_be_newtons(double largest, const Vehicle& vehicle) {
   return implausible_values(vehicle).empty() && kAcceleration_mps2.contains(pushed_mps2);
 }
 
-/// Returns the scales of which the largest force is 20 to 100 %; exactly one if the force is at
-/// full power; empty if there are none.
+/// Returns the scales for which the largest force is 20 to 100 % of full power. If it is 100 % of
+/// one scale, returns only that scale.
 std::vector<ForceUnit> scales_of(double largest) {
   std::vector<ForceUnit> found;
   for (const FullScale& scale : kFullScales) {
@@ -128,7 +128,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
                          const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
   const ForceSpan of_one{thrust.least / n, thrust.largest / n};
-  // Values up to n are a sum n F' that exceeds n F'max, not another unit.
+  // Values up to n are the sum n F' of n wheels in the right unit, but beyond n F'max.
   const bool is_sum = is_share_of_f_max(of_one);
   ForceUnits units;
   if (wheels && !is_sum) {

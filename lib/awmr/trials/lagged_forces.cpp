@@ -6,9 +6,9 @@
 namespace awmr {
 namespace {
 
-/// Largest delay of the commands, in either direction.
+/// Largest magnitude of the delay of the commands, positive or negative.
 constexpr double kLongestDelay_s = 1.0;
-constexpr double kForgotten = 40.0;  // in time constants; exp(-40) = 4e-18 is below rounding
+constexpr double kForgotten = 40.0;  // time constants; after them, exp(-40) = 4e-18 remains
 
 /// Decay of the difference between force and command over a time h, with the time constant T.
 struct Decay {

@@ -100,8 +100,8 @@ std::vector<RowSpan> runs_of(const TrialReader& reader) {
   return runs;
 }
 
-/// For a log with steering_deg and no steering_cmd_deg: removes the rows before the first angle,
-/// because the angle is the model's input.
+/// In a log with steering_deg but no steering_cmd_deg, the angle is the steering input of the
+/// model. Returns the rows of `run` from the first one with an angle on.
 RowSpan from_known_steering(TrialReader& reader, RowSpan run) {
   if (reader.has("steering_cmd_deg") || !reader.has("steering_deg")) return run;
   const std::vector<std::size_t> known = rows_present(reader, run, "steering_deg");
@@ -232,8 +232,8 @@ double DrivingLog::median_step_s() const {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
   if (!joined) return median(std::move(steps));
-  // The rows of two signals may come in close pairs, whose short steps count little if weighted
-  // with their length.
+  // Rows of two signals may come in close pairs. The short steps within pairs count little, because
+  // each step is weighted with its length.
   std::sort(steps.begin(), steps.end());
   double left_s = 0.5 * (t_s.back() - t_s.front());
   for (const double step_s : steps) {

@@ -45,13 +45,13 @@ struct DrivingLog {
   std::vector<int> line;            ///< line in the file
   std::vector<std::size_t> mapped;  ///< used mappings: indices in TrialOptions::columns
   bool joined = false;              ///< joined from signals of different rates: unequal time steps
-  bool has_interpolated_commands = false;  ///< rows without measurements were inserted
+  bool has_interpolated_commands = false;  ///< rows without measurements were inserted between rows
   bool is_geographic = false;       ///< x_m is east and y_m north, from latitude and longitude
   std::vector<double> t_s;          ///< s, strictly rising
   std::vector<double> force_left;   ///< F'L of each left wheel, over F_max, forward positive
   std::vector<double> force_right;  ///< F'R of each right wheel, over F_max, forward positive
-  /// d_ro, command of the steering servo, rad, left positive. Absent if only the steering angle d_r
-  /// was logged; d_r is then the input of the model.
+  /// d_ro, command of the steering servo, rad, left positive. Absent if the log has only the
+  /// steering angle d_r, which is then the steering input of the model.
   std::optional<std::vector<double>> steering_command_rad;
   std::array<std::optional<Measured>, kChannelCount> measured;
 
@@ -80,7 +80,8 @@ bool has_force_difference(const DrivingLog& log);
 /// than 1 mrad.
 bool has_steering_changes(const DrivingLog& log);
 
-/// A time step of more than this many median steps is a gap. The commands in a gap are unknown.
+/// A time step of more than this many median time steps is a gap. The commands during a gap are
+/// unknown, so the log is not simulated across it.
 inline constexpr double kGapSteps = 10.0;
 
 }  // namespace awmr

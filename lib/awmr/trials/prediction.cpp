@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Sums over the measurements y of a channel.
+/// Sums over the measurements y of a channel; each field is the sum of the quantity named.
 struct Sums {
   double one_step = 0.0;      ///< squared errors of the one-step prediction
   double long_horizon = 0.0;  ///< squared errors of the long-horizon prediction

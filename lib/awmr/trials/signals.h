@@ -35,9 +35,9 @@ using Wanted = std::function<bool(const std::string& name)>;
 inline constexpr std::size_t kMaxSignals = 200'000;
 
 /// Converts signals to a table with one row for every time at which a topic with requested signals
-/// has a message. A row has values of messages at this time only; nothing is interpolated. The
-/// first column is t_s, counted from the first row. NaN means "no value", as in uORB, and is noted.
-/// Errors: time that does not rise within a topic; an infinite value.
+/// has a message. A row has only the values of messages at its time; nothing is interpolated. The
+/// first column is t_s, counted from the first row. NaN counts as an empty cell, as in PX4's uORB,
+/// with a note. Errors: times that do not rise within a topic; an infinite value.
 Result<RawTable> join(Signals signals, const std::string& file);
 
 }  // namespace awmr

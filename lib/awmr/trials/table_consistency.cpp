@@ -79,12 +79,12 @@ double side_limit(const Vehicle& vehicle) {
   return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
 }
 
-/// Range of the wheel forces that have another unit than F', over all tables of a vehicle.
+/// Range of the wheel forces over all tables of a vehicle whose forces are in another unit than F'.
 struct FolderForces {
   std::optional<ForceSpan> wheels = {};
 
-  /// Range that decides the unit of a column with the range `own`: that of all tables, or `own` if
-  /// its forces can be F'.
+  /// Range that decides the unit of a column with the range `own`: the range over all tables, or
+  /// only `own` if its forces can be F'.
   ForceSpan with(const ForceSpan& own) const {
     return is_share_of_f_max(own) || !wheels ? own : *wheels;
   }
@@ -194,8 +194,8 @@ double fastest_run_mps(const TrialSet<SurgeRow>& surge) {
   return std::ranges::max_element(surge.rows, {}, &SurgeRow::speed_mps)->speed_mps;
 }
 
-/// Adds the warning `coast-beyond-surge` if a coast-down begins much faster than every surge run:
-/// its speed is in another unit, or its resistance is extrapolated.
+/// Adds the warning `coast-beyond-surge` if a coast-down begins much faster than every surge run.
+/// Then either its speed is in another unit, or its resistance must be extrapolated.
 void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                          const std::optional<TrialSet<SurgeRow>>& surge) {
   constexpr double kFar = 1.5;
@@ -210,7 +210,7 @@ void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                    fastest_mps, fastest_mps / driven_mps, driven_mps)});
 }
 
-/// First row or point of the coast-down that begins fastest.
+/// First row or point of the coast-down with the highest initial speed.
 struct FastestCoast {
   std::string file = {};
   int line = 0;

@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// Trials by kind. A kind of which no file was given is absent or empty.
+/// Trials by kind. A kind for which no file was given is absent or empty.
 struct TrialData {
   std::optional<TrialSet<SurgeRow>> surge = {};
   std::optional<TrialSet<TurningRow>> turning = {};

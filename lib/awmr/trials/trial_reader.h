@@ -1,5 +1,5 @@
-/// Helpers that the readers of trial files (surge.cpp, turning.cpp, coastdown.cpp, log.cpp) share.
-/// Private to this folder.
+/// Helpers of the readers of trial files (surge.cpp, turning.cpp, coastdown.cpp, log.cpp). Private
+/// to this folder.
 #pragma once
 
 #include <optional>
@@ -20,14 +20,14 @@ class TrialReader {
 
   const CsvTable& table() const { return table_; }
   bool has(std::string_view column) const { return table_.has(column); }
-  /// Returns the values of a column, and leaves the column of the table empty (CsvTable::take()).
+  /// Moves the values of a column out of the table; the column is empty afterwards.
   std::vector<double> take(std::string_view column) { return table_.take(column); }
   /// Returns the value of a cell; empty if the file has no such column or the cell is empty.
   std::optional<double> cell(std::size_t row, std::string_view column) const;
   /// As cell(), and adds a fault if the value is negative.
   std::optional<double> non_negative(std::size_t row, std::string_view column);
 
-  /// Adds a fault at the cell of this row and column, or at the header.
+  /// Adds a fault at the cell of this row and column; header_fault() adds one at the header.
   void fault(ErrorCode code, std::size_t row, std::string_view column, std::string message);
   void header_fault(ErrorCode code, std::string message);
   std::vector<Fault>& faults() { return faults_; }
@@ -65,7 +65,8 @@ struct RateInRow {
 };
 
 /// Returns the rate of a row; empty on a fault. Adds a finding if the printed and the timed value
-/// disagree (agreement.h). Adds a fault if a value is negative, or if a moving row has elapsed_s 0.
+/// disagree (agreement.h). Adds a fault if a value is negative, or if elapsed_s is 0 although the
+/// row has a rate or an amount.
 std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rate& rate,
                                  std::optional<double> printed, Preference preference,
                                  std::vector<Finding>& findings);

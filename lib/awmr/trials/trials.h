@@ -75,12 +75,12 @@ struct TrialSet {
   std::string force_column = {};         ///< surge, turning: "tau_speed" or "wheel_force"
   std::string rate_column =
       {};  ///< source column of the rate of a turning run: "yaw_rate_radps" or "turns"
-  /// Differential turns of a vehicle that also steers; not in `rows`. They are kept apart because
-  /// they include tyre scrub, which g3 of steered turns does not. Empty if the table has no steered
-  /// turn: the differential turns are then in `rows`.
+  /// Differential turns of a vehicle with steering. They are not in `rows`, because their
+  /// resistance includes tyre scrub, which g3 of steered turns does not. Empty if the table has no
+  /// steered turn; the differential turns are then in `rows`.
   std::vector<Row> by_sides = {};
-  /// Differential runs in which the vehicle did not turn. Their yaw moment is a lower bound of the
-  /// moment at which the tyres begin to slide.
+  /// Runs with a force difference in which the vehicle did not turn. The yaw moment of such a run
+  /// is a lower bound of the moment at which the tyres begin to slide.
   std::vector<Row> standing = {};
 };
 

@@ -83,7 +83,7 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
 }
 
 /// Magnitude of tau_turn, m: the value in the file, else the computed one. (The paper's table gives
-/// the unit N m; divided by F_max, as everywhere in awmr, the unit is m.)
+/// the unit N m. In awmr, moments are divided by F_max, so the unit is m.)
 double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
                    std::vector<Finding>& findings) {
   const auto cell = reader.cell(row, "tau_turn");
@@ -315,7 +315,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   if (set.rows.empty()) {
-    // The moment that tyres hold without turning is evaluated only if there are steered turns.
+    // Runs without a turn are used only to determine tyre scrub, which needs steered turns.
     set.standing.clear();
     set_aside.insert(set_aside.end(), standing.begin(), standing.end());
     std::sort(set_aside.begin(), set_aside.end());
