@@ -51,7 +51,8 @@ struct Contender {
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// With fewer samples than this, 95 % intervals cover less than 95 %.
+/// With fewer samples than this, 95 % intervals contain the true value less often than in 95 % of
+/// the cases.
 inline constexpr int kFewSamples = 6;
 
 /// Maximum number of runs of a comparison. The number of runs is scenarios x sets of gains x modes
@@ -65,7 +66,7 @@ struct CompareOptions {
   /// Seed of the draws, the noise and the bootstrap. Repeat with other seeds to see how much a
   /// verdict depends on chance.
   std::uint64_t seed = 1;
-  /// Weights of the ranking. The rows do not depend on them.
+  /// Weights of the metrics in the ranking. They do not affect the simulated rows.
   Preferences preferences = {};
   /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
@@ -84,12 +85,14 @@ struct CompareOptions {
   std::vector<ComparisonRow> finished = {};
   /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// When *stop becomes true, runs in progress finish and no other run starts. Null: never stopped.
+  /// When *stop becomes true, runs in progress finish and no other run starts. Null: the comparison
+  /// cannot be stopped.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Scrub (Plant::yaw_scrub_m) at which a mode is no longer ahead of another, for the nominal model.
-/// The scrub acts in every mode; the controller does not compensate it.
+/// Break-even scrub (Plant::yaw_scrub_m) of two modes on the nominal model: the scrub at which the
+/// first is no longer ahead of the second. Scrub acts in every mode; the controller does not
+/// compensate it.
 struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< differential or combined: it has the better score without scrub
@@ -103,10 +106,10 @@ struct BreakEven {
   double sliding_m = 0.0;
   /// Highest yaw rate in the run of `mode` on the nominal model without scrub, deg/s, >= 0.
   double fastest_degps = 0.0;
-  /// Range of the scrub measured in differential turns, m: the 95 % interval, widened to the range
-  /// over the yaw rates if scrub depends on them, and to the largest moment that did not turn the
-  /// vehicle. If the model has only this moment, the range is from it to most_m. Absent if the
-  /// model has neither.
+  /// Range of the scrub measured in differential turns, m: the 95 % interval. If scrub depends on
+  /// the yaw rate, the range includes its values at all measured rates. It also includes the
+  /// largest moment that did not turn the vehicle; if the model has only this moment, the range is
+  /// from it to most_m. Absent if the model has neither.
   std::optional<Interval> measured_m = {};
   std::optional<Interval> measured_degps =
       {};  ///< yaw rates of these turns, deg/s; absent if the model has no scrub
@@ -120,12 +123,12 @@ struct BreakEven {
 enum class Lead {
   kKept,  ///< the mode is ahead in the whole measured range
   kLost,  ///< the mode is ahead nowhere in the measured range
-  kOpen,  ///< undecided: the mode is ahead in a part of the range, or scrub was not measured at the
-          ///< yaw rates of the run
+  kOpen,  ///< undecided: the mode is ahead in only a part of the range, or scrub was not measured
+          ///< at the yaw rates of the run
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
     {{"kept", Lead::kKept}, {"lost", Lead::kLost}, {"open", Lead::kOpen}}};
-/// Returns the Lead of an entry; absent without measured scrub.
+/// Returns the Lead of an entry; absent if scrub was not measured.
 std::optional<Lead> lead_of(const BreakEven& entry);
 
 /// An assumption that is changed to test whether the ranking depends on it.
@@ -138,16 +141,17 @@ inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind
 struct Completion {
   Contender contender;
   std::size_t count = 0;  ///< completed runs
-  std::size_t of = 0;     ///< all runs of the statistics (ModeRows::counted()), > 0
+  std::size_t of = 0;     ///< all runs that the statistics use (ModeRows::counted()), > 0
 };
 
 /// The best modes of a scenario when one assumption is changed.
 struct Change {
   std::string scenario;
   ChangeKind kind{};
-  std::string setting;           ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
-  std::vector<Contender> first;  ///< modes of rank 1; kWeights: of rank 1 with all changed weights
-  std::string not_run = {};      ///< why there is no ranking in this setting; empty if there is one
+  std::string setting;  ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
+  /// Modes of rank 1; for kWeights, modes of rank 1 with all these weights.
+  std::vector<Contender> first;
+  std::string not_run = {};  ///< why there is no ranking in this setting; empty if there is one
   std::vector<Completion> completed = {};  ///< by contender; empty for kWeights, which runs nothing
 };
 
@@ -171,12 +175,12 @@ struct Comparison {
   std::vector<Change> changes = {};
 };
 
-/// Runs every scenario with every mode and set of gains, on the nominal model and on samples. For a
-/// sample, the fitted parameters are drawn from the model's covariance (simulate/plant_sampler.h),
-/// and noise and disturbances from the seeds of scenario and options. All modes and gains use the
-/// same draws. The controller uses the nominal values. Blocks of kBatchRuns samples
-/// (simulate/batch.h) are run in every scenario and mode before the next block, so a stopped
-/// comparison is valid, with fewer samples.
+/// Simulates every scenario with every mode and set of gains, on the nominal model and on samples.
+/// For a sample, the fitted parameters are drawn from the model's covariance
+/// (simulate/plant_sampler.h), noise and disturbances from the seeds of scenario and options. All
+/// modes and gains use the same draws. The controller has the nominal values. A block of kBatchRuns
+/// samples (simulate/batch.h) is finished in every scenario and mode before the next block starts,
+/// so a stopped comparison is valid for the samples that it finished.
 /// Errors (input): the model lacks a parameter, a covariance (with samples) or an interval that a
 /// scenario's corner needs; as check_scenario() and controller_for(); no scenario or gains, or two
 /// of the same name; a negative number of samples or threads; a part that does not exist; more than

@@ -21,7 +21,7 @@ const ShardKind& comparison_shards();
 PartText comparison_part(const Comparison& part, const CompareOptions& options,
                          const Provenance& provenance, const std::vector<Finding>& findings = {});
 
-/// The comparison that merge_shards() combines, with the data that its output files need.
+/// Result of merge_shards(): the combined comparison, with the data that its output files need.
 struct Merged {
   Comparison comparison;
   CompareOptions options;  ///< only samples, seed and preferences are set

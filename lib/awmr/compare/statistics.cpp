@@ -16,8 +16,8 @@
 namespace awmr {
 namespace {
 
-/// Random stream of the bootstrap. It differs from the streams of the drawn samples, which have the
-/// sample's number.
+/// Random stream of the bootstrap. It differs from the streams of the drawn samples, which are
+/// their numbers.
 constexpr std::uint64_t kBootstrapStream = std::uint64_t{1} << 63U;
 
 double mean_of(std::span<const double> values) {
@@ -143,7 +143,7 @@ Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& pref
   return losses;
 }
 
-/// Means over the samples of each resample, a column each.
+/// Means over the samples, with one column per bootstrap resample.
 struct ResampledMeans {
   Eigen::ArrayXXd differences;  ///< rows as in Differences; NaN if a resample has no value
   Eigen::ArrayXXd losses;       ///< rows as in all_losses()
@@ -187,7 +187,7 @@ std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means, std::siz
 
 Contender contender_of(const ComparisonRow& row) { return {row.mode, row.gains}; }
 
-/// Computes p_holm from the p of all differences.
+/// Computes p_holm of each difference from the p of all differences (Holm's correction).
 void correct(std::vector<PairedDifference>& differences) {
   std::vector<double> p;
   for (const PairedDifference& d : differences) {

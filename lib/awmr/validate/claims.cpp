@@ -11,7 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Steady yaw rate, rad/s, at the largest moment of a mode while tau_speed holds the speed:
+/// Largest steady yaw rate of a mode, rad/s. The yaw moment is the largest that the mode can make
+/// while tau_speed holds the speed:
 ///   r = (moment/a3)^(1/b3)
 double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits<double>& limits,
                               YawMode mode, double speed_mps) {

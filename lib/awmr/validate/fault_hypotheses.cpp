@@ -39,7 +39,7 @@ constexpr std::size_t kMaxNamed = 4;
 void add_parameters(const Model& model, std::vector<Change>& changes) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const ParameterId id = parameter.id;
-    // Only the coefficient of a resistance is varied, because its exponent changes the same curve.
+    // Exponents are not varied: a changed exponent and a changed coefficient have similar effects.
     const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
     if (exponent || !model[id].value || *model[id].value <= 0.0) continue;
     changes.push_back({std::string(parameter.name), "times", kFactor, 1.0,

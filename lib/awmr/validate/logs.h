@@ -31,17 +31,18 @@ struct LogValidation {
                         ///< and there is a channel
 };
 
-/// Predicts the channels of the log from its commands. A channel that does not vary (vehicle at
-/// rest) has no NRMSE and is left out. `tolerance`: largest accepted NRMSE. `motor_lag_s`: time
-/// constant of the motors, s, >= 0.
+/// Predicts the channels of the log from its commands. A channel that does not vary (a vehicle at
+/// rest) has no NRMSE (RMS error divided by the standard deviation of the measurements) and is left
+/// out. `tolerance`: largest accepted NRMSE. `motor_lag_s`: time constant of the motors, s, >= 0.
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s = 0.0);
 
-/// The same for a model, which may lack parameters. If it covers straight motion only
-/// (Model::simulated_motion()), it predicts the speed of a log that drives straight. Errors
-/// (input): g1 or m' is missing; the model is too stiff for a replay, or the replay diverges; no
-/// channel can be predicted within the horizon; the model covers straight motion only, and the log
-/// turns (the message names the row and the missing parameters) or has no speed_mps.
+/// As validate_log() above, for a model that may lack parameters. If it has only the parameters of
+/// straight motion (Model::simulated_motion()), it predicts the speed of a log that drives
+/// straight. Errors (input): g1 or m' is missing; a time constant of the model is too short for a
+/// simulation, or the simulation diverges; no channel can be predicted within the horizon; the
+/// model has only the parameters of straight motion, and the log turns (the message names the row
+/// and the missing parameters) or has no speed_mps.
 Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
                                    double tolerance);
 

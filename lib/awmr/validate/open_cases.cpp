@@ -60,8 +60,8 @@ ClaimCase with_result(ClaimCase open, bool reproduced) {
   return open;
 }
 
-/// Settings of a case as numbers. Cases whose keys are equal after one setting was made equal
-/// (Setting::forget) differ in that setting only.
+/// Settings of a case as numbers. If two cases have the same key after Setting::forget() of one
+/// setting, they differ only in this setting.
 using Key = std::tuple<int, double, double, double, int>;
 /// A setting that the paper leaves open.
 struct Setting {

@@ -21,9 +21,9 @@ State<double> pose(double x_m, double y_m, double psi_deg) {
 
 LineOfSight<double> lane(double width_m) { return {radians(kDelta_deg), width_m, true}; }
 
-/// Obstacle avoidance, chosen here because the paper's figure is lost. The minimum manoeuvring
-/// distance is the turning radius of the steering mode, 5 m at any speed, plus 1 m and the distance
-/// of 1 s at the present speed.
+/// Parameters of obstacle avoidance, chosen here because the paper's figure with them is missing.
+/// The minimum manoeuvring distance is the turning radius of the steering mode (5 m at any speed),
+/// plus 1 m, plus the distance driven in 1 s.
 Avoidance<double> avoidance() {
   return {.mmd_base_m = 6.0,
           .mmd_per_speed_s = 1.0,

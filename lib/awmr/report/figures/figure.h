@@ -9,8 +9,8 @@
 
 namespace awmr {
 
-/// Role of a series, which determines its style in plot.py. Series with a later role are drawn over
-/// those with an earlier one.
+/// Role of a series, which determines its style in plot.py. Series are drawn in the order of the
+/// roles, so later roles are on top.
 enum class Role {
   kMeasured,
   kDoubtful,  ///< measured rows with a warning

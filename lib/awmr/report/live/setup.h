@@ -1,5 +1,5 @@
-/// Input of the page's interactive part (live.cpp, WebAssembly) as a list of numbers. The program
-/// writes the list from model.json and gains.json, and the interactive part reads it with the same
+/// Input of the page's interactive part (live.cpp, WebAssembly) as a list of numbers. `awmr report`
+/// writes the list from model.json and gains.json. The interactive part reads it with the same
 /// code. Private to report/.
 #pragma once
 
