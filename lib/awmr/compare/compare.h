@@ -111,8 +111,8 @@ struct BreakEven {
   /// largest moment that did not turn the vehicle; if the model has only this moment, the range is
   /// from it to most_m. Absent if the model has neither.
   std::optional<Interval> measured_m = {};
-  std::optional<Interval> measured_degps =
-      {};  ///< yaw rates of these turns, deg/s; absent if the model has no scrub
+  /// Yaw rates of these turns, deg/s; absent if the model has no scrub.
+  std::optional<Interval> measured_degps = {};
   /// Total number of differential turns (recorded and further ones) that would decide whether
   /// `mode` is ahead, if their mean and scatter stay the same. At most 1000. Absent if the question
   /// is already decided, or if turns cannot decide it.
@@ -123,8 +123,9 @@ struct BreakEven {
 enum class Lead {
   kKept,  ///< the mode is ahead in the whole measured range
   kLost,  ///< the mode is ahead nowhere in the measured range
-  kOpen,  ///< undecided: the mode is ahead in only a part of the range, or scrub was not measured
-          ///< at the yaw rates of the run
+  /// Undecided: the mode is ahead in only a part of the range, or scrub was not measured at the yaw
+  /// rates of the run.
+  kOpen,
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
     {{"kept", Lead::kKept}, {"lost", Lead::kLost}, {"open", Lead::kOpen}}};

@@ -129,9 +129,8 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
                                                std::vector<Change>& changes) {
   std::vector<ChangedScenario> changed;
   for (const Scenario& scenario : scenarios) {
-    if (std::holds_alternative<OpenLoop>(scenario.guidance))
-      continue;  // an open-loop scenario has
-                 // no ranking
+    // An open-loop scenario has no ranking.
+    if (std::holds_alternative<OpenLoop>(scenario.guidance)) continue;
     Change change{.scenario = scenario.name,
                   .kind = ChangeKind::kPlant,
                   .setting = std::string(name_in(kPlantKindNames, other_plant(scenario))),

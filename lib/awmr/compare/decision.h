@@ -37,8 +37,8 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
 /// change.
 struct Decision {
   std::vector<Contender> first;  ///< modes of rank 1 in the ranking
-  std::vector<Change> changes;   ///< changes with a ranking: at least the change of weights, which
-                                 ///< needs no runs
+  /// Changes for which a ranking exists: always the change of weights, which needs no runs.
+  std::vector<Change> changes;
 
   /// Contenders of rank 1 in the ranking and under every change.
   std::vector<Contender> never_behind() const;

@@ -38,8 +38,9 @@ enum class MetricId {
 struct MetricColumn {
   MetricId id;
   std::string_view name;  ///< in comparison.csv and comparison.json
-  std::string_view head;  ///< column heading in the terminal's table, at most 7 characters; empty:
-                          ///< the metric is not in that table
+  /// Column heading in the terminal's table, at most 7 characters. Empty: the metric is not in that
+  /// table.
+  std::string_view head;
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
   /// Floor: differences up to this do not matter, in the metric's unit, >= 0 (scoring.h). A metric

@@ -23,11 +23,11 @@ constexpr int kWeightings = 1000;
 struct Entry {
   std::size_t mode = 0;  ///< index in ScenarioRows::modes
   const ModeRows* rows = nullptr;
-  std::vector<double> log_scores;   ///< log_score() of each run in the statistics
-                                    ///< (ModeRows::counted)
+  /// log_score() of each run in the statistics (ModeRows::counted).
+  std::vector<double> log_scores;
   std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
-  bool completes = true;  ///< false: completes significantly less often than the mode that
-                          ///< completes most often
+  /// False: completes significantly less often than the mode that completes most often.
+  bool completes = true;
 
   double log_score() const { return mean(log_scores); }
 

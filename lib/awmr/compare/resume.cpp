@@ -59,9 +59,9 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
 /// Keys of comparison.json that show which comparison its rows belong to.
 struct Origin {
   Provenance provenance;
-  std::string version;                    ///< version of the program that wrote the file
-  std::string arithmetic;                 ///< arithmetic with which the rows were computed;
-                                          ///< "scalar" if the key is missing
+  std::string version;  ///< version of the program that wrote the file
+  /// Arithmetic with which the rows were computed; "scalar" if the key is missing.
+  std::string arithmetic;
   std::optional<std::string> csv_sha256;  ///< hash of comparison.csv; absent in older files
 };
 

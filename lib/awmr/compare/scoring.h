@@ -15,10 +15,11 @@ double weight_of(const MetricColumn& metric, const Preferences& preferences);
 /// A metric in the score of one scenario.
 struct ScoredMetric {
   const MetricColumn* metric = nullptr;
-  double weight = 0.0;   ///< w, >= 0
-  double offset = 0.0;   ///< f of log_loss(), in the metric's unit, > 0
-  double missing = 0.0;  ///< value used for a run without this metric: the largest of all runs in
-                         ///< the statistics (ModeRows::counted)
+  double weight = 0.0;  ///< w, >= 0
+  double offset = 0.0;  ///< f of log_loss(), in the metric's unit, > 0
+  /// Value used for a run without this metric: the largest of all runs in the statistics
+  /// (ModeRows::counted).
+  double missing = 0.0;
 };
 
 /// Returns the metrics that can be used to rank modes and that any run of the scenario has. Their

@@ -79,12 +79,12 @@ struct PairedDifference {
   Contender first;
   Contender second;
   MetricId metric{};
-  std::optional<double> nominal;  ///< difference in sample 0 (the nominal model), in the metric's
-                                  ///< unit
-  std::size_t count = 0;          ///< number of samples with the metric in both contenders
-  std::optional<double> mean;     ///< mean difference over these samples, in the metric's unit
-  std::optional<Interval> ci95;   ///< 95 % interval of the mean; absent for fewer than 2 samples
-  std::optional<double> p;        ///< of the paired t test, in [0, 1]; absent for fewer than 2
+  /// Difference in sample 0 (the nominal model), in the metric's unit.
+  std::optional<double> nominal;
+  std::size_t count = 0;         ///< number of samples with the metric in both contenders
+  std::optional<double> mean;    ///< mean difference over these samples, in the metric's unit
+  std::optional<Interval> ci95;  ///< 95 % interval of the mean; absent for fewer than 2 samples
+  std::optional<double> p;       ///< of the paired t test, in [0, 1]; absent for fewer than 2
   /// p with Holm's correction for the number of differences in the scenario. The difference is
   /// significant if it is below 0.05; the probability of any false positive in the scenario is then
   /// at most 5 %.

@@ -28,8 +28,8 @@ struct LeftOver {
 
 /// Steady runs of one kind of trial, and the resistance law of the model.
 struct DrawnFit {
-  std::vector<std::size_t> trials =
-      {};                              ///< indices of these runs in the model's trials, never empty
+  /// Indices of these runs in the model's list of trials; never empty.
+  std::vector<std::size_t> trials = {};
   Resistance<double> law{};            ///< `coulomb` includes the motors' dead zone (surge only)
   std::vector<CurvePoint> curve = {};  ///< empty if the model does not have the law
   bool has_band = false;               ///< true: the curve has a confidence band

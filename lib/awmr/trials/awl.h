@@ -18,11 +18,11 @@ struct AwlLog {
   std::vector<std::string> header = {};           ///< column names: `t_s` first, `run` last
   std::vector<std::vector<double>> columns = {};  ///< by column, then by row; all finite
   std::string parameters_sha256 = {};  ///< hash of the model and gains, as in awmr_params.h
-  std::size_t runs = 0;                ///< number of runs (starts of the chip), without those of
-                                       ///< fewer than ten usable rows
-  std::size_t lost = 0;                ///< rows numbered by the chip but missing from the file
-  std::size_t damaged_bytes = 0;       ///< bytes that are neither header nor row; a truncated last
-                                       ///< row does not count
+  /// Number of runs (starts of the chip), without those of fewer than ten usable rows.
+  std::size_t runs = 0;
+  std::size_t lost = 0;  ///< rows numbered by the chip but missing from the file
+  /// Number of bytes that are neither header nor row, without a truncated last row.
+  std::size_t damaged_bytes = 0;
   std::vector<Finding> findings = {};
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }

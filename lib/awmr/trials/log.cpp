@@ -286,8 +286,8 @@ DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
     log.steering_command_rad =
         values_of(reader, rows, "steering_cmd_deg", info(LogChannel::kSteering).to_si);
   } else if (!reader.has("steering_deg")) {
-    log.steering_command_rad.emplace(log.t_s.size(), 0.0);  // a vehicle without steering has the
-                                                            // command 0
+    // A vehicle without steering has the command 0.
+    log.steering_command_rad.emplace(log.t_s.size(), 0.0);
   }
   return log;
 }

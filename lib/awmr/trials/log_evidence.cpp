@@ -74,9 +74,8 @@ EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle,
     const auto [least, most] = std::ranges::minmax(
         std::span(speed->value).subspan(window.begin, window.end - window.begin));
     sums.has_stuck_speed = !(least < most) && !is_rest(least, kRestSpeed_mps);
-    if (sums.driven_m < 0.0)
-      sums.course_rad += pi<double>();  // backward: reversed, to be compared
-                                        // with the heading
+    // Driving backward: reversed, so that it can be compared with the heading.
+    if (sums.driven_m < 0.0) sums.course_rad += pi<double>();
   }
   add_commands(log, vehicle, window, sums);
   return sums;

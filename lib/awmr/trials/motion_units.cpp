@@ -135,8 +135,8 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
 /// Ratio of the yaw rate to that of wheels that roll without sliding, u tan(d)/(2 l_f) (d: steering
 /// angle, 2 l_f: about the wheelbase). Uses windows with about equal forces left and right.
 std::optional<double> rate_over_rolling(const Evidence& evidence) {
-  constexpr double kLittle = 0.1;  // largest moment of the force difference, as a fraction of the
-                                   // steering moment
+  // Largest moment of the force difference, as a fraction of the moment of the steering.
+  constexpr double kLittle = 0.1;
   if (!evidence.has(LogChannel::kSpeed) || !evidence.vehicle.has_steering()) return std::nullopt;
   std::vector<double> rolling;
   std::vector<double> rate;

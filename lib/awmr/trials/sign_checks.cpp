@@ -31,8 +31,8 @@ struct SignRelation {
 
 /// Relation of the course over ground (the direction in which the positions move) to the heading.
 struct CourseRelation {
-  int sign =
-      0;  ///< +1: positions move along the heading; -1: along its mirror image; 0: undetermined
+  /// +1: positions move along the heading; -1: along its mirror image; 0: undetermined.
+  int sign = 0;
   double offset_rad = 0.0;  ///< mean angle from the heading or its mirror image to the course
 };
 
@@ -315,8 +315,8 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
 /// In a span it is the largest rise of the mean over 0.25 s above the smallest earlier mean. The
 /// first half second of a span is skipped, because motors and sensors may lag.
 double gathered_backwards_mps(const DrivingLog& log) {
-  constexpr double kPushes = 0.1;  // smallest rearward thrust that counts, as a fraction of the
-                                   // largest thrust
+  // Smallest rearward thrust that counts, as a fraction of the largest thrust.
+  constexpr double kPushes = 0.1;
   constexpr double kLag_s = 0.5;
   constexpr double kMean_s = 0.25;
   const std::vector<double>& speed = log[LogChannel::kSpeed]->value;
@@ -346,8 +346,8 @@ double gathered_backwards_mps(const DrivingLog& log) {
 /// Detects a column with speeds without sign: never negative, and rising during rearward thrust.
 /// (Rearward thrust would slow down a vehicle that drives forward.)
 std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
-  constexpr double kNegative = 0.05;  // smallest negative speed that counts, as a fraction of the
-                                      // largest speed
+  // Smallest negative speed that counts, as a fraction of the largest speed.
+  constexpr double kNegative = 0.05;
   constexpr double kMuch = 0.15;
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto [slowest, fastest] = std::ranges::minmax(evidence.log[LogChannel::kSpeed]->value);

@@ -174,8 +174,8 @@ void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tab
 /// degrees. Returns false if reported.
 bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
                     const Vehicle& vehicle) {
-  constexpr double kSmall = 0.02;  // largest angle, as a fraction of the stop, that may be radians;
-                                   // 1 deg is 0.0175 rad
+  // Largest angle, as a fraction of the stop, that may be in radians (1 deg is 0.0175 rad).
+  constexpr double kSmall = 0.02;
   if (rows.empty()) return true;
   const double steepest_deg =
       degrees(std::ranges::max_element(rows, {}, &TurningRow::steering_rad)->steering_rad);

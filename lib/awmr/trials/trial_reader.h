@@ -59,8 +59,8 @@ struct RateInRow {
   /// m/s or rad/s, >= 0: the preferred value if the row has both, else the one that it has; 0 if
   /// the row has neither.
   double used = 0.0;
-  std::optional<double> amount;     ///< distance, m, or number of turns; absent unless elapsed_s >
-                                    ///< 0
+  /// Distance, m, or number of turns; absent unless elapsed_s > 0.
+  std::optional<double> amount;
   std::optional<double> elapsed_s;  ///< s; absent unless > 0
 };
 

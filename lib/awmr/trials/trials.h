@@ -73,8 +73,8 @@ struct TrialSet {
   int set_aside = 0;                     ///< number of rows that are not used
   std::vector<std::size_t> mapped = {};  ///< used mappings: indices in TrialOptions::columns
   std::string force_column = {};         ///< surge, turning: "tau_speed" or "wheel_force"
-  std::string rate_column =
-      {};  ///< source column of the rate of a turning run: "yaw_rate_radps" or "turns"
+  /// Source column of the rate of a turning run: "yaw_rate_radps" or "turns".
+  std::string rate_column = {};
   /// Differential turns of a vehicle with steering. They are not in `rows`, because their
   /// resistance includes tyre scrub, which g3 of steered turns does not. Empty if the table has no
   /// steered turn; the differential turns are then in `rows`.

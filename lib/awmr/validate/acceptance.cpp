@@ -56,9 +56,9 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
 
 /// The logged drive, with the conditions and the initial state for its prediction.
 struct LoggedDrive {
-  double from_s = 0.0;      ///< t_s of the log's row at which the scenario begins
-  double duration_s = 0.0;  ///< time from there to the end of the log or of the scenario, whichever
-                            ///< comes first
+  double from_s = 0.0;  ///< t_s of the log's row at which the scenario begins
+  /// Time from from_s to the end of the log or of the scenario, whichever comes first.
+  double duration_s = 0.0;
   LoopConditions conditions;
   std::vector<DriveChannel> channels;
   DriveStart start;

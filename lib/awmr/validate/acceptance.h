@@ -33,14 +33,14 @@ struct AcceptanceOptions {
 struct ChannelAcceptance {
   std::string channel;  ///< "heading_rad", "force_left"
   std::string unit;
-  int samples = 0;              ///< number of rows compared
-  double noise = 0.0;           ///< standard deviation of the noise of a reading, in `unit`
-  bool noise_from_log = false;  ///< true: `noise` was estimated from the log, because neither
-                                ///< scenario nor vehicle gives it
-  double distance = 0.0;        ///< largest distance of a window, >= 0
-  double allowed = 0.0;         ///< limit of the distance: 95 % of the predicted drives are within
-                                ///< the limits of all channels
-  bool inside = false;          ///< distance <= allowed
+  int samples = 0;     ///< number of rows compared
+  double noise = 0.0;  ///< standard deviation of the noise of a reading, in `unit`
+  /// True: `noise` was estimated from the log, because neither scenario nor vehicle gives it.
+  bool noise_from_log = false;
+  double distance = 0.0;  ///< largest distance of a window, >= 0
+  /// Limit of the distance: 95 % of the predicted drives are within the limits of all channels.
+  double allowed = 0.0;
+  bool inside = false;  ///< distance <= allowed
   /// Scenario time, s, of the first window with a larger distance than allowed; absent if inside.
   std::optional<double> outside_since_s = {};
   double difference = 0.0;  ///< measured minus predicted in the window of `distance`, in `unit`

@@ -23,8 +23,8 @@
 
 namespace awmr {
 
-inline constexpr double kFullThrust =
-    2.0;  ///< the paper's largest tau_speed             [paper 3.5]
+/// The paper's largest tau_speed.                                              [paper 3.5]
+inline constexpr double kFullThrust = 2.0;
 
 /// Run of a claim's scenario in one mode.
 struct ModeRun {

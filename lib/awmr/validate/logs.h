@@ -16,10 +16,10 @@ struct ChannelValidation {
   std::string channel;  ///< "yaw_rate_radps"
   std::string unit;
   int samples = 0;
-  PredictionError one_step;      ///< errors of the prediction from each measured row to the next
-  PredictionError long_horizon;  ///< errors of the prediction over windows of
-                                 ///< LogValidation::horizon_s, each from a measured state
-  PredictedSeries series = {};   ///< long-horizon prediction, reduced to the points for a chart
+  PredictionError one_step;  ///< errors of the prediction from each measured row to the next
+  /// Errors of the prediction over windows of LogValidation::horizon_s, each from a measured state.
+  PredictionError long_horizon;
+  PredictedSeries series = {};  ///< long-horizon prediction, reduced to the points for a chart
 };
 
 /// Result of validate_log().
@@ -27,8 +27,8 @@ struct LogValidation {
   std::string file;
   double horizon_s = 0.0;  ///< maximum length of a window, s, at most the log's length
   std::vector<ChannelValidation> channels;
-  bool passed = false;  ///< true: the long-horizon NRMSE of every channel is within the tolerance,
-                        ///< and there is a channel
+  /// True: there is a channel, and the long-horizon NRMSE of every channel is within the tolerance.
+  bool passed = false;
 };
 
 /// Predicts the channels of the log from its commands. A channel that does not vary (a vehicle at

@@ -63,8 +63,8 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
 struct HeldOutSums {
   ErrorSums model;
   ErrorSums four_wheel;
-  std::vector<std::pair<ErrorSums, ErrorSums>> by_window;  ///< for each window: sums of the 3-DOF
-                                                           ///< model, sums of the four wheels
+  /// For each window: sums of the 3-DOF model, then sums of the four wheels.
+  std::vector<std::pair<ErrorSums, ErrorSums>> by_window;
 };
 
 /// Cross-validation: fits the tyres to every other window and predicts the remaining windows, then
@@ -162,8 +162,8 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
 /// True if a log has longer time steps than the controller, so that the commands between its rows
 /// are unknown.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
-  constexpr double kLonger = 1.2;  // ratio of time step to sample time above which rows are
-                                   // missing; jitter alone stays below it
+  // Ratio of time step to sample time above which rows are missing; jitter alone stays below it.
+  constexpr double kLonger = 1.2;
   return std::ranges::any_of(
       logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
 }

@@ -51,11 +51,11 @@ struct Claim {
   std::string id;         ///< "C1"
   std::string statement;  ///< statement of the paper
   bool reproduced = false;
-  std::string figure;                   ///< simulated numbers
-  std::string tolerance;                ///< criterion for "reproduced"
-  std::string why;                      ///< reason for the verdict, as text
-  std::vector<ClaimInMode> modes = {};  ///< verdict for each mode; empty if the claim has no
-                                        ///< verdict for a single mode
+  std::string figure;     ///< simulated numbers
+  std::string tolerance;  ///< criterion for "reproduced"
+  std::string why;        ///< reason for the verdict, as text
+  /// Verdict for each mode; empty if the claim has no verdict for a single mode.
+  std::vector<ClaimInMode> modes = {};
   /// Verdict by combination of open settings, if requested (ValidateOptions::open_cases).
   std::vector<ClaimCase> cases = {};
   std::string decided_by = {};  ///< settings that decide the verdict (decisive_settings())

@@ -13,8 +13,8 @@ namespace awmr {
 /// Input of the interactive part: the inputs of the tuning constraints (with plant and force limits
 /// of the vehicle) and a heading scenario.
 struct LiveSetup {
-  ConstraintContext context;     ///< inputs of the constraints; `plant` is the identified plant of
-                                 ///< the model
+  /// Inputs of the tuning constraints; `plant` is the identified plant of the model.
+  ConstraintContext context;
   double allocation_form = 0.0;  ///< the AllocationForm of the vehicle, as a number
   /// Largest yaw moment, m, and surge force, both over F_max, that the tuned observer compensates;
   /// 0 without an observer.
