@@ -143,7 +143,7 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
 struct Question {
   ModeSetting setting;
   std::vector<ScoredMetric> scoring;
-  Metrics own;  ///< metrics of `setting.mode` without scrub
+  Metrics own;  ///< metrics of the run of `setting.mode` without scrub
   BreakEven entry;
 };
 

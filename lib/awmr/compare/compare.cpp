@@ -322,7 +322,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   if (options.other_settings && options.shard.index == 1 && !comparison.stopped) {
     comparison.changes = changes_of_runs(model, gains, scenarios, options);
     comparison.stopped = options.stop != nullptr && options.stop->load();
-    if (comparison.stopped) comparison.changes.clear();  // incomplete
+    if (comparison.stopped) comparison.changes.clear();  // they would be incomplete
   }
   return comparison;
 }

@@ -27,7 +27,7 @@ namespace awmr {
 
 /// One set of gains, with its name in the rows of the comparison.
 struct NamedGains {
-  std::string name;  ///< empty if there is a single set
+  std::string name;  ///< name of the set; empty if there is only one set
   Gains<double> gains;
 };
 
@@ -43,7 +43,7 @@ struct ComparisonRow {
 /// A yaw mode with a set of gains, as ranked in a scenario.
 struct Contender {
   YawMode mode{};
-  std::string gains;  ///< NamedGains::name; empty with a single set
+  std::string gains;  ///< NamedGains::name; empty if there is only one set
 
   /// Name for tables and messages: "combined", or "combined with tuned.json" if there are several
   /// sets of gains.
@@ -95,8 +95,8 @@ struct CompareOptions {
 /// compensate it.
 struct BreakEven {
   std::string scenario;
-  YawMode mode{};     ///< differential or combined: it has the better score without scrub
-  YawMode against{};  ///< a mode with smaller wheel-force differences
+  YawMode mode{};     ///< the mode with the better score without scrub
+  YawMode against{};  ///< the other mode, which has smaller wheel-force differences
   /// Smallest scrub at which `mode` is no longer ahead, m, > 0; its error is at most 1 %, or 3e-8
   /// of most_m. Absent if the mode stays ahead up to most_m.
   std::optional<double> yaw_coulomb_m;
@@ -141,18 +141,18 @@ inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind
 /// Number of completed runs of one contender in a changed setting.
 struct Completion {
   Contender contender;
-  std::size_t count = 0;  ///< completed runs
-  std::size_t of = 0;     ///< all runs that the statistics use (ModeRows::counted()), > 0
+  std::size_t count = 0;  ///< number of completed runs
+  std::size_t of = 0;     ///< number of runs in the statistics (ModeRows::counted()), > 0
 };
 
 /// The best modes of a scenario when one assumption is changed.
 struct Change {
   std::string scenario;
   ChangeKind kind{};
-  std::string setting;  ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
+  std::string setting;  ///< changed plant ("model"), gains ("slower") or weights
   /// Modes of rank 1; for kWeights, modes of rank 1 with all these weights.
   std::vector<Contender> first;
-  std::string not_run = {};  ///< why there is no ranking in this setting; empty if there is one
+  std::string not_run = {};  ///< reason why there is no ranking; empty if there is one
   std::vector<Completion> completed = {};  ///< by contender; empty for kWeights, which runs nothing
 };
 
@@ -163,7 +163,7 @@ struct Comparison {
   /// finished run in every scenario, mode and set of gains. Fewer than requested if the comparison
   /// was stopped, or is a part.
   int whole_samples = 0;
-  bool stopped = false;  ///< true: not all runs were done
+  bool stopped = false;  ///< true: stopped before all runs were done
   /// Rounding of the runs (BatchArithmetic::rounding): "fused" or "scalar". Rows with different
   /// rounding cannot be combined.
   std::string arithmetic = {};

@@ -37,7 +37,7 @@ enum class MetricId {
 
 struct MetricColumn {
   MetricId id;
-  std::string_view name;  ///< in comparison.csv and comparison.json
+  std::string_view name;  ///< name in comparison.csv and comparison.json
   /// Column heading in the terminal's table, at most 7 characters. Empty: the metric is not in that
   /// table.
   std::string_view head;

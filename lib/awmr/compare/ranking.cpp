@@ -119,7 +119,7 @@ std::vector<double> resampled_differences(const Entry& own, const Entry& leader,
 
 /// Interval of the ratio of a mode's score to the leader's, and the conclusion from it.
 struct Behind {
-  std::optional<Interval> ratio_ci95;  ///< absent below 2 samples
+  std::optional<Interval> ratio_ci95;  ///< 95 % interval of the ratio; absent below 2 samples
   Conclusion conclusion{};
 };
 
@@ -147,7 +147,7 @@ template <class Value>
 void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
   constexpr double kRounding = 1e-12;
-  double least = value(entries.front());  // the first entry always has `completes`
+  double least = value(entries.front());  // the first entry has completes == true
   for (const Entry& entry : entries) {
     if (entry.completes) least = std::min(least, value(entry));
   }
@@ -279,7 +279,7 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario, const ScenarioStatist
       shares_by_weights(entries, margin, Random(seed, kWeightStream));
   const std::vector<double> by_samples = shares_by_samples(entries, margin);
   std::vector<RankedMode> ranking;
-  std::size_t leader = 0;  // the best of the current rank
+  std::size_t leader = 0;  // index of the best entry of the current rank
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& own = entries[i];
     RankedMode ranked;

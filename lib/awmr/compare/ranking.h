@@ -13,7 +13,7 @@ namespace awmr {
 
 /// A mode (with its gains) in the ranking of a scenario.
 struct RankedMode {
-  int rank = 0;  ///< >= 1, 1 is best; tied modes share a rank
+  int rank = 0;  ///< 1 is best; tied modes have the same rank
   Contender contender;
   /// Score divided by that of the first mode in the list; lower is better. The score is the
   /// weighted geometric mean of the metrics, each with an offset added (scoring.h). The ratio is

@@ -15,8 +15,8 @@ double weight_of(const MetricColumn& metric, const Preferences& preferences);
 /// A metric in the score of one scenario.
 struct ScoredMetric {
   const MetricColumn* metric = nullptr;
-  double weight = 0.0;  ///< w, >= 0
-  double offset = 0.0;  ///< f of log_loss(), in the metric's unit, > 0
+  double weight = 0.0;  ///< weight w, >= 0
+  double offset = 0.0;  ///< offset f of log_loss(), in the metric's unit, > 0
   /// Value used for a run without this metric: the largest of all runs in the statistics
   /// (ModeRows::counted).
   double missing = 0.0;

@@ -24,7 +24,7 @@ PartText comparison_part(const Comparison& part, const CompareOptions& options,
 /// Result of merge_shards(): the combined comparison, with the data that its output files need.
 struct Merged {
   Comparison comparison;
-  CompareOptions options;  ///< only samples, seed and preferences are set
+  CompareOptions options;  ///< options of the parts; only samples, seed, preferences are set
   Provenance provenance;
   /// extrapolation_findings() of all runs, then the findings of the first part.
   std::vector<Finding> findings;

@@ -35,8 +35,8 @@ std::optional<double> difference(const MetricColumn& metric, const Metrics& a, c
 /// sample, so that a bootstrap resample is a sum of columns.
 struct Differences {
   std::vector<PairedDifference> results;
-  Eigen::ArrayXXd values;  ///< 0 if a contender of the pair has no value
-  Eigen::ArrayXXd counts;  ///< 0 if a contender of the pair has no value, else 1
+  Eigen::ArrayXXd values;  ///< difference; 0 if a contender of the pair has no value
+  Eigen::ArrayXXd counts;  ///< 1 if both contenders of the pair have a value, else 0
 };
 
 double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& metric,
@@ -145,8 +145,8 @@ Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& pref
 
 /// Means over the samples, with one column per bootstrap resample.
 struct ResampledMeans {
-  Eigen::ArrayXXd differences;  ///< rows as in Differences; NaN if a resample has no value
-  Eigen::ArrayXXd losses;       ///< rows as in all_losses()
+  Eigen::ArrayXXd differences;  ///< same rows as Differences; NaN if a resample has no value
+  Eigen::ArrayXXd losses;       ///< same rows as all_losses()
 };
 
 ResampledMeans resampled_means(const Differences& all, const Eigen::ArrayXXd& losses,

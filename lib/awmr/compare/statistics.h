@@ -21,7 +21,7 @@ namespace awmr {
 /// Rows of one contender in one scenario: sample 0 (the nominal model), then the drawn samples.
 struct ModeRows {
   Contender contender;
-  std::span<const ComparisonRow> rows;  ///< never empty
+  std::span<const ComparisonRow> rows;  ///< sample 0 first, then the drawn samples; never empty
 
   const Metrics& nominal() const { return rows.front().metrics; }
   /// The counted rows, from which all statistics are computed: those of the drawn samples, or the
@@ -49,7 +49,7 @@ Comparison evaluated_part(const Comparison& comparison);
 
 /// Mean and quantiles of one metric of a contender.
 struct Summary {
-  std::optional<double> nominal;        ///< value in sample 0
+  std::optional<double> nominal;        ///< value in sample 0, the nominal model
   std::size_t count = 0;                ///< number of counted runs that have the metric
   std::optional<double> mean;           ///< mean over these runs
   std::optional<double> q05, q50, q95;  ///< quantiles; absent for fewer than 2 runs
@@ -84,7 +84,7 @@ struct PairedDifference {
   std::size_t count = 0;         ///< number of samples with the metric in both contenders
   std::optional<double> mean;    ///< mean difference over these samples, in the metric's unit
   std::optional<Interval> ci95;  ///< 95 % interval of the mean; absent for fewer than 2 samples
-  std::optional<double> p;       ///< of the paired t test, in [0, 1]; absent for fewer than 2
+  std::optional<double> p;       ///< p-value of the paired t test; absent for fewer than 2 samples
   /// p with Holm's correction for the number of differences in the scenario. The difference is
   /// significant if it is below 0.05; the probability of any false positive in the scenario is then
   /// at most 5 %.

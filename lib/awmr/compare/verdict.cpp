@@ -104,7 +104,7 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
 /// Text of the robustness of rank 1: "; combined is best for 83 % of all metric weightings and in
 /// 97 % of the samples".
 std::string stability_text(const RankedMode& best) {
-  if (!best.tied_with.empty()) return {};  // no mode alone has rank 1
+  if (!best.tied_with.empty()) return {};  // no mode has rank 1 alone
   std::string text = fmt::format("; {} is best for {:.0f} % of all metric weightings",
                                  best.contender.label(), 100.0 * best.first_by_weights);
   if (best.first_by_samples) {

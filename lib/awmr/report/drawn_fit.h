@@ -13,7 +13,7 @@ namespace awmr {
 
 /// One point of the resistance curve that was fitted to steady runs.
 struct CurvePoint {
-  double rate = 0.0;   ///< u in m/s or r in rad/s
+  double rate = 0.0;   ///< steady rate: speed u, m/s, or yaw rate r, rad/s
   double value = 0.0;  ///< input for this steady rate: tau_speed, or tau_turn in m
   /// Half width of the 95 % confidence band at this rate, in the unit of `value`; 0 if the model
   /// has no covariance of the law.
@@ -31,7 +31,7 @@ struct DrawnFit {
   /// Indices of these runs in the model's list of trials; never empty.
   std::vector<std::size_t> trials = {};
   Resistance<double> law{};            ///< `coulomb` includes the motors' dead zone (surge only)
-  std::vector<CurvePoint> curve = {};  ///< empty if the model does not have the law
+  std::vector<CurvePoint> curve = {};  ///< fitted curve; empty if the model does not have the law
   bool has_band = false;               ///< true: the curve has a confidence band
   /// Residuals of the runs; empty if the model predicts fewer than three of them.
   std::vector<LeftOver> left_over = {};

@@ -22,7 +22,8 @@ extern const std::string_view kPageHtml;
 extern const std::string_view kPlotPy;
 extern const std::string_view kPageCss;
 extern const std::string_view kPageJs;
-extern const std::string_view kLiveWasm;  ///< gzip of the WebAssembly module, base64; can be empty
+/// WebAssembly of the sliders (gzip, base64); empty if not built.
+extern const std::string_view kLiveWasm;
 
 namespace {
 

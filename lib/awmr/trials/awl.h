@@ -16,7 +16,7 @@ namespace awmr {
 /// Rows of an `.awl` file, and how many rows and bytes were lost.
 struct AwlLog {
   std::vector<std::string> header = {};           ///< column names: `t_s` first, `run` last
-  std::vector<std::vector<double>> columns = {};  ///< by column, then by row; all finite
+  std::vector<std::vector<double>> columns = {};  ///< values by column, then by row; all finite
   std::string parameters_sha256 = {};  ///< hash of the model and gains, as in awmr_params.h
   /// Number of runs (starts of the chip), without those of fewer than ten usable rows.
   std::size_t runs = 0;

@@ -29,9 +29,9 @@ struct Column {
 
 /// Layout of the rows of a file.
 struct Layout {
-  std::string parameters_sha256;  ///< hash of the firmware's model and gains
+  std::string parameters_sha256;  ///< SHA-256 of the model and gains in the firmware
   std::size_t row_bytes = 0;
-  std::vector<Column> columns;  ///< the first is t_s
+  std::vector<Column> columns;  ///< columns in the order of the row; the first is t_s
 
   bool operator==(const Layout&) const = default;
   /// Returns the column of this name, or null.

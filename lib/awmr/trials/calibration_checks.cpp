@@ -108,7 +108,7 @@ CourseWindow course_window(const DrivingLog& log, const LogWindow& window,
 struct CourseFit {
   Complex factor;          ///< k = s exp(i phi)
   double std_error = 0.0;  ///< standard error of the real and of the imaginary part of k
-  double scatter_m = 0.0;  ///< standard deviation of the residuals
+  double scatter_m = 0.0;  ///< standard deviation of the residuals, m
 };
 
 /// Fits the displacements (calibration_checks.h) with headings multiplied by `heading_factor`.
@@ -225,7 +225,7 @@ std::optional<Calibration> course_over_heading(const DrivingLog& log) {
     longest_m = std::max(longest_m, std::abs(sums.back().moved));
   }
   std::vector<double> angles_rad;
-  std::vector<Eigen::RowVector4d> rows;  // psi, turn, time, 1
+  std::vector<Eigen::RowVector4d> rows;  // columns: psi, change of psi, time, 1
   double before_rad = 0.0;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (!(std::abs(sums[w].moved) > kMoving * longest_m)) continue;

@@ -23,12 +23,12 @@ struct RowSpan {
 
 struct ChannelQuality {
   Repeats repeats = Repeats::kNone;
-  std::vector<bool> fresh;          ///< by row: the value is a measurement
+  std::vector<bool> fresh;          ///< by row: true if the value is a measurement
   double quantum = 0.0;             ///< resolution, in the unit of the values; 0: not detected
   std::vector<std::size_t> spikes;  ///< rows whose value jumps away and back
   std::vector<RowSpan> stuck;       ///< rows with one repeated value while the command changed
   std::size_t saturated = 0;        ///< number of rows at the end of the sensor's range
-  double saturated_at = 0.0;        ///< the value in these rows
+  double saturated_at = 0.0;        ///< value at that end of the range
 };
 
 /// Determines why `value` contains repeated readings: sets only `repeats`, `fresh` and `quantum`,

@@ -35,7 +35,7 @@ inline constexpr NameTable<Confidence, 3> kConfidenceNames{{{"sure", Confidence:
                                                             {"unsure", Confidence::kUnsure}}};
 
 struct ColumnGuess {
-  std::string column;  ///< awmr's column: "speed_mps"
+  std::string column;  ///< name of awmr's column, such as "speed_mps"
   /// Formula of the file's columns in the syntax of `--column`. Empty if no column of the file can
   /// be used; `why` then gives the reason.
   std::string expression;

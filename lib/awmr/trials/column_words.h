@@ -30,7 +30,7 @@ std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
 
 /// Unit in the name of a column.
 struct NamedUnit {
-  std::string_view spelling;  ///< "kmh"; two words with a space between them: "m s"
+  std::string_view spelling;  ///< "kmh"; a space between two words: "m s" for m/s
   double factor;              ///< value in awmr's unit = value in the file times this
 };
 /// Returns the unit of this dimension that the last word or the last two words name (`m/s` has the

@@ -9,7 +9,7 @@ namespace {
 
 struct MotionLimit {
   std::string_view column;
-  double least;      ///< threshold in the column's unit
+  double least;      ///< smallest value that counts as motion, in the column's unit
   bool is_position;  ///< true: compare the range of the values; false: their largest magnitude
 };
 constexpr std::array<MotionLimit, 8> kMotionLimits{{{"x_m", 0.2, true},

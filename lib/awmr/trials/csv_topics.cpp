@@ -25,7 +25,8 @@ struct File {
 /// The mappings of t_s.
 struct TimeMappings {
   std::vector<ColumnMapping> mappings = {};
-  std::vector<std::size_t> places = {};  ///< indices of `mappings` among all mappings
+  /// Index of each of `mappings` in the list of all mappings.
+  std::vector<std::size_t> places = {};
 };
 
 TimeMappings time_mappings(std::span<const ColumnMapping> mappings) {

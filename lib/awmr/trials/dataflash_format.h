@@ -32,12 +32,13 @@ struct Field {
 
 /// Definition of a record type.
 struct Format {
-  std::string definition;  ///< the bytes of the definition, without the record header
+  std::string definition;  ///< bytes of the FMT record, without the record header
   std::string name;
   std::size_t bytes = 0;  ///< size of a record, with its header
   std::vector<Field> fields = {};
-  std::optional<std::size_t> time = {};      ///< index in `fields` of TimeUS or TimeMS
-  std::optional<std::size_t> instance = {};  ///< index in `fields` of the sensor's number
+  std::optional<std::size_t> time = {};  ///< index in `fields` of the time (TimeUS or TimeMS)
+  /// Index in `fields` of the instance number of the sensor.
+  std::optional<std::size_t> instance = {};
 };
 
 /// Formats by the type in the record header.

@@ -21,9 +21,11 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
                                                 {1000.0, "per mille"},
                                                 {1023.0, "10-bit PWM counts"},
                                                 {4095.0, "12-bit PWM counts"}}};
-constexpr double kEndOfScale = 0.005;    // relative tolerance for "the force is at full power"
-constexpr double kMinShare = 0.2;        // fraction of full power that every vehicle's trials reach
-constexpr double kPlainlyBeyond = 1.05;  // times F'max; up to this, F' may refer to a smaller F_max
+constexpr double kEndOfScale = 0.005;  // relative tolerance of "the largest force is full power"
+// The trials of any vehicle reach this fraction of full power.
+constexpr double kMinShare = 0.2;
+// Up to this times F'max, forces may be divided by a smaller F_max.
+constexpr double kPlainlyBeyond = 1.05;
 
 constexpr ForceUnit kMicroseconds{
     "microseconds of a servo pulse (F' = (us - 1500)/500 if 1500 is standstill and 2000 full "

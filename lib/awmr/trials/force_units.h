@@ -54,7 +54,7 @@ struct ForceUnit {
 
 /// Possible units of forces beyond F'max.
 struct ForceUnits {
-  std::vector<ForceUnit> units;  ///< most likely first; never empty; exactly one if certain
+  std::vector<ForceUnit> units;  ///< the most likely first; never empty; only one if it is certain
   std::string remedy = {};       ///< change of vehicle.json that also solves it, as text; or empty
 
   bool is_clear() const { return units.size() == 1; }

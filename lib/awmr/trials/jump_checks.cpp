@@ -24,8 +24,8 @@ constexpr std::size_t kMin = 20;
 struct Move {
   std::size_t from = 0;  ///< row of the first reading
   std::size_t to = 0;    ///< row of the second reading
-  double span_s = 0.0;   ///< time between them
-  double size = 0.0;     ///< magnitude of the change
+  double span_s = 0.0;   ///< time between the two readings
+  double size = 0.0;     ///< magnitude of the change, m or rad
 };
 
 /// `size(a, b)`: distance between the readings of two rows.

@@ -36,7 +36,7 @@ class LaggedForces {
  private:
   struct Side {
     std::vector<double> force;   ///< F' at the time of each row
-    std::vector<double> by_lag;  ///< its derivative with respect to T, 1/s
+    std::vector<double> by_lag;  ///< derivative of `force` with respect to T, 1/s
   };
   struct Value {
     double force;

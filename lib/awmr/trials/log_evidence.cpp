@@ -191,7 +191,7 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   if (!apart) {
     // Moments of opposite sign and nearly equal size would not turn the vehicle. Because it turns,
     // one of the two has the wrong sign: the one that opposes the yaw rate.
-    constexpr double kNearlyEqual = 4.0;  // bound on the ratio of their squares
+    constexpr double kNearlyEqual = 4.0;  // bound on the ratio of the squares of the two moments
     const bool cancel = sd < 0.0 && ss < kNearlyEqual * dd && dd < kNearlyEqual * ss;
     if (sd < 0.0 && !cancel) return {};
     return {shown(sr / ss, 1.0 / ss, sr * sr / ss), shown(dr / dd, 1.0 / dd, dr * dr / dd)};

@@ -32,7 +32,7 @@ struct EvidenceWindow {
   double steering_rad = 0.0;     ///< mean steering input: the command, else the logged angle
   double tau_steering_m = 0.0;   ///< l_f (F'L + F'R) sin d_r, as in allocation.h
   double tau_diff_m = 0.0;       ///< d (F'R - F'L)(cos d_r + 1), as in allocation.h
-  double span_s = 0.0;           ///< length of the window
+  double span_s = 0.0;           ///< length of the window, s
 };
 
 /// Input of the checks of a log: the log, its vehicle and its windows.
@@ -40,7 +40,7 @@ struct Evidence {
   const DrivingLog& log;
   const Vehicle& vehicle;
   std::span<const ColumnMapping> mappings;  ///< column mappings used to read the log
-  std::vector<EvidenceWindow> windows;      ///< consecutive, without overlap
+  std::vector<EvidenceWindow> windows;      ///< consecutive windows without overlap
   /// For robust_ratio(), which needs twenty windows: `windows`, and if they are fewer than twenty
   /// also windows that overlap them by thirds. A log of ten seconds is then enough to detect a
   /// wrong unit.

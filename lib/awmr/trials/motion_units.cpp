@@ -154,7 +154,7 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
 /// Detects a yaw rate in deg/s in logs without a heading: its values are too large for any wheeled
 /// vehicle, or for the steering angle and the speed.
 std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
-  constexpr double kLargest_radps = 25.0;  // as for turning tables (turn_evidence.h)
+  constexpr double kLargest_radps = 25.0;  // largest plausible yaw rate, as in turn_evidence.h
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
   // With sliding wheels, the ratio differs from 1, but is below this bound. deg/s instead of rad/s
@@ -287,7 +287,7 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
 /// positions.
 std::optional<Contradiction> check_speed_alone(const Evidence& evidence) {
   constexpr double kLargest_mps = 100.0;
-  constexpr double kLargestLengthsPerSecond = 100.0;  // as for surge tables
+  constexpr double kLargestLengthsPerSecond = 100.0;  // as in table_units.h
   if (!evidence.has(LogChannel::kSpeed) || !implausible_values(evidence.vehicle).empty()) return {};
   const double length_m = evidence.vehicle.length_m;
   const double speed_mps = usual_largest(*evidence.log[LogChannel::kSpeed]);

@@ -19,7 +19,7 @@ struct PredictionError {
 
 /// Measurements of a channel over time, and their predictions.
 struct PredictedSeries {
-  std::vector<double> t_s = {};        ///< rising
+  std::vector<double> t_s = {};        ///< times of the measurements, rising
   std::vector<double> measured = {};   ///< SI
   std::vector<double> predicted = {};  ///< SI
 };

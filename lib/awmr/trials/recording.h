@@ -71,14 +71,14 @@ class Recording {
   std::vector<ColumnMapping> mappings_;
   std::size_t most_bytes_;
   std::string text_ = {};
-  std::string line_ = {};  ///< incomplete last line
+  std::string line_ = {};  ///< last line, which is still incomplete
   bool line_too_long_ = false;
-  bool after_return_ = false;  ///< the last byte was a carriage return: a line feed now is no line
+  bool after_return_ = false;  ///< true: the last byte was a carriage return
   bool full_ = false;
   Header header_ = {};
   Header commented_ = {};             ///< names in the last comment that may be the header
-  std::vector<bool> is_number_ = {};  ///< by column: the first row has a number
-  int lines_ = 0;                     ///< lines in text_
+  std::vector<bool> is_number_ = {};  ///< by column: true if the first row has a number
+  int lines_ = 0;                     ///< number of lines in text_
   std::size_t rows_ = 0;
   std::size_t set_aside_ = 0;
   int first_aside_ = 0;  ///< line number of the first line set aside

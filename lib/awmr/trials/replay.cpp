@@ -82,7 +82,7 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
     if (end - begin >= kShortestWindow) windows.push_back({&log, begin, end});
     begin = end;
   };
-  std::size_t piece_end = 0;  // end of the gap-free piece that contains `begin`
+  std::size_t piece_end = 0;  // end of the part without a gap that contains `begin`
   for (std::size_t row = 1; row <= log.rows(); ++row) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > kGapSteps * step_s) {
       piece_end = row;

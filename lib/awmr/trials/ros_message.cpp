@@ -14,7 +14,7 @@ enum class Part { kHeader, kText, kFloat32, kFloat64, kSkipped9, kSkipped36 };
 
 struct Piece {
   Part part;
-  std::string_view name;  ///< name of a number; empty for other parts
+  std::string_view name;  ///< name of the signal if the part is a number, else empty
 };
 
 struct MessageType {

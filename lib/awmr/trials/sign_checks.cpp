@@ -141,7 +141,7 @@ std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations,
 /// compass counts from north and x points east. 0 if the positions show no such offset.
 double mirrored_heading_deg(const Evidence& evidence) {
   constexpr double kQuarter_deg = 90.0;
-  constexpr double kClose_deg = 20.0;  // tolerance, deg, for declination and sideslip
+  constexpr double kClose_deg = 20.0;  // tolerance for declination and sideslip, deg
   if (!evidence.has(LogChannel::kX) || !evidence.has(LogChannel::kY)) return 0.0;
   const CourseRelation course = course_relation(evidence.overlapping);
   if (course.sign != -1) return 0.0;
@@ -245,7 +245,7 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
 struct SideShares {
   double of_sum = 0.0;
   double of_difference = 0.0;
-  bool is_positive = true;  ///< y has the sign of F'R - F'L
+  bool is_positive = true;  ///< true: y has the sign of F'R - F'L
 
   bool follows_difference() const { return explains(of_difference, of_sum); }
   bool follows_sum() const { return explains(of_sum, of_difference); }

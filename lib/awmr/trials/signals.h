@@ -16,15 +16,15 @@ namespace awmr {
 /// Messages of one topic, in file order, with the fields that were requested.
 struct Topic {
   std::string name;
-  std::vector<std::int64_t> time_ns = {};        ///< by message
+  std::vector<std::int64_t> time_ns = {};        ///< time of each message
   std::vector<std::size_t> columns = {};         ///< requested signals: indices in Signals::header
-  std::vector<std::vector<double>> values = {};  ///< by requested signal, then by message
+  std::vector<std::vector<double>> values = {};  ///< values by requested signal, then by message
 };
 
 /// Signals of a file.
 struct Signals {
   std::vector<std::string> header = {};  ///< names of all signals: `TOPIC.FIELD`
-  std::vector<Topic> topics = {};        ///< with the values of the requested signals
+  std::vector<Topic> topics = {};        ///< topics, each with the values of the requested signals
   std::vector<CsvNote> notes = {};
 };
 

@@ -114,7 +114,7 @@ double mean_of(const std::vector<double>& signal, Stretch s) {
 struct SteadyRun {
   SteadySegment segment;
   double wheel_force = 0.0;   ///< F' of each wheel, the mean of both sides
-  double steering_rad = 0.0;  ///< rad, left positive
+  double steering_rad = 0.0;  ///< steering angle, rad, left positive
   SideForces<double> sides{};
 };
 

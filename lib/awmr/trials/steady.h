@@ -22,7 +22,7 @@ namespace awmr {
 /// be forward. The mean rate must also exceed three standard errors and have the direction of the
 /// command.
 struct SteadyRule {
-  double same = 1e-3;            ///< in F' and rad, >= 0: increase for noisy commands
+  double same = 1e-3;            ///< in units of F' and in rad, >= 0: increase for noisy commands
   double settling_s = 1.0;       ///< s, >= 0: increase for vehicles that settle slowly
   double shortest_s = 1.0;       ///< s, > 0: decrease to accept more, less certain segments
   double later_s = 0.25;         ///< s, > 0: length of each further piece that is cut off
@@ -55,9 +55,9 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
 
 /// Steady speed of a wheel at a constant command.
 struct SteadyWheel {
-  double command = 0.0;    ///< F', over F_max
+  double command = 0.0;    ///< commanded force of the wheel, F'
   double speed_mps = 0.0;  ///< mean rolling speed; forward positive
-  double std_error = 0.0;  ///< of speed_mps, m/s
+  double std_error = 0.0;  ///< standard error of speed_mps, m/s
 };
 
 /// Returns the steady speeds of the wheels in the segments of the log in which speed and yaw rate

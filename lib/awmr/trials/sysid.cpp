@@ -33,7 +33,7 @@ enum class SysIdUnit { kNone, kDegrees, kMetres };
 
 /// A number of a row that becomes a column.
 struct SysIdField {
-  std::size_t index;      ///< place of the number in the row, from 0
+  std::size_t index;      ///< index of the number in the row, from 0
   std::string_view name;  ///< name of the column
   SysIdUnit unit = SysIdUnit::kNone;
 };

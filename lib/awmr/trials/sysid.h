@@ -28,9 +28,9 @@ namespace awmr {
 
 /// All tests one after the other. `t_s` begins at 0 in each run.
 struct SysIdLog {
-  std::vector<std::string> header = {};  ///< run, t_s, left_volts, ..., in SI units and degrees
+  std::vector<std::string> header = {};           ///< column names: run, t_s, left_volts, ...
   std::vector<std::vector<double>> columns = {};  ///< by column, then by row
-  std::vector<CsvNote> notes = {};                ///< one: `sysid-log`
+  std::vector<CsvNote> notes = {};                ///< a single note, `sysid-log`
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };

@@ -13,8 +13,9 @@ namespace awmr {
 /// The vehicle and its other tables, with which a table is compared.
 struct Tables {
   const Vehicle& vehicle;
-  const std::optional<TrialSet<SurgeRow>>& surge;      ///< for the top speed and the unit of force
-  const std::optional<TrialSet<TurningRow>>& turning;  ///< for the unit of force
+  /// Determines the top speed and the unit of force.
+  const std::optional<TrialSet<SurgeRow>>& surge;
+  const std::optional<TrialSet<TurningRow>>& turning;  ///< determines the unit of force
 };
 
 /// Checks one table. Adds these faults, each at the first wrong row and with the mapping that would

@@ -21,7 +21,7 @@ namespace {
 
 /// A wrong unit of a column.
 struct TableUnit {
-  double times;             ///< ratio of printed to timed value with this unit
+  double times;             ///< ratio of printed to timed value if the column has this unit
   std::string_view column;  ///< column to correct
   double factor;            ///< corrected value = value in the file times this
   std::string_view words;
@@ -41,7 +41,7 @@ constexpr std::array<TableUnit, 2> kTableTurnUnits{
 
 constexpr Interval kLengthsPerSecond{0.02, 100.0};
 constexpr double kUsualLengthsPerSecond = 20.0;
-constexpr double kSlowTable_radps = 0.01;  // minimum for the fastest turn of a table
+constexpr double kSlowTable_radps = 0.01;  // smallest plausible yaw rate of the fastest turn
 constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 
 /// The unit whose `times` agrees within 10 % with every ratio of a printed to a timed value. Null
@@ -196,7 +196,7 @@ namespace {
 
 /// The quantities of a coast-down file from which its units are checked.
 struct Coasts {
-  int line;                    ///< first line of data
+  int line;                    ///< number of the first line with data
   double fastest_mps;          ///< highest initial speed
   Interval deceleration_mps2;  ///< mean decelerations, from the gentlest to the hardest stop
   const char* speed;           ///< name of the speed column

@@ -22,7 +22,7 @@ namespace awmr {
 
 struct WrongUnit {
   int line = 0;                     ///< line of the first affected row
-  std::string message;              ///< the comparison, its result, the likely units
+  std::string message;              ///< the comparison, its result and the likely units, as text
   std::vector<UnitFix> unit_fixes;  ///< corrections, most likely first; empty if none is known
   std::string remedy = {};          ///< what to do if `unit_fixes` is empty
 };

@@ -24,7 +24,7 @@ struct TrialData {
 struct Trials {
   Vehicle vehicle;
   TrialData data;
-  std::vector<Finding> findings;  ///< order: surge, turning, coast-downs, logs
+  std::vector<Finding> findings;  ///< from reading surge, turning, coast-downs, logs, in this order
 };
 
 }  // namespace awmr

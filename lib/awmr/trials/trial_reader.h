@@ -48,9 +48,9 @@ class TrialReader {
 /// A speed or yaw rate that a row can give as a printed value, as a timed value, or both. Timed
 /// value: `per_amount` times the cell of `amount_column` over the cell of `elapsed_s`.
 struct Rate {
-  std::string_view printed_column;  ///< "speed_mps"
-  std::string_view amount_column;   ///< "distance_m", "turns"
-  double per_amount = 1.0;          ///< 1 for a distance, 2 pi rad for turns
+  std::string_view printed_column;  ///< column of the printed value: "speed_mps"
+  std::string_view amount_column;   ///< column of the distance or number of turns: "turns"
+  double per_amount = 1.0;          ///< 1 for distance_m, 2 pi (rad) for turns
   std::string code;                 ///< code of the finding if the two values disagree
 };
 
@@ -61,7 +61,7 @@ struct RateInRow {
   double used = 0.0;
   /// Distance, m, or number of turns; absent unless elapsed_s > 0.
   std::optional<double> amount;
-  std::optional<double> elapsed_s;  ///< s; absent unless > 0
+  std::optional<double> elapsed_s;  ///< elapsed time, s; absent unless > 0
 };
 
 /// Returns the rate of a row; empty on a fault. Adds a finding if the printed and the timed value

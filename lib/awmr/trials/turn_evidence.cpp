@@ -38,7 +38,7 @@ constexpr double kPossibleAcceleration_mps2 = 15.0;
 
 /// A wrong unit of a yaw rate.
 struct RateUnit {
-  double times;             ///< too large by this factor, if the file uses this unit
+  double times;             ///< values are too large by this factor if the file has this unit
   std::string_view column;  ///< column to correct
   double factor;            ///< corrected value = value in the file times this
   std::string_view words;
@@ -189,7 +189,7 @@ TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
 struct TurnCriterion {
   std::vector<TurnShare> shares;
   double most;        ///< largest accepted ratio of yaw rate to limit
-  double least;       ///< smallest accepted value of the largest ratio of the table; 0: none
+  double least;       ///< smallest accepted value of the table's largest ratio; 0: none
   Interval possible;  ///< usual ratios in the right unit
 };
 

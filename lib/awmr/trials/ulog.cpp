@@ -20,7 +20,7 @@ constexpr std::size_t kFileHeaderBytes = 16;
 struct Subscription {
   std::size_t needed = 0;                       ///< minimum size of a message, bytes
   std::optional<std::size_t> time_offset = {};  ///< offset of `timestamp`; empty: not a time series
-  std::vector<ulog::Leaf> wanted = {};          ///< requested numbers
+  std::vector<ulog::Leaf> wanted = {};          ///< requested numbers of the topic
   std::size_t topic = 0;                        ///< index in Signals::topics
 };
 

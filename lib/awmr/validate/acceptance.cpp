@@ -67,8 +67,9 @@ struct LoggedDrive {
 
 /// A simulated drive: means of each channel over windows of half a second.
 struct PredictedDrive {
-  double end_s = 0.0;                ///< end of the run; later windows are invalid
-  std::vector<WindowMeans> windows;  ///< by channel
+  /// Scenario time at the end of the run; later windows are invalid.
+  double end_s = 0.0;
+  std::vector<WindowMeans> windows;  ///< window means by channel
 };
 
 PredictedDrive predicted_drive(const Run& run, const std::vector<DriveChannel>& channels,
@@ -165,7 +166,7 @@ struct Compared {
   WindowMeans measured;
   PredictedBand predicted;
   std::vector<double> largest;  ///< for each predicted drive, its largest distance in this channel
-  double usual = 0.0;           ///< 95 % quantile of `largest`
+  double usual = 0.0;           ///< 95 % quantile of `largest` over the predicted drives
 };
 
 Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,

@@ -24,14 +24,14 @@ struct AcceptanceOptions {
   /// Time in the log, s, at which the scenario begins. Absent: the time of the first row with a
   /// command other than 0.
   std::optional<double> from_s = {};
-  int threads = 0;  ///< 0: one per core
+  int threads = 0;  ///< number of threads; 0: one per core
 };
 
 /// One channel of the drive, compared with the predicted drives. Measured and predicted values are
 /// averaged over windows of half a second. The distance of a window is the difference of its mean
 /// from the mean of the predictions, divided by the standard deviation of the predictions.
 struct ChannelAcceptance {
-  std::string channel;  ///< "heading_rad", "force_left"
+  std::string channel;  ///< name: "heading_rad", "force_left"
   std::string unit;
   int samples = 0;     ///< number of rows compared
   double noise = 0.0;  ///< standard deviation of the noise of a reading, in `unit`
@@ -40,7 +40,7 @@ struct ChannelAcceptance {
   double distance = 0.0;  ///< largest distance of a window, >= 0
   /// Limit of the distance: 95 % of the predicted drives are within the limits of all channels.
   double allowed = 0.0;
-  bool inside = false;  ///< distance <= allowed
+  bool inside = false;  ///< true: distance <= allowed
   /// Scenario time, s, of the first window with a larger distance than allowed; absent if inside.
   std::optional<double> outside_since_s = {};
   double difference = 0.0;  ///< measured minus predicted in the window of `distance`, in `unit`
@@ -68,7 +68,7 @@ struct Acceptance {
   /// Fraction of all drives (the predicted ones and the logged one) that are at least as far from
   /// the prediction as the logged one.
   double p_value = 0.0;
-  bool inside = false;  ///< p_value > 0.05
+  bool inside = false;  ///< true: p_value > 0.05, the drive agrees with the prediction
   std::vector<ChannelAcceptance> channels = {};
   /// The best hypotheses, best first, at most four; empty if the drive is inside.
   std::vector<FaultHypothesis> hypotheses = {};

@@ -44,7 +44,7 @@ struct ClaimSetting {
   const Plant<double>& plant;  ///< plant of `model`
   const Gains<double>& gains;
   BatchArithmetic arithmetic;   ///< arithmetic of the runs
-  ControlOptions control = {};  ///< used in every scenario
+  ControlOptions control = {};  ///< control options of every scenario
 
   /// Simulates the scenario in all three modes. Precondition: the model has every parameter, and a
   /// 95 % interval for each parameter that the scenario's `corner` moves to an end of it.

@@ -32,7 +32,7 @@ struct DriveChannel {
 
 /// Means of a channel over windows of half a second, and the number of rows in each window.
 struct WindowMeans {
-  std::vector<double> mean;  ///< 0 for a window without rows
+  std::vector<double> mean;  ///< mean of each window; 0 for a window without rows
   std::vector<int> rows;
 };
 inline constexpr double kWindow_s = 0.5;

@@ -56,7 +56,7 @@ Claim waypoints_reached(const ModeRuns& runs) {
   const auto steering = [](const ModeRun& run) -> std::optional<double> {
     return largest_steering_deg(run);
   };
-  constexpr double kStop_deg = 20.0;  // [paper 5.1]
+  constexpr double kStop_deg = 20.0;  // the paper's steering stop [paper 5.1]
   const auto within = [&](const ModeRun& run) { return *steering(run) <= kStop_deg + 1e-9; };
   const bool reached = all_modes(runs, completed);
   const bool all_within = all_modes(runs, within);

@@ -13,7 +13,7 @@ namespace awmr {
 
 /// Prediction errors of one channel of a log.
 struct ChannelValidation {
-  std::string channel;  ///< "yaw_rate_radps"
+  std::string channel;  ///< name: "yaw_rate_radps"
   std::string unit;
   int samples = 0;
   PredictionError one_step;  ///< errors of the prediction from each measured row to the next

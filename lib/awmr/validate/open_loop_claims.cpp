@@ -53,7 +53,7 @@ const TrialPoint* fastest_trial(const Model& model) {
 struct Turn {
   YawMode mode{};
   std::optional<Circle> circle;  ///< fitted to the last full turn; absent without two full turns
-  double speed_mps = 0.0;        ///< at the end of the run
+  double speed_mps = 0.0;        ///< speed at the end of the run
 };
 
 /// Points of the last full turn of the run. Empty if the run has fewer than two full turns, because

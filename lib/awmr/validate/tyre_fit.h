@@ -47,19 +47,20 @@ namespace awmr {
 
 /// Prediction errors of both plants for one channel of windows that the tyres were not fitted to.
 struct HeldOutError {
-  std::string channel;          ///< "yaw_rate_radps"
+  std::string channel;          ///< name: "yaw_rate_radps"
   double model_rms = 0.0;       ///< RMS error of the 3-DOF plant in SI units, >= 0
   double four_wheel_rms = 0.0;  ///< RMS error of the four-wheel plant in SI units, >= 0
 };
 
 /// Result of fit_tyres().
 struct TyreFit {
-  Tyres<double> tyres;               ///< a parameter that the logs do not determine has its default
-  std::optional<Estimate> friction;  ///< mu; absent if the logs do not determine it
+  /// Tyres; parameters that the logs do not determine have defaults.
+  Tyres<double> tyres;
+  std::optional<Estimate> friction;  ///< friction mu; absent if the logs do not determine it
   /// c_a, 1/rad; absent if the logs do not determine it.
   std::optional<Estimate> cornering_per_rad;
   int windows = 0;                          ///< windows of 5 s in the fit, kMinTyreWindows ... 60
-  std::vector<HeldOutError> held_out = {};  ///< by channel
+  std::vector<HeldOutError> held_out = {};  ///< cross-validated errors by channel
   /// The plant with the smaller errors on held-out windows; absent if the interval of D_w contains
   /// 0.
   std::optional<PlantKind> better = {};

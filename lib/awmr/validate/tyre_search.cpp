@@ -204,7 +204,7 @@ LogTyres default_tyres() {
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from) {
   constexpr int kMaxRounds = 8;
-  constexpr double kSameCost = 1e-5;  // converged: largest change of the cost divided by the errors
+  constexpr double kSameCost = 1e-5;  // converged below this change of the cost per error
   const auto first = sums_on_tyres(windows, plants, from);
   if (!first) return std::nullopt;
   Fit best{.at = from, .weights = first->weights(), .cost = first->cost()};

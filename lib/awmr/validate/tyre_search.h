@@ -31,8 +31,9 @@ std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFre
 /// Fit of the parameters that the windows determine; the others keep their defaults.
 struct ShownFit {
   Fit fit;
-  IsFree is_free{true, true};                   ///< true: the windows determine the parameter
-  std::array<std::optional<double>, 2> errors;  ///< standard errors of the logarithms
+  IsFree is_free{true, true};  ///< by parameter: true if the windows determine it
+  /// Standard errors of the logarithms of the parameters.
+  std::array<std::optional<double>, 2> errors;
 };
 
 LogTyres default_tyres();

@@ -48,10 +48,10 @@ struct ClaimInMode {
 
 /// A claim of the paper, with the verdict from simulation.
 struct Claim {
-  std::string id;         ///< "C1"
+  std::string id;         ///< number of the claim: "C1"
   std::string statement;  ///< statement of the paper
   bool reproduced = false;
-  std::string figure;     ///< simulated numbers
+  std::string figure;     ///< simulated numbers, as text
   std::string tolerance;  ///< criterion for "reproduced"
   std::string why;        ///< reason for the verdict, as text
   /// Verdict for each mode; empty if the claim has no verdict for a single mode.
@@ -76,7 +76,7 @@ struct Validation {
   /// True if every kind of trial and every log is predicted within its tolerance, and every drive
   /// of a scenario agrees with the prediction. False if there are neither trials, logs nor drives.
   bool passed = false;
-  std::string verdict;  ///< one sentence
+  std::string verdict;  ///< `passed` and its reasons in one sentence
 };
 
 struct ValidateOptions {
@@ -84,7 +84,7 @@ struct ValidateOptions {
   /// True: also evaluates every claim over the settings that the paper leaves open (open_cases.h),
   /// which takes some seconds.
   bool open_cases = false;
-  Progress progress = {};  ///< counts these cases; called on the thread of validate()
+  Progress progress = {};  ///< called for each finished case, on the thread of validate()
 };
 
 /// Measurement of a trial as predicted by the model:

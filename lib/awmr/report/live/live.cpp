@@ -28,7 +28,7 @@ std::vector<double> numbers;
 LiveSetup setup;
 std::vector<double> table;
 std::string text;
-constexpr std::size_t kColumns = 8;  ///< columns of `table`, see fill_table()
+constexpr std::size_t kColumns = 8;  ///< number of columns of `table`, which fill_table() writes
 
 Vehicle vehicle_of_setup(double sample_time_s) {
   Vehicle vehicle;

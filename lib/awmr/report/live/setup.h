@@ -70,7 +70,8 @@ void visit_numbers(LiveSetup& setup, Visit&& visit) {
   visit(c.margin);
   visit_plant(c.plant, visit);
   visit_as_number(c.has_steering, visit);
-  double mode = c.mode ? static_cast<double>(static_cast<int>(*c.mode)) : -1.0;  // -1: all
+  // -1: gains for all modes.
+  double mode = c.mode ? static_cast<double>(static_cast<int>(*c.mode)) : -1.0;
   visit(mode);
   if (mode >= 0.0) c.mode = static_cast<YawMode>(static_cast<int>(mode));
   for (double* x :
