@@ -43,7 +43,7 @@ struct Decision {
   /// Contenders of rank 1 in the ranking and under every change.
   std::vector<Contender> never_behind() const;
   DecisionKind kind() const;
-  /// True if one of `first` is of rank 1 under the change.
+  /// True if one of `first` has rank 1 under the change.
   bool survives(const Change& change) const;
   /// If the best modes of the two plants differ: names of the trials that would show which plant
   /// describes the vehicle. Otherwise empty.

@@ -24,7 +24,7 @@ struct Preferences {
 };
 
 /// Reads weights of the form "NAME=WEIGHT". Errors (input): a text of another form; a metric that
-/// is unknown or cannot rank (the message has the nearest name); a weight outside its range; a
+/// is unknown or never ranked (the message has the nearest name); a weight outside its range; a
 /// metric with two weights; no metric with a weight above 0; `relevance` outside [0, 1].
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance);
 

@@ -125,8 +125,8 @@ Differences all_differences(const ScenarioRows& scenario, double relevance) {
   return all;
 }
 
-/// log_loss() of every metric that can rank, in the counted runs of every mode. Rows as in
-/// ScenarioStatistics::resampled_losses, a column is a sample.
+/// log_loss() of every metric that can be used to rank modes, in the counted runs of every mode.
+/// The rows are those of ScenarioStatistics::resampled_losses; each column is a sample.
 Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& preferences) {
   Eigen::ArrayXXd losses =
       Eigen::ArrayXXd::Zero(eigen_index(scenario.modes.size() * std::size(kMetricColumns)),

@@ -120,8 +120,8 @@ struct ScenarioStatistics {
   /// mode.
   std::vector<PairedDifference> differences;
   /// Mean log_loss() (scoring.h) of each mode and metric, index loss_row(), in each resample; 0 for
-  /// metrics that cannot rank. Empty below 2 samples. The mean score with any weights is a weighted
-  /// sum of these series.
+  /// metrics that are never ranked. Empty below 2 samples. The mean score with any weights is a
+  /// weighted sum of these series.
   std::vector<std::vector<double>> resampled_losses;
 };
 

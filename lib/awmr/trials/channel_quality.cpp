@@ -206,7 +206,7 @@ std::vector<RowSpan> equal_runs(std::span<const double> value) {
   return runs;
 }
 
-/// How long, in s, the command differs during `run` from its value at the begin of `run` by more
+/// How long, in s, the command differs during `run` from its value at the start of `run` by more
 /// than `notable`. Means of the command over 0.3 s are compared, because a speed controller changes
 /// its command in every row, but hardly on average. The last 0.3 s of the run do not count.
 double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,

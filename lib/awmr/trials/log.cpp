@@ -313,8 +313,8 @@ std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<F
   return unmeasured;
 }
 
-/// Last measured speed by row, m/s; in the rows before the first measurement, the first one. Empty
-/// without speeds.
+/// Last measured speed by row, m/s; in the rows before the first measurement, the first measured
+/// speed. Empty if the log has no speed.
 std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   if (!reader.has("speed_mps")) return {};
   const std::vector<std::size_t> present = rows_present(reader, rows, "speed_mps");

@@ -23,7 +23,7 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel chann
   return std::nullopt;
 }
 
-/// Rate of change of a channel at the begin of the window, in its unit per second: slope of the
+/// Rate of change of a channel at the start of the window, in its unit per second: slope of the
 /// least-squares line through the measurements within 0.5 s of the first one, at least two. Empty
 /// with fewer than two measurements.
 std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
@@ -53,7 +53,7 @@ std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   return (n * ty - t * y) / (n * tt - t * t);
 }
 
-/// True if the vehicle probably moves backward at the begin of the window, because the mean force
+/// True if the vehicle probably moves backward at the start of the window, because the mean force
 /// of the second before is negative. For the first window of a log: that of its first half second.
 bool moves_backward(const LogWindow& window) {
   constexpr double kBefore_s = 1.0;

@@ -42,8 +42,8 @@ struct Table {
   }
 };
 
-/// The first row whose force exceeds the vehicle's limit (null if none), and the range of the
-/// forces of all rows.
+/// Result of comparing forces with the vehicle's limit: the first row beyond it (null if none), and
+/// the range of the forces of all rows.
 template <class Row>
 struct Beyond {
   const Row* first = nullptr;

@@ -56,8 +56,8 @@ struct Rate {
 
 /// The rate of one row, and the amount and time from which it was timed.
 struct RateInRow {
-  /// m/s or rad/s, >= 0: the preferred value if the row has both, else the one that it has; 0 if
-  /// the row has neither.
+  /// m/s or rad/s, >= 0: the value that TrialOptions prefer if the row has a printed and a timed
+  /// one, else the one that it has; 0 if it has neither.
   double used = 0.0;
   /// Distance, m, or number of turns; absent unless elapsed_s > 0.
   std::optional<double> amount;

@@ -227,7 +227,8 @@ std::optional<Turn> by_sides_alone(TrialReader& reader, std::size_t row, const V
   return by_sides(reader, row, vehicle);
 }
 
-/// Adds one fault for all rows of a vehicle without steering that lack a side's force.
+/// Adds a single fault that lists all rows without force_left or force_right, in the table of a
+/// vehicle without steering.
 void check_sides_given(TrialReader& reader) {
   std::vector<std::size_t> without;
   for (std::size_t row = 0; row < reader.table().rows(); ++row) {

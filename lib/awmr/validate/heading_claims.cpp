@@ -24,7 +24,7 @@ constexpr double kNoOvershoot_deg = 0.5;
 constexpr double kReversalBand = 0.01;
 constexpr double kReversalsPerSecond = 1.0;
 constexpr double kDrivenTauSpeed = 1.4;     ///< 35 % of four motors' thrust       [paper 6]
-constexpr double kYawRateMax_degps = 20.0;  ///< limit of the heading rate [paper 6]
+constexpr double kYawRateMax_degps = 20.0;  ///< bound on the yaw rate in C13 [paper 6]
 
 std::optional<double> settling_s(const ModeRun& run) { return run.metrics.settling_time_s; }
 

@@ -183,8 +183,8 @@ std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   return worst;
 }
 
-/// The best of the fits from these starts. Empty if the windows cannot be replayed from any of
-/// them.
+/// The fit with the smallest cost of those from all starts. Empty if the windows cannot be
+/// simulated from any start.
 std::optional<Fit> best_fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                             const std::vector<LogTyres>& starts) {
   std::optional<Fit> best;

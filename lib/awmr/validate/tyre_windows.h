@@ -133,7 +133,8 @@ struct ErrorSums {
   }
 };
 
-/// Sums over all windows for the four-wheel plant with these tyres. Empty as errors_on_tyres().
+/// Sums over all windows for the four-wheel plant with these tyres. Empty if errors_on_tyres() is
+/// empty for a window.
 std::optional<ErrorSums> sums_on_tyres(const Windows& windows, const Plants& plants,
                                        const LogTyres& tyres);
 
