@@ -10,7 +10,7 @@ namespace awmr {
 
 /// Reason why a sensor repeats its values.
 enum class Repeats {
-  kNone,    ///< values are rarely repeated
+  kNone,    ///< neither slow nor coarse: repeated values are measurements, too
   kSlow,    ///< sensor slower than the log: values are repeated until the next reading
   kCoarse,  ///< coarse resolution: the value changes only when the signal reaches the next step
 };
