@@ -1,5 +1,8 @@
-"""Runs scripts/bench with small inputs and checks that it produces every row of README.md and SCENARIOS.md. The script exits with 1 if a row does other
-work than awmr. Speed is not tested. usage: bench_test.py BUILD
+"""Runs scripts/bench with small inputs and checks that it prints every row of the tables in README.md and SCENARIOS.md, and that
+every program gets the same results as awmr (otherwise scripts/bench fails). Speed is not tested.
+
+usage: bench_test.py BUILD
+  BUILD  the build folder with the programs
 """
 import pathlib
 import re
@@ -11,7 +14,7 @@ BENCH = HERE.parent.parent / "scripts/bench"
 
 
 def rows_of(text):
-    """First cell of every row; small inputs have other sizes."""
+    """First cell of every row, with numbers replaced by N, because the sizes of small inputs differ from those of the pages."""
     return [re.sub(r"\d+", "N", line.split("|")[1].strip()) for line in text.split("\n") if line.startswith("| ")]
 
 
@@ -22,7 +25,8 @@ def main():
     tables = "".join((HERE / f"{page}.md").read_text().split("<!-- bench -->")[1] for page in ("README", "SCENARIOS"))
     printed, shown = rows_of(done.stdout), rows_of(tables)
     if printed != shown:
-        sys.exit(f"scripts/bench --write was not run since its rows changed: {printed} are printed, the pages have {shown}")
+        sys.exit(f"the tables of README.md and SCENARIOS.md are out of date; run scripts/bench --write. Rows printed: {printed}; "
+                 f"rows of the pages: {shown}")
 
 
 if __name__ == "__main__":

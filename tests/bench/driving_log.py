@@ -1,5 +1,5 @@
-"""Writes a simulated driving log of the paper's vehicle with 100 rows a second: new forces and a new angle every 1.25 s, and
-sensors with white noise. Run by scripts/bench.
+"""Writes a simulated driving log of the paper's vehicle with 100 rows a second. Wheel forces and steering angle change every
+1.25 s; the sensors have white noise. Run by scripts/bench.
 
 usage: driving_log.py VEHICLE.json DURATION_S OUTPUT.csv
 """
@@ -18,13 +18,13 @@ RATE_HZ = 100
 HELD_ROWS = 125
 TRUTH = {"surge_alpha": 1.3157, "surge_beta": 0.8841, "yaw_alpha": 0.3028, "yaw_beta": 0.8250, "sway_alpha": 3.0,
          "mass_norm": 0.0824, "inertia_norm": 0.0130, "time_constant_s": 0.02}
-# Standard deviations by the index in the state: of x and y, m; psi, rad; u, m/s; r, rad/s.
+# Standard deviations of the noise by index in the state: x and y in m, psi in rad, u in m/s, r in rad/s.
 NOISE = {0: 0.05, 1: 0.05, 2: math.radians(1.0), 3: 0.02, 5: math.radians(0.5)}
 COLUMNS = "t_s,force_left,force_right,steering_cmd_deg,x_m,y_m,heading_deg,speed_mps,yaw_rate_radps"
 
 
 def command_of(chance):
-    """F'L, F'R and the angle in deg, rounded as in the log; one in four coasts."""
+    """A random command: F'L, F'R and the steering angle in deg, rounded as in the log. In one of four the forces are 0."""
     level = 0.0 if chance.random() < 0.25 else 0.5 * (0.15 + 0.65 * chance.random())
     apart = 0.4 * level * (chance.random() - 0.5)
     return round(level - apart, 5), round(level + apart, 5), round(20.0 * (1.6 * chance.random() - 0.8), 3)

@@ -1,6 +1,6 @@
-"""Closed loops in NumPy, all runs at once (a "lane" of the arrays per run), with the same work per run as in awmr compare: control laws,
-allocation, limits, classical Runge-Kutta steps with a check that they are short enough, and the metrics. Lane 0 is the nominal plant; the
-plants of the other lanes differ by a few percent. Prints rows and metrics of the nominal run as JSON. Run by scripts/bench.
+"""Closed loops in NumPy. All runs are simulated at once: each has one element (a "lane") of every array. The work per run is that of
+awmr compare: control laws, allocation, limits, classical Runge-Kutta steps with a check that they are short enough, and metrics. Lane 0
+has the nominal plant; the plants of the other lanes differ by a few percent. Prints rows and metrics of lane 0 as JSON. Run by scripts/bench.
 
 usage: numpy_loop.py MODEL.json GAINS.json SCENARIO.json SUBSTEPS LANES
 """
@@ -25,12 +25,12 @@ def moved(plant, state, step_s, command):
 
 
 def resolves(state, step_s):
-    """True if a step can follow the motion. The exponents are below 1, so only the turning can be too fast."""
+    """True if the step is short enough for the motion. Only the yaw motion can be too fast, because the resistance exponents are below 1."""
     return np.max(np.abs(state[5])) * step_s <= 1.0
 
 
 def motor_work(plant, state, left, right):
-    """The power of the four wheels over F_max, and half the sum of their F'^2."""
+    """The mechanical power of the four wheels, divided by F_max, and half the sum of the squares of their forces F'."""
     _, _, _, u, v, r, d_r = state
     across = (v + plant.front_axle_m * r) * np.sin(d_r)
     cos_d = np.cos(d_r)
@@ -105,7 +105,8 @@ class Meter:
         m["settling_s"] = np.where(m["out_of_band"] > 0.0, np.inf, np.maximum(m["settling_s"], m["settled_s"]))
 
     def metrics(self, lane):
-        """Metrics by their names in comparison.csv; a run that did not settle or reach its speed lacks the dependent ones."""
+        """Metrics by their names in comparison.csv. If the run did not settle or did not reach its speed, the metrics that need this are
+        missing."""
         self.close_step()
         m = {name: float(sums[lane]) for name, sums in self.sums.items()}
         found = {"overshoot_deg": m["overshoot_deg"], "heading_iae_degs": m["iae_degs"], "path_length_m": m["path_length_m"],
@@ -137,7 +138,7 @@ def main():
         for _ in range(run.substeps):
             before, state = state, moved(plants, state, step_s, command)
             if not (resolves(before, step_s) and resolves(state, step_s)):
-                sys.exit("a step is too long for a run's motion, which awmr would halve")
+                sys.exit("a step is too long for the motion of a run; awmr would halve it, this program cannot")
     print(json.dumps({"rows": rows, "metrics": meter.metrics(0)}))
 
 

@@ -1,11 +1,12 @@
 """Fits a log of driving_log.py like awmr identify --log, but with SciPy: least_squares around solve_ivp. Prints result and
 cost as JSON. Run by scripts/bench.
 
-The problem is awmr's (lib/awmr/identify/logs): the log in windows of ten seconds, each with its own initial state and a weak prior about
-the measurements, eight parameters, all but the exponents as logarithms, with a weak prior about the
-first guess, and the errors of five channels divided by their standard deviations. The standard deviations are given here; awmr estimates
+The problem is that of awmr (lib/awmr/identify/logs). The log is split into windows of ten seconds. Unknown are eight parameters (all but
+the exponents as logarithms) with a weak prior around the first guess, and the initial state of each window with a weak prior around
+the measured state. The residuals are the errors of five channels, divided by standard deviations that are given here; awmr estimates
 them. All windows are integrated as one system of equations in NumPy, from one change of the commands to the next. The Jacobian uses
-finite differences. Fifteen perturbed solutions are enough, because the windows are independent; they are integrated together as well.
+finite differences with fifteen perturbed solutions (eight parameters, seven states), which are integrated together. Fifteen are
+enough, because the windows are independent.
 
 usage: scipy_fit.py VEHICLE.json LOG.csv
 """
@@ -32,8 +33,8 @@ EXPONENTS = ("surge_beta", "yaw_beta")
 # measurements.
 PARAMETER_STD = 5.0
 STATE_STD = np.array([100.0, 100.0, 10.0, 1.0, 1.0, 1.0, 0.2])
-# solve_ivp errs by less than a thousandth of the sensor noise. The error is equal in all
-# differences because they use the same steps.
+# With these tolerances the error of solve_ivp is below a thousandth of the sensor noise. It cancels in the finite differences,
+# because all perturbed solutions use the same steps.
 TOLERANCES = {"rtol": 1e-5, "atol": 1e-7}
 DIFFERENCE = 1e-4
 # As in awmr, the search ends when a step reduces half the sum of squares by less than this: a third
@@ -42,7 +43,7 @@ WORTH = 0.05
 
 
 def read_log(path):
-    """Commands F'L, F'R, d_ro and measured states, arrays (number, window, row); what no channel shows is 0."""
+    """Commands F'L, F'R, d_ro and measured states as arrays (quantity, window, row). States that no channel measures are 0."""
     table = np.genfromtxt(path, delimiter=",", names=True)
     rows = len(table) // WINDOW_ROWS * WINDOW_ROWS
     measured = np.zeros((STATE_SIZE, rows))
@@ -54,7 +55,7 @@ def read_log(path):
 
 
 def first_guess(commands, measured, vehicle):
-    """awmr's (initial_guess.cpp), from root mean squares; sway and servo as in vehicle.json."""
+    """The initial guess of awmr (initial_guess.cpp) from root mean squares; sway resistance and servo as in vehicle.json."""
     def rms(x):
         return math.sqrt(np.mean(x * x))
 
@@ -85,7 +86,8 @@ class Problem:
         self.windows = self.commands.shape[1]
         self.geometry = geometry_of(vehicle)
         guess = first_guess(self.commands, self.measured, vehicle)
-        # The chord at rest depends on awmr's step: a quarter of the shortest time constant.
+        # Near rest awmr replaces the resistance by a straight line, up to a speed that depends on its step: a quarter of the
+        # shortest time constant.
         self.step_s = 0.25 * min(guess["time_constant_s"], guess["mass_norm"] / guess["sway_alpha"])
         started = self.measured[:, :, 0].copy()
         started[6] = self.commands[2, :, 0]
@@ -100,7 +102,8 @@ class Problem:
         return low, high
 
     def standardised(self, unknowns):
-        """The errors over the sensors' standard deviations, (set, window, channel and row), of sets of unknowns, (set, unknown)."""
+        """Residuals divided by the sensors' standard deviations, shape (set, window, channel and row), for sets of unknowns of shape
+        (set, unknown)."""
         plant = SimpleNamespace(**values_of(unknowns[:, :len(NAMES)].T[:, :, np.newaxis]), **self.geometry)
         plant = resolved_at_rest(plant, self.step_s)
         state = np.moveaxis(unknowns[:, len(NAMES):].reshape(len(unknowns), self.windows, STATE_SIZE), 2, 0)

@@ -1,9 +1,9 @@
-"""The closed loop with SciPy's solve_ivp (RK45), called once per sample, as one would write it first. Prints the rows of the nominal run
-as JSON. Run by scripts/bench.
+"""The closed loop with SciPy's solve_ivp (RK45), called once per sample: the simplest program for the task. Prints the rows of the
+nominal run as JSON. Run by scripts/bench.
 
 usage: scipy_loop.py MODEL.json GAINS.json SCENARIO.json SUBSTEPS LANES
-  SUBSTEPS  awmr's Runge-Kutta steps per sample, on which the chord at rest depends; solve_ivp chooses its own steps
-  LANES     1: a single run, in plain numbers; else the number of runs, solved as one system of equations in NumPy
+  SUBSTEPS  awmr's Runge-Kutta steps per sample. They determine the resistance near rest; solve_ivp chooses its own steps
+  LANES     1: a single run with Python floats; otherwise the number of runs, solved as one system of equations in NumPy
 """
 import json
 import sys

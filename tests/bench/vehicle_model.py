@@ -1,8 +1,8 @@
-"""Vehicle, control laws and allocation in Python: the reference of scripts/bench.
+"""Vehicle, control laws and allocation in Python, for the NumPy and SciPy programs of scripts/bench.
 
 The equations are those of lib/awmr/model/dynamics.h and lib/awmr/control, implemented independently. A state is (x, y, psi, u, v, r, d_r)
-in m, rad, m/s and rad/s. With `on=numpy`, each of its numbers is an array with one element (a "lane") per run. With `on=NUMBERS` it is a
-plain number, which is several times as fast for a single run.
+in m, rad, m/s and rad/s. With `on=numpy`, each of the seven is an array with one element (a "lane") per run. With `on=NUMBERS` each is a
+Python float, which is several times as fast for a single run.
 """
 import json
 import math
@@ -14,7 +14,8 @@ import numpy as np
 NUMBERS = SimpleNamespace(cos=math.cos, sin=math.sin, arctan=math.atan, maximum=max, minimum=min,
                           where=lambda condition, chosen, other: chosen if condition else other)
 STATE_SIZE = 7
-# Below rest the controller uses the law itself; this avoids 0 to a negative power.
+# Rest speed for the controller, which uses the power law without the chord (see resistance()). Not 0, because 0 to a negative power
+# is infinite.
 NO_CHORD = 1e-300
 
 
@@ -23,17 +24,18 @@ def saturate(x, limit, on):
 
 
 def resistance(alpha, beta, rest_speed, speed, on):
-    """alpha |w|^beta sgn w, and below rest_speed the chord to the origin."""
+    """Power law alpha |w|^beta sgn w of the speed w; for |w| < rest_speed the straight line through the origin that meets it there
+    (the chord)."""
     return alpha * on.maximum(abs(speed), rest_speed) ** (beta - 1.0) * speed
 
 
 def rest_speed(alpha, beta, inertia, step_s):
-    """Speed below which the chord decays at the rate 1/h: w = (alpha h/inertia)^(1/(1 - beta)), beta < 1."""
+    """Rest speed at which motion on the chord decays at the rate 1/h: w = (alpha h/inertia)^(1/(1 - beta)), for beta < 1."""
     return (alpha * step_s / inertia) ** (1.0 / (1.0 - beta))
 
 
 def resolved_at_rest(plant, step_s):
-    """The plant with the chords at rest that steps of step_s need."""
+    """The plant with the rest speeds that integration steps of step_s need."""
     return SimpleNamespace(**{**vars(plant),
                               "surge_rest": rest_speed(plant.surge_alpha, plant.surge_beta, plant.mass_norm, step_s),
                               "yaw_rest": rest_speed(plant.yaw_alpha, plant.yaw_beta, plant.inertia_norm, step_s)})
@@ -47,7 +49,7 @@ def geometry_of(vehicle):
 
 
 def rates(p, state, left, right, steering_command_rad, on):
-    """Rates of the state under side forces over F_max and a steering command."""
+    """Time derivative of the state. `left`, `right`: forces of a left and a right wheel, divided by F_max."""
     _, _, psi, u, v, r, d_r = state
     cos_psi, sin_psi = on.cos(psi), on.sin(psi)
     one_plus_cos = 1.0 + on.cos(d_r)
@@ -67,7 +69,7 @@ def rates(p, state, left, right, steering_command_rad, on):
 
 
 def steering_h(c, tau_speed, half_ratio, on):
-    """tan(d_r/2)/2 for a moment of 2 l_f half_ratio, limited; and whether it is less than requested."""
+    """h = tan(d_r/2)/2 that makes a yaw moment of 2 l_f half_ratio, limited; and whether the limit reduced it."""
     able = tau_speed > 1e-6
     limit = c.h_max * on.maximum(0.0, on.minimum(1.0, 16.0 * tau_speed))
     asked = half_ratio / on.where(able, tau_speed, 1.0)
@@ -76,7 +78,8 @@ def steering_h(c, tau_speed, half_ratio, on):
 
 
 def allocated(c, tau_speed, tau_turn_m, on):
-    """F'L, F'R and d_r in combined mode: steering and wheel forces each make half of the moment, and the rest that the other cannot make."""
+    """F'L, F'R and d_r in combined mode. Steering and wheel forces each make half of the yaw moment; if one of them cannot, the other
+    makes the rest."""
     def clip(force):
         return on.maximum(c.force_min, on.minimum(c.force_max, force))
 
@@ -95,12 +98,12 @@ def allocated(c, tau_speed, tau_turn_m, on):
 
 
 def wrapped(angle_rad):
-    """The equivalent angle in [-pi, pi)."""
+    """The angle wrapped to [-pi, pi)."""
     return (angle_rad + math.pi) % (2.0 * math.pi) - math.pi
 
 
 def control(c, psi_goal_rad, speed_mps, state, on):
-    """Requests of the laws, tau_speed and tau_turn, and the resulting F'L, F'R, d_r."""
+    """Sliding-mode heading and speed laws. Returns the resulting F'L, F'R and d_r."""
     _, _, psi, u, v, r, _ = state
     sliding = c.lambda_ * wrapped(psi_goal_rad - psi) - r
     tau_turn_m = (resistance(c.yaw_alpha, c.yaw_beta, NO_CHORD, r, on) +
@@ -121,7 +124,7 @@ def plant_of(model):
 
 
 def plants_around(plant, step_s, lanes):
-    """The plant in lane 0; in the others each of its dynamic parameters times 1 +- 3 %, the exponents +- 1 %."""
+    """The plant in lane 0; in the other lanes its dynamic parameters with random changes of 3 % (exponents: 1 %; standard deviations)."""
     chance = np.random.default_rng(1)
     spread = {"surge_alpha": 0.03, "surge_beta": 0.01, "yaw_alpha": 0.03, "yaw_beta": 0.01, "mass_norm": 0.03, "inertia_norm": 0.03}
     lane = dict(vars(plant))
@@ -131,7 +134,7 @@ def plants_around(plant, step_s, lanes):
 
 
 class HeadingRun:
-    """A run of a heading scenario in combined mode, as the files say: the nominal plant, its controller, and the headings."""
+    """A run of a heading scenario in combined mode: the nominal plant, its controller and the heading commands, read from the files."""
 
     def __init__(self, model_path, gains_path, scenario_path, substeps):
         model, gains, scenario = (json.loads(pathlib.Path(path).read_text())

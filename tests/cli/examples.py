@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Runs every `awmr` example of the README and of the commands' helps in a directory that `init --example` filled, and validates the
-JSON files that they write by the program's schemas. usage: examples.py AWMR [RUN]
-RUN: directory with the results of configs/paper/project.json (pipeline_test.cpp), which is then not run again. With RUN, other
-searches for gains are short, and the paper's claims are left out."""
+"""Runs every `awmr` example of the README, of COMMANDS.md and of the help texts in a directory filled by `awmr init --example`, and
+validates the JSON files that they write against the program's schemas.
+
+usage: examples.py AWMR [RUN]
+  RUN  directory with existing results of configs/paper/project.json (pipeline_test.cpp). With RUN that project is not run again, other
+       searches for gains are short, and the paper's claims are not checked."""
 import importlib.util
 import json
 import shutil
@@ -43,7 +45,7 @@ def runs(line, folder):
 
 
 def is_like_source(folder):
-    """True if the inputs of the paper's project in the folder equal those in the source tree."""
+    """True if the folder has the inputs of the paper's project and they equal those in the source tree."""
     names = [path.relative_to(folder) for place in ("configs/paper", "datasets/paper") for path in (folder / place).rglob("*.*")]
     return names and all((folder / name).read_bytes() == (SOURCE / name).read_bytes() for name in names)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs every command once under Valgrind's memcheck: an invalid memory access, a jump that depends on an
-uninitialised value, or a memory leak fails. The sanitizers detect more but need a separate build (scripts/nightly).
+"""Runs every command once under Valgrind's memcheck. Fails on an invalid memory access, a jump that depends on an
+uninitialised value, or a memory leak. The sanitizers detect more but need a separate build (scripts/nightly).
 usage: memcheck.py AWMR"""
 import concurrent.futures
 import importlib.machinery
@@ -30,7 +30,7 @@ def commands(at, files):
     """{name: command line}; commands without mutated files in scripts/fuzz_commands are defined here."""
     words = {name: files.command_of(name, at, at / f"out_{name}") for name in files.READ}
     for name in ("identify-log", "live"):
-        # fifty times slower under memcheck: would take minutes
+        # These searches would take minutes, because memcheck slows them by a factor of fifty.
         words[name] += ["--time-limit", "1"]
     both = ["--model", f"{at}/model.json", "--gains", f"{at}/gains.json"]
     words.update({
@@ -65,11 +65,11 @@ def main():
         forgotten = names_of_help() - {words[0] for words in todo.values()}
         if not pathlib.Path(AWMR).with_name("awmr-pil").exists():
             del todo["pil"]
-        failures = [f"no case for: {name}" for name in sorted(forgotten)]
+        failures = [f"this test does not run awmr {name}; add it to commands()" for name in sorted(forgotten)]
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             for name, words, code, said in pool.map(lambda item: judge(*item), todo.items()):
                 if code not in (0, 1):
-                    failures.append(f"{name}: {code}: {' '.join(words)}\n{said[-3000:]}")
+                    failures.append(f"{name}: exit code {code}: {' '.join(words)}\n{said[-3000:]}")
     print(*failures, f"{len(todo)} commands under memcheck: {len(failures)} failures", sep="\n")
     return 1 if failures else 0
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the options that messages name: each is an option of the commands that print the message, and each key of
-project.json or tune.json in apps/awmr/project_options.cpp exists.
+"""Checks that each option named by a message is an option of a command that prints the message, and that each key of project.json
+or tune.json in apps/awmr/project_options.cpp exists.
 
 usage: options.py SOURCE AWMR
 """
@@ -34,7 +34,7 @@ assert {"run", "tune", "compare"} <= every, every
 
 
 def commands_of(path):
-    """The commands that print the messages of a source file; all, if it is shared."""
+    """The commands that print the messages of a source file; all commands if the file is shared."""
     name = path.relative_to(SOURCE).as_posix()
     own = re.fullmatch(r"apps/awmr/(\w+?)_\w+\.cpp", name)
     if own and own[1] in every:

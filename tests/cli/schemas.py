@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Validates every JSON file that the program writes, every one of configs/ and the output of --json by the program's own JSON
-Schemas, and checks that the schemas refuse what the program refuses. usage: schemas.py AWMR [FOLDER]
-With FOLDER: validates only the JSON files in that folder."""
+"""Validates JSON against the program's own JSON Schemas: every file that the program writes, every file of configs/, and the output of
+--json. Also checks that the schemas refuse the malformed files that the program refuses.
+
+usage: schemas.py AWMR [FOLDER]
+  FOLDER  validates only the JSON files in this folder"""
 import json
 import os
 import subprocess
@@ -14,7 +16,7 @@ import jsonschema
 SOURCE = Path(__file__).resolve().parents[2]
 AWMR = str(Path(sys.argv[1]).resolve())
 
-# Error codes of faults that depend on one key only. A schema can detect such cases of malformed.txt.
+# Error codes of faults that depend on one key only. A schema can detect the cases of malformed.txt with these codes.
 BY_ONE_KEY = ("missing", "wrong-type", "out-of-range", "unknown-name")
 # Cases that no schema detects. Rules between two keys: a line goes from_m to_m unless it has points_m, and a scenario has a speed_mps unless its
 # headings have a tau_speed.
@@ -65,7 +67,7 @@ def check(validators, document, where, kind):
     faults = list(validators[kind].iter_errors(document))
     for fault in faults[:5]:
         pointer = "/".join(map(str, fault.absolute_path))
-        print(f"{where}: not as {kind}.schema.json has it: /{pointer}: {fault.message[:200]}")
+        print(f"{where}: does not match {kind}.schema.json: /{pointer}: {fault.message[:200]}")
     return not faults
 
 
@@ -118,7 +120,7 @@ def pipeline(folder):
 
 
 def edited(document, edit):
-    """Like malformed_test.cpp; None if the edit does not change a JSON document."""
+    """The document with an edit of malformed.txt, as in malformed_test.cpp; None if the edit is not one of a JSON document."""
     if edit.startswith("text"):
         return None
     document = json.loads(json.dumps(document))
@@ -151,7 +153,7 @@ def malformed(validators, good):
     passed = [line for line in passed if line not in BETWEEN_KEYS and
               (line.split(" | ")[0], *line.split(" | ")[2:4]) not in BEYOND_SCHEMA]
     for line in passed:
-        print("the schema lets pass:", line)
+        print("the schema accepts, but the program refuses:", line)
     return seen, not passed
 
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Starts its own Slurm (Debian's slurm-wlm and munge: a controller and two nodes on the loopback, nothing outside of a
-temporary directory), runs a comparison and a recovery on it with scripts/cluster, loses a node and a task in between,
-damages a part, and compares the merged results with the bytes of a single run.
-usage: slurm.py AWMR. Ends with 77 if Slurm is not installed (scripts/setup all)."""
+"""Tests scripts/cluster on a Slurm of its own (Debian's slurm-wlm and munge): a controller and two nodes on the loopback interface, with
+all files in a temporary directory. Runs a comparison and a recovery, kills a node and a task meanwhile, damages a part, and
+checks that the merged results have the same bytes as a single run.
+
+usage: slurm.py AWMR. The exit code is 77 if Slurm is not installed (scripts/setup all)."""
 import getpass
 import json
 import os
@@ -23,7 +24,8 @@ DAEMONS = ("munged", "slurmctld", "slurmd")
 SKIPPED = 77
 LONGEST_S = 120  # maximum wait for any condition
 
-# The slow shard of the first array blocks on its first run, so that its node can be lost meanwhile.
+# Replaces the program: part 2 of the first array blocks on its first two starts, so that its node, then its task, can be killed
+# meanwhile.
 SLOW_AWMR = """#!/usr/bin/env bash
 set -euo pipefail
 if [ "${SLURM_ARRAY_TASK_ID:-}" = 2 ] && [ "${SLURM_RESTART_COUNT:-0}" -lt 2 ] && [ ! -e "$QUICK" ]; then
@@ -33,8 +35,8 @@ fi
 exec "$PROGRAM" "$@"
 """
 
-# A lost node is detected after SlurmdTimeout; a requeued task waits for cred_expire. linear: each
-# task has its own node.
+# Slurm detects a lost node after SlurmdTimeout and starts a requeued task after cred_expire; both are short for the test. With
+# select/linear each task has its own node.
 CONFIGURATION = """\
 ClusterName=awmr
 SlurmctldHost=localhost(127.0.0.1)
@@ -129,8 +131,8 @@ class Slurm:
             daemon.wait()
 
     def processes(self, node=None):
-        """All processes of this Slurm, or of one node: its daemon, what that started (slurmstepd, which keeps the daemon's
-        directory and overwrites its environment), and the tasks, whose environment tells."""
+        """All processes of this Slurm, or of one node: daemons, the slurmstepd processes that they start (recognised by the daemon's
+        directory, because they overwrite their environment), and tasks (recognised by their environment)."""
         directories = {str(self.at / name) for name in ([node] if node else NODES)}
         marks = [f"SLURM_CONF={self.at}/slurm.conf\0", *([f"SLURMD_NODENAME={node}\0"] if node else [])]
         daemons = {daemon.pid for name, daemon in self.daemons.items() if node in (None, name)}
@@ -140,19 +142,19 @@ class Slurm:
                 is_step = (path / "cmdline").read_bytes().startswith(b"slurmstepd")
                 directory = os.readlink(path / "cwd")
             except OSError:
-                continue  # it has ended or belongs to another user
+                continue  # the process has ended or belongs to another user
             is_task = all(mark.encode() in environment for mark in marks)
             if int(path.name) in daemons or is_task or is_step and directory in directories:
                 yield int(path.name)
 
     def lose(self, node):
-        """Ends the node as if its power had failed."""
+        """Kills all processes of the node, as a power failure would."""
         end(list(self.processes(node)))
         self.daemons.pop(node).wait()
 
     def say(self, *words):
         done = subprocess.run(words, env=self.environment, cwd=self.at, capture_output=True, text=True)
-        assert done.returncode == 0, f"{' '.join(words)}: {done.returncode}: {done.stdout}{done.stderr}"
+        assert done.returncode == 0, f"{' '.join(words)}: exit code {done.returncode}: {done.stdout}{done.stderr}"
         return done.stdout
 
     def states(self):
@@ -188,7 +190,7 @@ def awmr(at, *words):
 
 
 def prepare(at):
-    """Files of a small comparison; command lines of compare and recover."""
+    """Writes the files of a small comparison; returns the command lines of compare and recover."""
     tables = [word for kind in ("surge", "coastdown", "turning") for word in (f"--{kind}", ROOT / f"datasets/paper/{kind}.csv")]
     awmr(at, "identify", "--vehicle", ROOT / "configs/paper/vehicle.json", *tables, "-o", "model.json")
     (at / "gains.json").write_text(json.dumps({"heading": {"lambda": 3, "mu": 50, "epsilon": 12},
@@ -272,13 +274,13 @@ def main():
                 recover(slurm, recovery)
                 fail(slurm, compare)
                 left = list(slurm.processes())
-            assert left, "the daemons ran to the end"
-            assert not list(slurm.processes()), "and no process is left"
+            assert left, "the daemons ended before the test"
+            assert not list(slurm.processes()), "processes remain after the test"
         except BaseException:
             for log in sorted(p for p in at.rglob("*") if p.parent.name == "log" and p.is_file()):
                 print(f"--- {log.relative_to(at)}\n{log.read_text(errors='replace')[-3000:]}")
             raise
-    print("a node lost, a task requeued, a part damaged, a part that fails: the bytes are those of a single run")
+    print("passed: same bytes as a single run after a lost node, a requeued task and a damaged part; a failing part cancels the merge")
     return 0
 
 

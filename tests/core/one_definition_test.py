@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks that no two types, and no two inline functions or templates with one signature, have the same name in one namespace.
+"""Checks that no two types, and no two inline functions or templates with the same signature, have the same name in a namespace.
 
-Of two such definitions the linker keeps one for the whole program, without a warning, if the compiler did not inline them. Code
+If the compiler does not inline two such definitions, the linker silently keeps only one of them for the whole program. Code
 then uses the wrong one and can crash. usage: one_definition_test.py
 """
 import collections
@@ -57,7 +57,7 @@ def main():
     twice = {name: places for name, places in where.items() if len(places) > 1}
     for (space, name), places in sorted(twice.items()):
         print(f"{space}::{name} is defined in {', '.join(sorted(places))}")
-    print(f"{len(where)} definitions in {len(files)} files, {len(twice)} of one name")
+    print(f"{len(where)} definitions in {len(files)} files, {len(twice)} names defined more than once")
     return 1 if twice or len(where) < 500 else 0
 
 

@@ -1,6 +1,6 @@
 """Checks the index of the paper's equations, lib/awmr/model/README.md, against the citations in lib/.
 
-    equation_index_test.py           checks the sources, then that each kind of fault is found in a faulty copy
+    equation_index_test.py           checks the sources; then checks that this test detects each kind of fault in a faulty copy of them
     equation_index_test.py --list    prints every citation with the declaration below it, for a new row
 """
 
@@ -35,7 +35,7 @@ class Citation:
     file: str
     line: int
     text: str
-    names: frozenset  # of what it documents and of its enclosing scopes
+    names: frozenset  # of the declaration that it documents and of the enclosing scopes
 
 
 def indent_of(line):
@@ -97,7 +97,7 @@ def citations(root, faults):
             place = f"{file}:{i + 1}"
             whole = CITATION.findall(line)
             if len(whole) != len(re.findall(r"\[paper\b", line)) or re.search(r"[\[(]paper\s*$", line):
-                faults.append(f"{place}: a citation is broken over two lines; it stands on one")
+                faults.append(f"{place}: a citation is broken over two lines; write it on one line")
             for text in whole:
                 if EQUATIONS.match(text):
                     found.append(Citation(file, i + 1, text, names_at(lines, i)))
@@ -136,15 +136,15 @@ def check(root):
             if NOTE.match(line):
                 covered |= numbers(NOTE.match(line)["equations"])
             elif line.startswith("| ("):
-                faults.append(f"{place}: a row that is neither of the index nor of the notes")
+                faults.append(f"{place}: the row has neither the columns of the index nor those of the notes")
             continue
         rows.append(row)
         covered |= numbers(row["equations"])
         here = [c for c in cited if (c.file, c.text) == (row["file"], row["equations"])]
         if not here:
-            faults.append(f"{place}: [paper {row['equations']}] does not stand in {row['file']}")
+            faults.append(f"{place}: {row['file']} does not cite [paper {row['equations']}]")
         elif not any(row["function"] in c.names for c in here):
-            faults.append(f"{place}: in {row['file']} [paper {row['equations']}] does not stand at {row['function']}")
+            faults.append(f"{place}: in {row['file']}, [paper {row['equations']}] is not cited at {row['function']}")
         for name, link in ((row["file"], row["link"]), (row["test"], row["test_link"])):
             if (root / INDEX).parent.joinpath(link).resolve() != (root / name).resolve():
                 faults.append(f"{place}: the link {link} does not lead to {name}")
@@ -157,12 +157,12 @@ def check(root):
         if row["by"]:
             library = library or frozenset().union(*(words_in(p.read_text(encoding="utf-8")) for p in sources(root)))
             if row["by"] not in library:
-                faults.append(f"{place}: nothing in lib/ is called {row['by']}")
+                faults.append(f"{place}: lib/ has no name {row['by']}")
     for c in cited:
         if not any((r["file"], r["equations"]) == (c.file, c.text) and r["function"] in c.names for r in rows):
             faults.append(f"{c.file}:{c.line}: [paper {c.text}] at {', '.join(sorted(c.names))} is not in {INDEX}")
     for number in sorted(set(range(1, LAST_EQUATION + 1)) - covered):
-        faults.append(f"{INDEX}: says nothing of equation ({number})")
+        faults.append(f"{INDEX}: has no row for equation ({number})")
     return faults, len(rows), len(cited)
 
 
@@ -174,7 +174,7 @@ class EquationIndex(unittest.TestCase):
 
 
 class Faults(unittest.TestCase):
-    """Checks that each kind of fault is found in a copy of the sources."""
+    """Checks that check() detects each kind of fault, in a copy of the sources."""
 
     @classmethod
     def setUpClass(cls):
@@ -189,7 +189,7 @@ class Faults(unittest.TestCase):
         cls.before = check(cls.root)[0]
 
     def write(self, file, text):
-        """Until the end of the test."""
+        """Replaces the text of a file until the end of the test."""
         path = self.root / file
         self.addCleanup(path.write_text, path.read_text(encoding="utf-8"), encoding="utf-8")
         path.write_text(text, encoding="utf-8")
@@ -215,12 +215,12 @@ class Faults(unittest.TestCase):
     def test_a_row_for_another_file(self):
         row = ROW.match(self.row)
         self.edit(INDEX, self.row, self.row.replace(row["file"], "lib/awmr/core/units.h"))
-        self.expect("does not stand in lib/awmr/core/units.h")
+        self.expect("lib/awmr/core/units.h does not cite")
 
     def test_a_row_for_another_function(self):
         row = ROW.match(self.row)
         self.edit(INDEX, self.row, self.row.replace(f"`{row['function']}`", "`other_function`"))
-        self.expect("does not stand at other_function")
+        self.expect("is not cited at other_function")
 
     def test_a_test_that_does_not_exist(self):
         row = ROW.match(self.row)
@@ -236,7 +236,7 @@ class Faults(unittest.TestCase):
         text = (self.root / INDEX).read_text(encoding="utf-8")
         kept = [l for l in text.splitlines() if not (l.startswith("| (") and 103 in numbers(l.split(" | ")[0]))]
         self.write(INDEX, "\n".join(kept) + "\n")
-        self.expect("says nothing of equation (103)")
+        self.expect("has no row for equation (103)")
 
 
 if __name__ == "__main__":

@@ -1,13 +1,12 @@
 """Compares the fit of a driving log with SciPy's: solve_ivp for the motion, least_squares for the search.
 
-Both fit eight parameters and every window's initial state to the same simulated log, with white noise of unknown
-standard deviation; the equations of motion are implemented independently here. SciPy starts from the program's guess of that
-standard deviation, computes derivatives by finite differences over many trajectories at once, and uses the sparsity of
-the Jacobian.
+awmr and SciPy fit eight parameters and every window's initial state to the same simulated log, with white noise of unknown
+standard deviation. The equations of motion are implemented independently here. SciPy starts from awmr's guess of the
+parameters, computes derivatives by finite differences over many trajectories at once, and uses the sparsity of the Jacobian.
 
-The program's Runge-Kutta steps last a row. SciPy's steps end where a command changes and have a tolerance of 1e-7. The
-difference is the error of the program's step, which is largest for the servo's time constant of six rows. All
-parameters have to agree within a tenth of their standard error.
+awmr makes one Runge-Kutta step per row. SciPy's steps end where a command changes and have a tolerance of 1e-7. The
+difference is therefore the error of awmr's step, which is largest for the servo, whose time constant is only six rows. All
+parameters must agree within a tenth of their standard error.
 
 usage: scipy_log.py AWMR [--duration SECONDS] [--seed N]
 """
@@ -39,7 +38,7 @@ VEHICLE = {"schema": "awmr.vehicle/1", "name": "robot", "mass_kg": 3.2, "length_
 
 
 def rates(p, s, left, right, command):
-    """p: (8, n), s: (7, n); the commands are one number or n."""
+    """Time derivative of n states s, shape (7, n), with parameters p, shape (8, n). Each command is one number or an array of n."""
     a1, b1, a3, b3, a_s, m, inertia, lag = p
     x, y, psi, u, v, r, d = s
     total, cos_1 = left + right, np.cos(d) + 1.0
@@ -53,7 +52,8 @@ def rates(p, s, left, right, command):
 
 
 def replay(p, first, log, rows):
-    """States at the rows of one window, (rows, 7, n), from `first` (7, n): solve_ivp from command to command."""
+    """States at the rows of one window, shape (rows, 7, n), by solve_ivp from one change of the commands to the next. `first`: the
+    initial states, shape (7, n)."""
     n = first.shape[1]
     states = np.empty((len(rows), 7, n))
     states[0] = first
@@ -113,7 +113,7 @@ class Problem:
         return np.concatenate([self.guess, self.measured.ravel()])
 
     def window_residuals(self, i, theta, first):
-        """(residuals, n) of window i for n points at once; theta: (8, n), first: (7, n)."""
+        """Residuals of window i, shape (residuals, n), for n sets of parameters theta (8, n) and initial states first (7, n) at once."""
         p = np.where(EXPONENT[:, None], theta, np.exp(theta))
         rows = self.windows[i]
         states = replay(p, first, self.log, rows)
@@ -144,7 +144,8 @@ class Problem:
         return np.vstack(blocks + [pull])
 
     def settle(self, z):
-        """Sets the white noise to its most likely values for these residuals; returns the largest change."""
+        """Sets the standard deviations of the noise to those of the residuals at z, corrected for the number of unknowns. Returns the
+        largest relative change."""
         r, at, change = self.residuals(z), 0, 0.0
         squares, count = dict.fromkeys(PLACE, 0.0), dict.fromkeys(PLACE, 0)
         for rows in self.windows:
@@ -184,7 +185,7 @@ def by_awmr(awmr, directory):
     found = {p["name"]: p for p in fit["parameters"]}
     order = [p["name"] for p in fit["parameters"]]
     guess = dict(zip(order, fit["starts"][0]["values"]))
-    if "correlated" in fit["noise"]: raise SystemExit("the program found a drift: choose another seed")
+    if "correlated" in fit["noise"]: raise SystemExit("awmr found correlated noise, which this comparison does not model: choose another --seed")
     return found, np.array([guess[n] for n in NAMES]), seconds
 
 
@@ -209,8 +210,8 @@ def main():
         worst = max(worst, apart / ours[name]["std_error"])
         print(f"{name:26} {ours[name]['value']:.9g} {value:.9g}, relative {apart / value:.1e}, "
               f"{apart / ours[name]['std_error']:.1e} standard errors")
-    print(f"at most {worst:.1e} standard errors apart; awmr {seconds:.2f} s from nothing, SciPy {scipy_seconds:.1f} s "
-          f"({jacobians} Jacobians) from the program's guess: {scipy_seconds / seconds:.0f} times as long")
+    print(f"at most {worst:.1e} standard errors apart; awmr {seconds:.2f} s without a guess, SciPy {scipy_seconds:.1f} s "
+          f"({jacobians} Jacobians) from awmr's guess: {scipy_seconds / seconds:.0f} times as long")
     return 0 if worst < 0.1 else 1
 
 

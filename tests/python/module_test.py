@@ -213,7 +213,7 @@ class Module(unittest.TestCase):
         self.assertEqual(ours["numbers"], best["settings"])
 
     def assert_raises_as(self, kind, call, *words):
-        """The exception's lines are those of the command without "error: "."""
+        """Checks that the exception has the lines that the command prints, without "error: "."""
         told = command(*words)
         with self.assertRaises(kind) as raised:
             call()

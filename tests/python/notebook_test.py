@@ -1,4 +1,4 @@
-"""The example notebook runs, cell by cell, where `awmr init --example .` has written its files."""
+"""Checks that every cell of the example notebook runs in a folder filled by `awmr init --example .`."""
 import contextlib
 import io
 import json

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The figures of `awmr report --figures`, drawn by its plot.py: complete, readable by other programs, reproducible.
+"""Checks that the figures of `awmr report --figures`, drawn by the plot.py that it writes, are complete, well-formed and reproducible.
 
 usage: figures.py AWMR
 """
@@ -62,7 +62,7 @@ def draw(at, *names):
 
 
 def series_of(at, name):
-    """Names of the series of figures.json that have rows in the CSV, by panel and series."""
+    """Names of the series of a figure in figures.json, in the order of panels and series, that have rows in its CSV file."""
     figure = next(one for one in json.loads((at / "figures.json").read_text())["figures"] if one["name"] == name)
     with open(at / f"{name}.csv", newline="") as file:
         rows = list(csv.DictReader(file))
@@ -75,7 +75,7 @@ def series_of(at, name):
 
 
 def check_svg(path):
-    """Well-formed, 150 mm wide, text as text."""
+    """Checks that the SVG is well-formed, 150 mm wide, and contains its text as text, not as outlines."""
     root = ET.fromstring(path.read_bytes())
     assert abs(float(root.get("width").removesuffix("pt")) / 72 * 25.4 - 150) < 0.1, root.get("width")
     assert texts(root), path
@@ -83,7 +83,7 @@ def check_svg(path):
 
 
 def check_pdf(path):
-    """One page, every font embedded, no date."""
+    """Checks that the PDF has one page, embeds every font and contains no date (so that it is reproducible)."""
     pdf = path.read_bytes()
     assert pdf.startswith(b"%PDF-") and pdf.rstrip().endswith(b"%%EOF"), path
     assert len(re.findall(rb"/Type /Page\b(?!s)", pdf)) == 1, path
@@ -184,7 +184,7 @@ def main():
             (alone / "gains.json").write_text(json.dumps(broken))
             assert "gains.json" in awmr("report", alone, "--figures", at / "broken", code=2).stderr
             assert not (at / "broken").exists()
-    print(f"{len(figures)} figures looked at")
+    print(f"{len(figures)} figures checked")
 
 
 main()

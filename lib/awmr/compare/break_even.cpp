@@ -20,12 +20,12 @@
 namespace awmr {
 namespace {
 
-/// Smallest moment of the search, as a fraction of the largest one. The search goes from small to
-/// large moments, a decade at a time, because runs with a larger moment need shorter integration
-/// steps.
+/// Smallest scrub moment of the search, as a fraction of the largest one. The search goes from
+/// small to large moments, a factor of ten at a time, because runs with a larger moment need
+/// shorter integration steps.
 constexpr double kMin = 1e-4;
 
-/// A scenario on the nominal model, with the mode whose lead is examined.
+/// A scenario on the nominal model, and the mode whose break-even scrub is computed.
 struct ModeSetting {
   const Scenario* scenario;
   YawMode mode;
@@ -54,8 +54,8 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
 }
 
 /// True if a mode with scrub (`run`) has no worse score than the other mode with the same scrub
-/// (`other`), or if `other` failed. False if `run` fails, does not complete although the mode does
-/// so without scrub (`without`), or lacks a metric that the mode has without scrub, such as a
+/// (`other`), or if the run of the other mode failed. False if `run` failed, did not complete
+/// although the run without scrub (`without`) did, or lacks a metric that `without` has, such as a
 /// settling time.
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
@@ -89,8 +89,8 @@ std::optional<std::size_t> first_false(const std::vector<bool>& all) {
   return at(found - all.begin());
 }
 
-/// Smallest moment with which the mode is no longer ahead, with an error of at most 1 %; absent if
-/// the mode is ahead up to `most_m`. `ahead` returns for each moment whether the mode is ahead.
+/// Smallest scrub moment at which the mode is no longer ahead, with an error of at most 1 %; absent
+/// if it is ahead up to `most_m`. `ahead` returns for each moment whether the mode is ahead.
 template <class Ahead>
 std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   constexpr double kFine = 0.01;
@@ -138,12 +138,12 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
   return rows;
 }
 
-/// A pair of modes whose break-even scrub is to be computed: the inputs, and the result to complete
-/// (`entry`).
+/// A pair of modes whose break-even scrub is to be computed: the inputs, and the result (`entry`),
+/// which is completed later.
 struct Question {
   ModeSetting setting;
   std::vector<ScoredMetric> scoring;
-  Metrics own;  ///< metrics of `setting.mode` without scrub
+  Metrics own;  ///< metrics of the run of `setting.mode` without scrub
   BreakEven entry;
 };
 
@@ -185,7 +185,7 @@ void answer(Question& question) {
 }
 
 /// Adds to an otherwise complete entry the scrub that was measured in differential turns, and the
-/// number of turns that would decide the comparison.
+/// number of differential turns that would decide whether the mode is ahead.
 void add_measured(const Model& model, BreakEven& entry) {
   const auto& scrub = model.yaw_scrub;
   if (scrub) {

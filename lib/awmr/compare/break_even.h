@@ -11,18 +11,18 @@
 namespace awmr {
 
 /// Computes, for each scenario and each pair of modes, the scrub at which the first mode is no
-/// longer better than the second. A pair is left out unless its first mode has the larger
-/// wheel-force differences (differential > combined > steering), the better score without scrub,
-/// and completes if the second does. The controller does not compensate the scrub. `comparison` has
-/// the runs of sample 0 with one set of gains. Errors (input): yaw resistance was identified from
-/// differential turns; as compare().
+/// longer better than the second. Only pairs are used whose first mode has the larger wheel-force
+/// differences (differential > combined > steering), has the better score without scrub, and
+/// completes the scenario if the second does. The controller does not compensate the scrub.
+/// `comparison` has the runs of sample 0 with one set of gains. Errors (input): yaw resistance was
+/// identified from differential turns and therefore already includes scrub; as compare().
 Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
                                              const std::vector<Scenario>& scenarios,
                                              const Comparison& comparison,
                                              const CompareOptions& options);
 
-/// True if the highest yaw rate of the run is above the rates at which scrub was measured, or below
-/// them, by more than a factor of 1.2 (kLittleFurther). False if scrub was not measured.
+/// True if the highest yaw rate of the run is outside of the range of yaw rates at which scrub was
+/// measured, by more than a factor of 1.2 (kLittleFurther). False if scrub was not measured.
 bool turns_at_other_rates(const BreakEven& entry);
 
 /// Text for a terminal: for each pair of modes the smallest break-even scrub of all scenarios, the

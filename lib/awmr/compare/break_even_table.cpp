@@ -11,9 +11,9 @@
 namespace awmr {
 namespace {
 
-/// Lines for one pair of modes: the numbers of scenarios in which, with the measured scrub, the
-/// first mode is still ahead, is no longer ahead, or neither is certain. `all`: the entries of the
-/// pair.
+/// Text for one pair of modes: the numbers of scenarios in which, with the measured scrub, the
+/// first mode is still ahead, is no longer ahead, and in which this is undecided. `all`: the
+/// entries of the pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;
@@ -72,7 +72,7 @@ std::string pair_text(const std::pair<YawMode, YawMode>& modes,
   return all.front()->measured_m ? text + decided(all) : text;
 }
 
-/// The scrub of this vehicle, as far as it was measured.
+/// Text of the scrub that was measured for this vehicle.
 std::string measured_text(const BreakEven& entry) {
   if (!entry.measured_m) {
     return "not measured in this vehicle.\n"

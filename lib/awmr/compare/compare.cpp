@@ -151,8 +151,8 @@ Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<N
   return {};
 }
 
-/// Longest run, in samples, whose noise is drawn in advance: it takes 24 bytes per sample, and 38 MB
-/// in a batch.
+/// Longest run, in samples, whose noise is drawn in advance and shared. The noise takes 24 bytes
+/// per sample and run, up to 38 MB for a batch.
 constexpr double kMaxSharedNoise = 1e5;
 
 /// A batch of runs: one scenario, set of gains and mode, with the samples to run.
@@ -202,15 +202,16 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
                               const Block& block, YawMode mode, std::uint64_t seed) {
   std::vector<BatchRun> runs;
   for (const std::size_t sample : block.samples) {
-    // Seed 0 for sample 0: the run is that of `awmr simulate`, whose only seed is the scenario's.
+    // Sample 0 has seed 0, so that its run equals that of `awmr simulate`, which uses only the seed
+    // of the scenario.
     runs.push_back({plants.vehicle(block.scenario, sample), controller, mode,
                     sample == 0 ? 0 : seed, static_cast<std::uint64_t>(sample)});
   }
   return runs;
 }
 
-/// Draws the noise of the block's runs, or takes it from a block of the same samples in another mode
-/// or with other gains.
+/// Draws the noise of the block's runs, or takes it from another block with the same samples (in
+/// another mode or with other gains) that has drawn it.
 void share_noise(const Scenario& scenario, double sample_time_s, const Block& block,
                  std::vector<BatchRun>& runs) {
   if (scenario.duration_s / sample_time_s > kMaxSharedNoise) return;
@@ -321,7 +322,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   if (options.other_settings && options.shard.index == 1 && !comparison.stopped) {
     comparison.changes = changes_of_runs(model, gains, scenarios, options);
     comparison.stopped = options.stop != nullptr && options.stop->load();
-    if (comparison.stopped) comparison.changes.clear();  // incomplete
+    if (comparison.stopped) comparison.changes.clear();  // they would be incomplete
   }
   return comparison;
 }

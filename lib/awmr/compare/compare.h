@@ -27,7 +27,7 @@ namespace awmr {
 
 /// One set of gains, with its name in the rows of the comparison.
 struct NamedGains {
-  std::string name;  ///< empty if there is a single set
+  std::string name;  ///< name of the set; empty if there is only one set
   Gains<double> gains;
 };
 
@@ -43,7 +43,7 @@ struct ComparisonRow {
 /// A yaw mode with a set of gains, as ranked in a scenario.
 struct Contender {
   YawMode mode{};
-  std::string gains;  ///< NamedGains::name; empty with a single set
+  std::string gains;  ///< NamedGains::name; empty if there is only one set
 
   /// Name for tables and messages: "combined", or "combined with tuned.json" if there are several
   /// sets of gains.
@@ -51,7 +51,8 @@ struct Contender {
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// With fewer samples than this, 95 % intervals cover less than 95 %.
+/// With fewer samples than this, 95 % intervals contain the true value less often than in 95 % of
+/// the cases.
 inline constexpr int kFewSamples = 6;
 
 /// Maximum number of runs of a comparison. The number of runs is scenarios x sets of gains x modes
@@ -65,7 +66,7 @@ struct CompareOptions {
   /// Seed of the draws, the noise and the bootstrap. Repeat with other seeds to see how much a
   /// verdict depends on chance.
   std::uint64_t seed = 1;
-  /// Weights of the ranking. The rows do not depend on them.
+  /// Weights of the metrics in the ranking. They do not affect the simulated rows.
   Preferences preferences = {};
   /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
@@ -84,16 +85,18 @@ struct CompareOptions {
   std::vector<ComparisonRow> finished = {};
   /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// When *stop becomes true, runs in progress finish and no other run starts. Null: never stopped.
+  /// When *stop becomes true, runs in progress finish and no other run starts. Null: the comparison
+  /// cannot be stopped.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Scrub (Plant::yaw_scrub_m) at which a mode is no longer ahead of another, for the nominal model.
-/// The scrub acts in every mode; the controller does not compensate it.
+/// Break-even scrub (Plant::yaw_scrub_m) of two modes on the nominal model: the scrub at which the
+/// first is no longer ahead of the second. Scrub acts in every mode; the controller does not
+/// compensate it.
 struct BreakEven {
   std::string scenario;
-  YawMode mode{};     ///< differential or combined: it has the better score without scrub
-  YawMode against{};  ///< a mode with smaller wheel-force differences
+  YawMode mode{};     ///< the mode with the better score without scrub
+  YawMode against{};  ///< the other mode, which has smaller wheel-force differences
   /// Smallest scrub at which `mode` is no longer ahead, m, > 0; its error is at most 1 %, or 3e-8
   /// of most_m. Absent if the mode stays ahead up to most_m.
   std::optional<double> yaw_coulomb_m;
@@ -103,13 +106,13 @@ struct BreakEven {
   double sliding_m = 0.0;
   /// Highest yaw rate in the run of `mode` on the nominal model without scrub, deg/s, >= 0.
   double fastest_degps = 0.0;
-  /// Range of the scrub measured in differential turns, m: the 95 % interval, widened to the range
-  /// over the yaw rates if scrub depends on them, and to the largest moment that did not turn the
-  /// vehicle. If the model has only this moment, the range is from it to most_m. Absent if the
-  /// model has neither.
+  /// Range of the scrub measured in differential turns, m: the 95 % interval. If scrub depends on
+  /// the yaw rate, the range includes its values at all measured rates. It also includes the
+  /// largest moment that did not turn the vehicle; if the model has only this moment, the range is
+  /// from it to most_m. Absent if the model has neither.
   std::optional<Interval> measured_m = {};
-  std::optional<Interval> measured_degps =
-      {};  ///< yaw rates of these turns, deg/s; absent if the model has no scrub
+  /// Yaw rates of these turns, deg/s; absent if the model has no scrub.
+  std::optional<Interval> measured_degps = {};
   /// Total number of differential turns (recorded and further ones) that would decide whether
   /// `mode` is ahead, if their mean and scatter stay the same. At most 1000. Absent if the question
   /// is already decided, or if turns cannot decide it.
@@ -120,12 +123,13 @@ struct BreakEven {
 enum class Lead {
   kKept,  ///< the mode is ahead in the whole measured range
   kLost,  ///< the mode is ahead nowhere in the measured range
-  kOpen,  ///< undecided: the mode is ahead in a part of the range, or scrub was not measured at the
-          ///< yaw rates of the run
+  /// Undecided: the mode is ahead in only a part of the range, or scrub was not measured at the yaw
+  /// rates of the run.
+  kOpen,
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
     {{"kept", Lead::kKept}, {"lost", Lead::kLost}, {"open", Lead::kOpen}}};
-/// Returns the Lead of an entry; absent without measured scrub.
+/// Returns the Lead of an entry; absent if scrub was not measured.
 std::optional<Lead> lead_of(const BreakEven& entry);
 
 /// An assumption that is changed to test whether the ranking depends on it.
@@ -137,17 +141,18 @@ inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind
 /// Number of completed runs of one contender in a changed setting.
 struct Completion {
   Contender contender;
-  std::size_t count = 0;  ///< completed runs
-  std::size_t of = 0;     ///< all runs of the statistics (ModeRows::counted()), > 0
+  std::size_t count = 0;  ///< number of completed runs
+  std::size_t of = 0;     ///< number of runs in the statistics (ModeRows::counted()), > 0
 };
 
 /// The best modes of a scenario when one assumption is changed.
 struct Change {
   std::string scenario;
   ChangeKind kind{};
-  std::string setting;           ///< "four-wheel", "model"; "slower", "faster"; "within a factor 2"
-  std::vector<Contender> first;  ///< modes of rank 1; kWeights: of rank 1 with all changed weights
-  std::string not_run = {};      ///< why there is no ranking in this setting; empty if there is one
+  std::string setting;  ///< changed plant ("model"), gains ("slower") or weights
+  /// Modes of rank 1; for kWeights, modes of rank 1 with all these weights.
+  std::vector<Contender> first;
+  std::string not_run = {};  ///< reason why there is no ranking; empty if there is one
   std::vector<Completion> completed = {};  ///< by contender; empty for kWeights, which runs nothing
 };
 
@@ -158,7 +163,7 @@ struct Comparison {
   /// finished run in every scenario, mode and set of gains. Fewer than requested if the comparison
   /// was stopped, or is a part.
   int whole_samples = 0;
-  bool stopped = false;  ///< true: not all runs were done
+  bool stopped = false;  ///< true: stopped before all runs were done
   /// Rounding of the runs (BatchArithmetic::rounding): "fused" or "scalar". Rows with different
   /// rounding cannot be combined.
   std::string arithmetic = {};
@@ -171,12 +176,12 @@ struct Comparison {
   std::vector<Change> changes = {};
 };
 
-/// Runs every scenario with every mode and set of gains, on the nominal model and on samples. For a
-/// sample, the fitted parameters are drawn from the model's covariance (simulate/plant_sampler.h),
-/// and noise and disturbances from the seeds of scenario and options. All modes and gains use the
-/// same draws. The controller uses the nominal values. Blocks of kBatchRuns samples
-/// (simulate/batch.h) are run in every scenario and mode before the next block, so a stopped
-/// comparison is valid, with fewer samples.
+/// Simulates every scenario with every mode and set of gains, on the nominal model and on samples.
+/// For a sample, the fitted parameters are drawn from the model's covariance
+/// (simulate/plant_sampler.h), noise and disturbances from the seeds of scenario and options. All
+/// modes and gains use the same draws. The controller has the nominal values. A block of kBatchRuns
+/// samples (simulate/batch.h) is finished in every scenario and mode before the next block starts,
+/// so a stopped comparison is valid for the samples that it finished.
 /// Errors (input): the model lacks a parameter, a covariance (with samples) or an interval that a
 /// scenario's corner needs; as check_scenario() and controller_for(); no scenario or gains, or two
 /// of the same name; a negative number of samples or threads; a part that does not exist; more than

@@ -19,9 +19,9 @@ std::vector<Finding> compare_findings(const Model& model, const std::vector<Scen
                                       const CompareOptions& options, const Comparison& comparison,
                                       const HeadingRateChoice& rate);
 
-/// Returns a warning (`beyond-trials`) about the run with the highest yaw rate. Empty if no run
-/// turns more than 1.2 times as fast as the trials that yaw resistance was identified from, or if
-/// their yaw rate is unknown. `provenance` is that of the comparison.
+/// Returns the warning `beyond-trials` about the run with the highest yaw rate, if it exceeds 1.2
+/// times the highest yaw rate of the trials from which yaw resistance was identified. Empty
+/// otherwise, or if that rate is unknown. `provenance`: provenance of the comparison.
 std::vector<Finding> extrapolation_findings(const Comparison& comparison,
                                             const Provenance& provenance);
 

@@ -93,8 +93,8 @@ Json labels_json(const std::vector<Contender>& contenders) {
   return labels;
 }
 
-/// Decision on a scenario as JSON. `all`: changes of all scenarios, including those that could not
-/// be run; of these, the ones of this scenario are added with their reason.
+/// Decision on a scenario as JSON. `all`: changes of all scenarios. Those of this scenario that
+/// could not be run are added with the reason.
 Json decision_json(const std::string& scenario, const Decision& decision,
                    const std::vector<Change>& all) {
   Json json = {{"kind", name_in(kDecisionKindNames, decision.kind())},
@@ -296,7 +296,7 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
                             const Provenance& provenance) {
   Json json = output_document("awmr.comparison/1", provenance);
   json["arithmetic"] = comparison.arithmetic;
-  // Identifies the comparison.csv that belongs to this comparison.json.
+  // The hash shows which comparison.csv belongs to this comparison.json.
   json["csv_sha256"] = sha256_hex(comparison_csv(comparison));
   const Comparison evaluated = evaluated_part(comparison);
   const int samples =

@@ -143,7 +143,7 @@ void describe_break_even(JsonObject& json) {
     entry.number("fastest_degps", kNonNegative);
     entry.optional_interval("measured_m");
     entry.optional_interval("measured_degps");
-    if (entry.has("lead")) entry.choice("lead", kLeadNames);  // present if measured_m is
+    if (entry.has("lead")) entry.choice("lead", kLeadNames);  // present if measured_m is present
     entry.optional_integer("turns_to_decide", 0, kMax);
     entry.reject_unknown_keys();
   }

@@ -76,7 +76,8 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
   return text;
 }
 
-/// Text: "decisions: 3 decided, 1 level, 2 undecided; survive a change of plant in 3 of 6, ..."
+/// Text such as "decisions: 3 decided, 1 level, 2 undecided; survive a change of plant in 3 of 6,
+/// ...".
 std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   DecisionTally tally = tally_decisions(scenarios);
   std::string text;

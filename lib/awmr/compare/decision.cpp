@@ -28,9 +28,9 @@ std::vector<Contender> first_of(const std::vector<RankedMode>& ranking) {
   return first;
 }
 
-/// Multiplies or divides each weight w_k by kWeightFactor, so that `own` compares as badly as
-/// possible with `other`. Let d_k be the mean loss of own minus that of other in metric k, and m =
-/// ln(1 + relevance). Own is behind if
+/// Multiplies or divides each weight w_k by kWeightFactor, so that `own` is as far behind `other`
+/// as possible. Let d_k be the mean loss of own minus that of other in metric k, and m = ln(1 +
+/// relevance). Own is behind if
 ///   sum over k of w_k (d_k - m) > 0.
 /// Each term is maximised separately: w_k is multiplied by the factor if d_k > m, else divided.
 Preferences worst_weights(const ModeRows& own, const ModeRows& other,
@@ -47,8 +47,8 @@ Preferences worst_weights(const ModeRows& own, const ModeRows& other,
   return worst;
 }
 
-/// Finds the contenders that have rank 1 with every weight between 1/kWeightFactor and
-/// kWeightFactor times its value.
+/// Finds the contenders that have rank 1 whatever the weights are, if each is between
+/// 1/kWeightFactor and kWeightFactor times its value.
 Change change_of_weights(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                          const Preferences& preferences, std::uint64_t seed) {
   const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
@@ -129,9 +129,8 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
                                                std::vector<Change>& changes) {
   std::vector<ChangedScenario> changed;
   for (const Scenario& scenario : scenarios) {
-    if (std::holds_alternative<OpenLoop>(scenario.guidance))
-      continue;  // an open-loop scenario has
-                 // no ranking
+    // An open-loop scenario has no ranking.
+    if (std::holds_alternative<OpenLoop>(scenario.guidance)) continue;
     Change change{.scenario = scenario.name,
                   .kind = ChangeKind::kPlant,
                   .setting = std::string(name_in(kPlantKindNames, other_plant(scenario))),
@@ -173,8 +172,8 @@ std::string in_words(const Change& change) {
   return {};
 }
 
-/// "; differential completed 0 of 1 on the four-wheel plant": modes that complete no run under a
-/// change.
+/// Text such as "; differential completed 0 of 1 on the four-wheel plant": names the modes that
+/// complete no run under a change.
 std::string incomplete_in_words(const std::vector<Change>& changes) {
   std::string text;
   for (const Change& change : changes) {

@@ -37,16 +37,16 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
 /// change.
 struct Decision {
   std::vector<Contender> first;  ///< modes of rank 1 in the ranking
-  std::vector<Change> changes;   ///< changes with a ranking: at least the change of weights, which
-                                 ///< needs no runs
+  /// Changes for which a ranking exists: always the change of weights, which needs no runs.
+  std::vector<Change> changes;
 
   /// Contenders of rank 1 in the ranking and under every change.
   std::vector<Contender> never_behind() const;
   DecisionKind kind() const;
-  /// True if one of `first` is of rank 1 under the change.
+  /// True if one of `first` has rank 1 under the change.
   bool survives(const Change& change) const;
-  /// Names of trials that would show which plant describes the vehicle, if the best modes differ
-  /// between the plants; else empty.
+  /// If the best modes of the two plants differ: names of the trials that would show which plant
+  /// describes the vehicle. Otherwise empty.
   std::vector<std::string_view> deciding_trials() const;
 };
 
@@ -68,8 +68,8 @@ Decision decide(const ScenarioRows& scenario, const ScenarioStatistics& statisti
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed);
 
-/// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...". Then follow the
-/// modes that complete no run under a change, and the trials that would decide between the plants.
+/// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...", then the modes
+/// that complete no run under a change, and the trials that would decide between the plants.
 std::string decision_text(const Decision& decision);
 
 /// Verdict on a scenario in one sentence: the best mode, how far the others are behind, and how

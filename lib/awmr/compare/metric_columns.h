@@ -37,13 +37,14 @@ enum class MetricId {
 
 struct MetricColumn {
   MetricId id;
-  std::string_view name;  ///< in comparison.csv and comparison.json
-  std::string_view head;  ///< column heading in the terminal's table, at most 7 characters; empty:
-                          ///< the metric is not in that table
+  std::string_view name;  ///< name in comparison.csv and comparison.json
+  /// Column heading in the terminal's table, at most 7 characters. Empty: the metric is not in that
+  /// table.
+  std::string_view head;
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
-  /// Largest difference that does not matter, in the metric's unit, >= 0 (scoring.h). A metric with
-  /// a floor above 0 can rank modes, and lower values are better. 0: the metric never ranks modes.
+  /// Floor: differences up to this do not matter, in the metric's unit, >= 0 (scoring.h). A metric
+  /// with a floor above 0 can be used to rank modes; lower values are better. 0: it is never used.
   double ranking_floor = 0.0;
   double default_weight = 0.0;  ///< weight in the ranking if the user gives none
 
@@ -57,10 +58,10 @@ struct MetricColumn {
   }
 };
 
-/// All metrics. Default weight 1: heading and cross-track error, settling and finishing time, speed
-/// drop, mechanical work and tyre work. All others have 0, for example sideslip, because it follows
-/// from the geometry of the turn, and control variation, because it is nearly 0 in some modes, so
-/// that its ratios mean little.
+/// All metrics. The default weight is 1 for heading and cross-track error, settling and finishing
+/// time, speed drop, mechanical work and tyre work, and 0 for all others: for example for sideslip,
+/// because it follows from the geometry of the turn, and for control variation, because it is
+/// nearly 0 in some modes, so that ratios of it mean little.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
      1.0},

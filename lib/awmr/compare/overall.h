@@ -18,7 +18,7 @@ namespace awmr {
 /// For one metric: the number of scenarios in which each contender is best or tied with the best.
 struct MetricTally {
   MetricId metric{};
-  int scenarios = 0;              ///< number of ranked scenarios in which a mode has the metric
+  int scenarios = 0;              ///< number of ranked scenarios in which any mode has the metric
   std::vector<int> best_or_tied;  ///< by contender, in the order of ScenarioRows::modes
 };
 
@@ -31,21 +31,23 @@ struct EvaluatedScenario {
   std::string verdict;
 };
 
-/// Evaluates each scenario. `comparison` is an evaluated_part() and must outlive the result.
+/// Evaluates each scenario. `comparison` must be a result of evaluated_part(), and must outlive the
+/// returned value.
 std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison,
                                                   const Preferences& preferences,
                                                   std::uint64_t seed);
 /// Returns the scenarios that have a ranking.
 std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& scenarios);
 
-/// Returns for each scenario the index of the first scenario with identical runs: all metrics of
-/// all modes and samples are equal. Without such an earlier scenario, this is its own index.
-/// Summaries count only these first scenarios.
+/// Returns for each scenario the index of the first scenario with identical runs (all metrics of
+/// all modes and samples are equal), which is its own index if no earlier one has them. Summaries
+/// count only the first of identical scenarios.
 std::vector<std::size_t> first_with_same_runs(const std::vector<EvaluatedScenario>& scenarios);
 
-/// Counts, for each metric that can rank, the scenarios in which a contender is not worse than any
-/// other. A contender is worse if its mean is higher by a relevant difference, or if only the other
-/// has a value. Scenarios with identical runs count once. `scenarios`: those with a ranking.
+/// For each metric that can be used to rank modes, counts for each contender the scenarios in which
+/// it is not worse than any other. It is worse if its mean is higher by a relevant difference, or
+/// if only the other has a value. Scenarios with identical runs count once. `scenarios`: those with
+/// a ranking.
 std::vector<MetricTally> tally(const std::vector<EvaluatedScenario>& scenarios);
 
 /// Number of scenarios with each kind of decision, and number of scenarios whose rank 1 survives

@@ -19,14 +19,15 @@ namespace {
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 constexpr int kWeightings = 1000;
 
-/// A mode with the logarithms that its score is computed from.
+/// A mode to be ranked, with the logarithms from which its score is computed.
 struct Entry {
   std::size_t mode = 0;  ///< index in ScenarioRows::modes
   const ModeRows* rows = nullptr;
-  std::vector<double> log_scores;   ///< log_score() of each run in the statistics
-                                    ///< (ModeRows::counted)
+  /// log_score() of each run in the statistics (ModeRows::counted).
+  std::vector<double> log_scores;
   std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
-  bool completes = true;            ///< false: completes significantly less often than the best
+  /// False: completes significantly less often than the mode that completes most often.
+  bool completes = true;
 
   double log_score() const { return mean(log_scores); }
 
@@ -46,8 +47,9 @@ Entry entry_of(const ScenarioRows& scenario, std::size_t mode,
   return entry;
 }
 
-/// True if the two shares of completed runs do not differ significantly by the exact McNemar test.
-/// For a single run, or if one completes all runs and the other none: true if they are equal.
+/// True if two modes complete about equally often: the exact McNemar test finds no significant
+/// difference. With a single run, or if one completes all runs and the other none, they must
+/// complete equally often.
 bool complete_alike(const ModeRows& a, const ModeRows& b) {
   const auto first = a.counted();
   const auto second = b.counted();
@@ -71,8 +73,8 @@ bool is_before(const ModeRows& a, const ModeRows& b) {
          std::tie(b.contender.mode, b.contender.gains);
 }
 
-/// Entries, best first: those that complete as often as the best, by score; then the others, by
-/// number of completed runs.
+/// Entries, best first: those that complete (Entry::completes), sorted by score; then the others,
+/// sorted by number of completed runs.
 std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
                                   const std::vector<ScoredMetric>& scoring) {
   std::vector<Entry> entries;
@@ -98,7 +100,7 @@ std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
   return entries;
 }
 
-/// Mean difference of log scores, `own` minus `leader`, in each resample, ascending:
+/// Mean difference of log scores, `own` minus `leader`, in each bootstrap resample, ascending:
 ///   sum over the scored metrics k of w_k (mean loss of own - mean loss of leader)
 std::vector<double> resampled_differences(const Entry& own, const Entry& leader,
                                           const std::vector<ScoredMetric>& scoring,
@@ -117,7 +119,7 @@ std::vector<double> resampled_differences(const Entry& own, const Entry& leader,
 
 /// Interval of the ratio of a mode's score to the leader's, and the conclusion from it.
 struct Behind {
-  std::optional<Interval> ratio_ci95;  ///< absent below 2 samples
+  std::optional<Interval> ratio_ci95;  ///< 95 % interval of the ratio; absent below 2 samples
   Conclusion conclusion{};
 };
 
@@ -140,13 +142,12 @@ Behind behind(const Entry& own, const Entry& leader, double relevance,
 }
 
 /// Divides a count of 1 equally among the entries whose value is within `margin` of the smallest,
-/// because smaller differences do not matter. Only entries that complete as often as the best are
-/// considered.
+/// because smaller differences do not matter. Only entries with Entry::completes are considered.
 template <class Value>
 void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
   constexpr double kRounding = 1e-12;
-  double least = value(entries.front());  // the first entry always has `completes`
+  double least = value(entries.front());  // the first entry has completes == true
   for (const Entry& entry : entries) {
     if (entry.completes) least = std::min(least, value(entry));
   }
@@ -158,8 +159,8 @@ void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
   for (const std::size_t i : best) counts[i] += 1.0 / static_cast<double>(best.size());
 }
 
-/// For each entry, the share of random weightings for which it is best. The weightings have a
-/// uniform distribution over all that sum to 1, like those of log_score().
+/// For each entry, the share of random weightings of the metrics for which it is best. The
+/// weightings are uniformly distributed over all that sum to 1.
 std::vector<double> shares_by_weights(const std::vector<Entry>& entries, double margin,
                                       Random random) {
   std::vector<double> shares(entries.size(), 0.0);
@@ -188,8 +189,8 @@ std::vector<double> shares_by_samples(const std::vector<Entry>& entries, double 
   return shares;
 }
 
-/// True if two modes are equivalent in every scored metric that both have. Then the difference of
-/// their scores does not matter, even if it is significant.
+/// True if two modes are equivalent in every scored metric that both have. The difference of the
+/// two scores then does not matter, even if it is significant.
 bool equivalent_in_all(const Contender& a, const Contender& b,
                        const std::vector<ScoredMetric>& scoring,
                        const std::vector<PairedDifference>& differences) {
@@ -205,7 +206,8 @@ bool equivalent_in_all(const Contender& a, const Contender& b,
   return any;
 }
 
-/// True if `other` is relevantly better in a scored metric, and relevantly worse in none.
+/// True if `other` is relevantly better than `own` in a scored metric, and relevantly worse in
+/// none.
 bool dominates(const Contender& other, const Contender& own,
                const std::vector<ScoredMetric>& scoring,
                const std::vector<PairedDifference>& differences) {
@@ -222,7 +224,7 @@ bool dominates(const Contender& other, const Contender& own,
   return better;
 }
 
-/// Sets first_by_weights of every mode that is tied for rank 1 to the mean over the tied modes,
+/// Replaces first_by_weights of the modes that are tied for rank 1 by the mean over these modes,
 /// because none of them has rank 1 alone. If they are equivalent, does the same with
 /// first_by_samples.
 void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
@@ -277,7 +279,7 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario, const ScenarioStatist
       shares_by_weights(entries, margin, Random(seed, kWeightStream));
   const std::vector<double> by_samples = shares_by_samples(entries, margin);
   std::vector<RankedMode> ranking;
-  std::size_t leader = 0;  // the best of the current rank
+  std::size_t leader = 0;  // index of the best entry of the current rank
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& own = entries[i];
     RankedMode ranked;

@@ -13,25 +13,25 @@ namespace awmr {
 
 /// A mode (with its gains) in the ranking of a scenario.
 struct RankedMode {
-  int rank = 0;  ///< >= 1, 1 is best; tied modes share a rank
+  int rank = 0;  ///< 1 is best; tied modes have the same rank
   Contender contender;
-  /// Score divided by that of the first mode in the list. The score is the weighted geometric mean
-  /// of the ranked metrics, each with its offset (scoring.h). Lower is better. The ratio is below 1
-  /// for a mode that has a better score than the first but completes less often.
+  /// Score divided by that of the first mode in the list; lower is better. The score is the
+  /// weighted geometric mean of the metrics, each with an offset added (scoring.h). The ratio is
+  /// below 1 for a mode that has a better score than the first one, but completes less often.
   double score = 1.0;
   double completed_share = 0.0;  ///< share of completed runs, in [0, 1]
   /// 95 % interval of `score`; absent for the first mode, and below 2 samples.
   std::optional<Interval> behind_ci95;
-  /// Comparison of the scores with the leader: the best mode of the same rank or, for a mode that
-  /// opens a rank, the best mode of the rank above. kRelevant: this mode is worse. Absent for the
-  /// first mode.
+  /// Conclusion from comparing the score with that of the leader: the best mode of the same rank
+  /// or, for the best mode of a rank, the best mode of the rank above. kRelevant: this mode is
+  /// worse. Absent for the first mode.
   std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the other modes of the same rank
   /// Shares in [0, 1] of random weightings, and of the samples (absent below 2 samples), for which
-  /// this mode has the best score. Only modes that complete as often as the best are counted. A
-  /// weighting or sample is divided equally among the modes whose score is within `relevance` of
-  /// the best. Modes that are tied for rank 1 get the mean of their shares of weightings and, if
-  /// equivalent, of samples.
+  /// this mode has the best score. 0 for modes that complete significantly less often. A weighting
+  /// or sample is divided equally among the modes whose score is within `relevance` of the best.
+  /// Modes that are tied for rank 1 get the mean of their shares of weightings and, if equivalent,
+  /// of samples.
   double first_by_weights = 0.0;
   std::optional<double> first_by_samples;
   /// Labels of modes that are relevantly better in a ranked metric and relevantly worse in none.
@@ -52,7 +52,8 @@ inline constexpr std::string_view kNotRanked =
     "not ranked: the scenario has no heading, line, path or waypoints to follow, or no metric with "
     "a weight above 0 applies to it";
 
-/// True if the nominal run of any mode has a heading error, a cross-track error or a finish time.
+/// True if the scenario has a target (a heading, a path or an end): the nominal run of any mode has
+/// a heading error, a cross-track error or a finish time.
 bool has_a_goal(const ScenarioRows& scenario);
 
 /// Ranks the modes, best first. Empty if no metric with a weight applies, or if the scenario has no

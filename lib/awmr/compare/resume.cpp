@@ -19,7 +19,7 @@
 namespace awmr {
 namespace {
 
-/// Options that may change when a comparison is resumed: they do not change finished rows.
+/// Options that may differ when a comparison is resumed, because they do not change finished rows.
 const std::set<std::string, std::less<>> kFreeOptions{"samples", "weight", "relevance",
                                                       "break_even"};
 
@@ -32,7 +32,7 @@ bool read_number(const std::string& text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// Reads a row of comparison.csv. Empty if comparison_csv() does not write such cells.
+/// Reads a row of comparison.csv. Empty if the cells are not as comparison_csv() writes them.
 std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_gains) {
   constexpr std::size_t kFirst = 4;
   if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;
@@ -59,9 +59,9 @@ std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool 
 /// Keys of comparison.json that show which comparison its rows belong to.
 struct Origin {
   Provenance provenance;
-  std::string version;                    ///< version of the program that wrote the file
-  std::string arithmetic;                 ///< arithmetic with which the rows were computed;
-                                          ///< "scalar" if the key is missing
+  std::string version;  ///< version of the program that wrote the file
+  /// Arithmetic with which the rows were computed; "scalar" if the key is missing.
+  std::string arithmetic;
   std::optional<std::string> csv_sha256;  ///< hash of comparison.csv; absent in older files
 };
 
@@ -81,7 +81,7 @@ Result<Origin> read_origin(const std::filesystem::path& path) {
   return origin;
 }
 
-/// The part of the provenance that determines the rows: all except kFreeOptions.
+/// The provenance without kFreeOptions: the inputs and options that determine the rows.
 Provenance fixed(Provenance provenance) {
   std::erase_if(provenance.options,
                 [](const auto& option) { return kFreeOptions.contains(option.first); });
@@ -135,7 +135,7 @@ Status check_comparison_csv(std::string_view text, const std::string& file) {
 Status write_comparison(const std::filesystem::path& directory, const Comparison& comparison,
                         const std::string& document) {
   AWMR_RETURN_IF_ERROR(make_directory(directory));
-  // comparison.json is last because it has the hash of the table.
+  // comparison.json is written last, because it has the hash of comparison.csv.
   const OutputFile files[] = {
       {directory / kComparisonTable, comparison_csv(comparison), check_comparison_csv},
       {directory / kComparisonJson, document, [](std::string_view text, const std::string& file) {

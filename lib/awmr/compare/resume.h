@@ -12,10 +12,10 @@
 
 namespace awmr {
 
-/// Reads the rows of an existing comparison.csv. The comparison.json in the same directory must
-/// have the inputs and options of `provenance`; only samples, weights, relevance and break-even may
-/// differ. Errors (input): a file is missing or malformed; the files are of another comparison,
-/// program version or arithmetic; comparison.csv is not the one of this comparison.json.
+/// Reads the rows of an existing comparison.csv, to resume it. The comparison.json in the same
+/// directory must have the inputs and options of `provenance`; only samples, weights, relevance and
+/// break-even may differ. Errors (input): a file is missing or malformed; the files are of another
+/// comparison, program version or arithmetic; comparison.csv does not belong to comparison.json.
 Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
                                                  const Provenance& provenance);
 

@@ -10,9 +10,8 @@ namespace awmr {
 namespace {
 
 /// Returns the scenarios that need vehicles of their own: each scenario with a corner (parameters
-/// moved to the ends of their intervals), and the first scenario without one. All other scenarios
-/// share the vehicles of that first one. `first` receives, for each scenario, the index of its
-/// first vehicle.
+/// moved to the ends of their intervals), and the first scenario without one, whose vehicles all
+/// other scenarios share. `first` receives, for each scenario, the index of its first vehicle.
 std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::size_t samples,
                                    std::vector<std::size_t>& first) {
   std::vector<const Scenario*> own;
@@ -34,7 +33,7 @@ std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::
 Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options) {
   const std::size_t samples = at(options.samples) + 1;
-  // The controller has the nominal values in every sample.
+  // The scenarios are checked with the nominal model, which the controller uses in every sample.
   for (const Scenario& scenario : scenarios) AWMR_RETURN_IF_ERROR(check_scenario(scenario, model));
   SampledPlants plants;
   AWMR_ASSIGN_OR_RETURN(plants.nominal, model.plant());

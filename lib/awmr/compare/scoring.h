@@ -8,20 +8,22 @@
 
 namespace awmr {
 
-/// Weight of a metric, >= 0: the user's, or the metric's default; 0 for a metric that cannot rank.
+/// Weight of a metric, >= 0: from the preferences, else the metric's default; 0 for a metric that
+/// is never used to rank modes.
 double weight_of(const MetricColumn& metric, const Preferences& preferences);
 
 /// A metric in the score of one scenario.
 struct ScoredMetric {
   const MetricColumn* metric = nullptr;
-  double weight = 0.0;   ///< w, >= 0
-  double offset = 0.0;   ///< f of log_loss(), in the metric's unit, > 0
-  double missing = 0.0;  ///< value that replaces a missing one: the largest of all runs in the
-                         ///< statistics (ModeRows::counted)
+  double weight = 0.0;  ///< weight w, >= 0
+  double offset = 0.0;  ///< offset f of log_loss(), in the metric's unit, > 0
+  /// Value used for a run without this metric: the largest of all runs in the statistics
+  /// (ModeRows::counted).
+  double missing = 0.0;
 };
 
-/// Returns the metrics that can rank and that any run of the scenario has. Their weights are those
-/// of weight_of(), which can be 0.
+/// Returns the metrics that can be used to rank modes and that any run of the scenario has. Their
+/// weights are those of weight_of(), which can be 0.
 std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
                                            const Preferences& preferences);
 
@@ -29,9 +31,9 @@ std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
 /// Loss of one metric: ln(x + f). x: value of the metric, 0 if negative. f: the metric's floor
-/// divided by the relevance, or the floor if the relevance is 0. Adding floor + relevance x to x
-/// multiplies x + f by 1 + relevance, whatever x is. Therefore ratios of small values do not
-/// dominate the score.
+/// divided by the relevance margin, or the floor if the margin is 0. The offset f prevents ratios
+/// of small values from dominating the score: adding floor + relevance x to x multiplies x + f by 1
+/// + relevance, whatever x is.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
 /// Mean of log_loss() over the drawn samples of a mode, or its value for the nominal run if there

@@ -134,8 +134,8 @@ const ShardKind& comparison_shards() {
                  [](std::string_view text, const std::string& file, const std::string&) {
                    return check_comparison_csv(text, file);
                  }}},
-      .own_keys = {"changes", "findings"},  // keys that differ between parts: only part 1 has
-                                            // `changes`
+      // Keys that may differ between parts: `changes` is only in part 1.
+      .own_keys = {"changes", "findings"},
       .arithmetic = batch_rounding,
       .arithmetic_advice = "run all parts on processors with AVX2 or NEON",
       .read = [](JsonObject& json) { read_payload(json); }};

@@ -21,10 +21,10 @@ const ShardKind& comparison_shards();
 PartText comparison_part(const Comparison& part, const CompareOptions& options,
                          const Provenance& provenance, const std::vector<Finding>& findings = {});
 
-/// The comparison that merge_shards() combines, with the data that its output files need.
+/// Result of merge_shards(): the combined comparison, with the data that its output files need.
 struct Merged {
   Comparison comparison;
-  CompareOptions options;  ///< only samples, seed and preferences are set
+  CompareOptions options;  ///< options of the parts; only samples, seed, preferences are set
   Provenance provenance;
   /// extrapolation_findings() of all runs, then the findings of the first part.
   std::vector<Finding> findings;

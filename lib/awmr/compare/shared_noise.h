@@ -1,4 +1,5 @@
-/// Sensor noise that runs of the same samples and scenario share. Private to compare/.
+/// Sensor noise shared by the runs of a scenario in different modes and with different gains.
+/// Private to compare/.
 #pragma once
 
 #include <atomic>
@@ -11,8 +12,8 @@
 
 namespace awmr {
 
-/// Noise of some samples of a scenario, for several blocks of runs, which can be on different
-/// threads. The first block draws it, the last one frees it.
+/// Noise of some samples of a scenario, used by several blocks of runs, possibly on different
+/// threads. The first block that needs the noise draws it; the last one frees it.
 class SharedNoise {
  public:
   /// By sample.
@@ -21,7 +22,7 @@ class SharedNoise {
   /// Adds a block. Call it for all blocks before the first of them starts.
   void add_user() { ++users_; }
 
-  /// The noise; `draw()` returns it in the first call.
+  /// Returns the noise. The first call obtains it from `draw()`.
   template <class Draw>
   const Drawn& drawn(const Draw& draw) {
     std::call_once(once_, [&] { drawn_ = draw(); });

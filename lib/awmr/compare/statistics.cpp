@@ -16,8 +16,8 @@
 namespace awmr {
 namespace {
 
-/// Random stream of the bootstrap. It differs from the streams of the drawn samples, which have the
-/// sample's number.
+/// Random stream of the bootstrap. It differs from the streams of the drawn samples, which are
+/// their numbers.
 constexpr std::uint64_t kBootstrapStream = std::uint64_t{1} << 63U;
 
 double mean_of(std::span<const double> values) {
@@ -35,8 +35,8 @@ std::optional<double> difference(const MetricColumn& metric, const Metrics& a, c
 /// sample, so that a bootstrap resample is a sum of columns.
 struct Differences {
   std::vector<PairedDifference> results;
-  Eigen::ArrayXXd values;  ///< 0 if a contender of the pair has no value
-  Eigen::ArrayXXd counts;  ///< 0 if a contender of the pair has no value, else 1
+  Eigen::ArrayXXd values;  ///< difference; 0 if a contender of the pair has no value
+  Eigen::ArrayXXd counts;  ///< 1 if both contenders of the pair have a value, else 0
 };
 
 double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& metric,
@@ -125,8 +125,8 @@ Differences all_differences(const ScenarioRows& scenario, double relevance) {
   return all;
 }
 
-/// log_loss() of every metric that can rank, in the counted runs of every mode. Rows as in
-/// ScenarioStatistics::resampled_losses, a column is a sample.
+/// log_loss() of every metric that can be used to rank modes, in the counted runs of every mode.
+/// The rows are those of ScenarioStatistics::resampled_losses; each column is a sample.
 Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& preferences) {
   Eigen::ArrayXXd losses =
       Eigen::ArrayXXd::Zero(eigen_index(scenario.modes.size() * std::size(kMetricColumns)),
@@ -143,10 +143,10 @@ Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& pref
   return losses;
 }
 
-/// Means over the samples of each resample, a column each.
+/// Means over the samples, with one column per bootstrap resample.
 struct ResampledMeans {
-  Eigen::ArrayXXd differences;  ///< rows as in Differences; NaN if a resample has no value
-  Eigen::ArrayXXd losses;       ///< rows as in all_losses()
+  Eigen::ArrayXXd differences;  ///< same rows as Differences; NaN if a resample has no value
+  Eigen::ArrayXXd losses;       ///< same rows as all_losses()
 };
 
 ResampledMeans resampled_means(const Differences& all, const Eigen::ArrayXXd& losses,
@@ -187,7 +187,7 @@ std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means, std::siz
 
 Contender contender_of(const ComparisonRow& row) { return {row.mode, row.gains}; }
 
-/// Computes p_holm from the p of all differences.
+/// Computes p_holm of each difference from the p of all differences (Holm's correction).
 void correct(std::vector<PairedDifference>& differences) {
   std::vector<double> p;
   for (const PairedDifference& d : differences) {

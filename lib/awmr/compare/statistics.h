@@ -21,7 +21,7 @@ namespace awmr {
 /// Rows of one contender in one scenario: sample 0 (the nominal model), then the drawn samples.
 struct ModeRows {
   Contender contender;
-  std::span<const ComparisonRow> rows;  ///< never empty
+  std::span<const ComparisonRow> rows;  ///< sample 0 first, then the drawn samples; never empty
 
   const Metrics& nominal() const { return rows.front().metrics; }
   /// The counted rows, from which all statistics are computed: those of the drawn samples, or the
@@ -49,7 +49,7 @@ Comparison evaluated_part(const Comparison& comparison);
 
 /// Mean and quantiles of one metric of a contender.
 struct Summary {
-  std::optional<double> nominal;        ///< value in sample 0
+  std::optional<double> nominal;        ///< value in sample 0, the nominal model
   std::size_t count = 0;                ///< number of counted runs that have the metric
   std::optional<double> mean;           ///< mean over these runs
   std::optional<double> q05, q50, q95;  ///< quantiles; absent for fewer than 2 runs
@@ -59,11 +59,12 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 /// True if any mode has the metric in any counted run.
 bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 
-/// Share of the sorted bootstrap means to cut off on each side, so that the interval misses the
-/// true mean on that side with the probability `tail` (Hesterberg's expanded percentiles):
+/// Share of the sorted bootstrap means to cut off on each side, so that the true mean is beyond
+/// that end of the interval with the probability `tail` (Hesterberg's expanded percentiles):
 ///   Phi(-t sqrt(n/(n-1))),  t: the 1 - tail quantile of Student's t with n - 1 degrees of freedom
-/// Phi is the standard normal distribution function, n is `count`. Cutting off `tail` itself gives
-/// too narrow intervals for few values. Below kFewSamples values, coverage is too low even so.
+/// Phi is the standard normal distribution function, n is `count`. Cutting off `tail` itself would
+/// make the intervals too narrow for few values. Below kFewSamples values, they are too narrow even
+/// with this correction.
 double bootstrap_tail(std::size_t count, double tail);
 
 /// Conclusion about a difference between two modes, at a significance level of 5 %.
@@ -78,14 +79,15 @@ struct PairedDifference {
   Contender first;
   Contender second;
   MetricId metric{};
-  std::optional<double> nominal;  ///< difference in sample 0 (the nominal model), in the metric's
-                                  ///< unit
-  std::size_t count = 0;          ///< number of samples with the metric in both contenders
-  std::optional<double> mean;     ///< mean difference over these samples, in the metric's unit
-  std::optional<Interval> ci95;   ///< 95 % interval of the mean; absent for fewer than 2 samples
-  std::optional<double> p;        ///< of the paired t test, in [0, 1]; absent for fewer than 2
-  /// p with Holm's correction for the number of differences in the scenario. Below 0.05 the
-  /// difference is significant. The risk of any false positive in the scenario is then at most 5 %.
+  /// Difference in sample 0 (the nominal model), in the metric's unit.
+  std::optional<double> nominal;
+  std::size_t count = 0;         ///< number of samples with the metric in both contenders
+  std::optional<double> mean;    ///< mean difference over these samples, in the metric's unit
+  std::optional<Interval> ci95;  ///< 95 % interval of the mean; absent for fewer than 2 samples
+  std::optional<double> p;       ///< p-value of the paired t test; absent for fewer than 2 samples
+  /// p with Holm's correction for the number of differences in the scenario. The difference is
+  /// significant if it is below 0.05; the probability of any false positive in the scenario is then
+  /// at most 5 %.
   std::optional<double> p_holm;
   /// Largest difference that does not matter, in the metric's unit, >= 0: the larger of the
   /// metric's floor and the relevance times the smaller of the two means.
@@ -110,15 +112,16 @@ std::vector<double> holm(std::span<const double> p);
 
 inline constexpr int kResamples = 1000;  ///< number of bootstrap resamples
 
-/// Statistics of one scenario. Intervals are by one bootstrap: samples are drawn with replacement,
-/// each with all its metrics and contenders. Every metric, pair and scenario uses the same
-/// resamples, so no interval depends on the order of the scenarios.
+/// Statistics of one scenario. All intervals are from one bootstrap: samples are drawn with
+/// replacement, each with all its metrics and contenders. Every metric, pair and scenario uses the
+/// same resamples, so no interval depends on the order of the scenarios.
 struct ScenarioStatistics {
-  /// Of every metric between every pair of contenders with the same gains or the same mode.
+  /// Differences of every metric between every pair of contenders with the same gains or the same
+  /// mode.
   std::vector<PairedDifference> differences;
   /// Mean log_loss() (scoring.h) of each mode and metric, index loss_row(), in each resample; 0 for
-  /// metrics that cannot rank. Empty below 2 samples. The mean score with any weights is a weighted
-  /// sum of these series.
+  /// metrics that are never ranked. Empty below 2 samples. The mean score with any weights is a
+  /// weighted sum of these series.
   std::vector<std::vector<double>> resampled_losses;
 };
 

@@ -19,8 +19,8 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Finds, among the metrics with a weight, the one in which `other` is behind `best` most: by the
-/// largest multiple of the metric's margin. Null if no difference is relevant.
+/// Finds, among the metrics with a weight, the one in which `other` is furthest behind `best`,
+/// measured in multiples of the metric's relevance margin. Null if no difference is relevant.
 const PairedDifference* widest_gap(const std::vector<PairedDifference>& differences,
                                    const Preferences& preferences, const Contender& best,
                                    const Contender& other) {
@@ -56,7 +56,8 @@ std::string gap_text(const PairedDifference* gap, const Contender& other) {
   return text;
 }
 
-/// Completed runs: "steering completed 10 of 20 (95 %: 27 to 73 %)", or "all completed".
+/// Text of the completed runs: "steering completed 10 of 20 (95 %: 27 to 73 %)", or "all
+/// completed".
 std::string completion_text(const ScenarioRows& scenario) {
   std::string text;
   for (const ModeRows& rows : scenario.modes) {
@@ -72,7 +73,7 @@ std::string completion_text(const ScenarioRows& scenario) {
   return text.empty() ? "all completed" : text;
 }
 
-/// How far the score is behind that of the best mode: " by 31 % (95 %: 28 to 35 %)".
+/// Text of how far the score is behind that of the best mode: " by 31 % (95 %: 28 to 35 %)".
 std::string share_text(const RankedMode& other) {
   if (!(other.score > 1.0)) return "";
   const auto percent = [](double ratio) { return 100.0 * (ratio - 1.0); };
@@ -84,7 +85,7 @@ std::string share_text(const RankedMode& other) {
   return text;
 }
 
-/// The modes of rank 1: "combined is best", "combined and steering are tied for best".
+/// Text of the modes of rank 1: "combined is best", "combined and steering are tied for best".
 std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided,
                        const Preferences& preferences) {
   const RankedMode& best = ranking.front();
@@ -100,10 +101,10 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
                      100.0 * preferences.relevance);
 }
 
-/// Robustness of rank 1: "; combined is best for 83 % of all metric weightings and in 97 % of the
-/// samples"
+/// Text of the robustness of rank 1: "; combined is best for 83 % of all metric weightings and in
+/// 97 % of the samples".
 std::string stability_text(const RankedMode& best) {
-  if (!best.tied_with.empty()) return {};  // no mode alone has rank 1
+  if (!best.tied_with.empty()) return {};  // no mode has rank 1 alone
   std::string text = fmt::format("; {} is best for {:.0f} % of all metric weightings",
                                  best.contender.label(), 100.0 * best.first_by_weights);
   if (best.first_by_samples) {

@@ -21,9 +21,9 @@ constexpr double kWithin99 = 2.576;
 /// Half width of a 95 % interval in standard errors, for a normal distribution.
 constexpr double kNormalQuantile95 = 1.96;
 
-/// Returns the quantile of Student's t that the fit used for its 95 % intervals: half the width of
-/// the exponent's interval divided by its standard error. kNormalQuantile95 if the exponent has no
-/// interval.
+/// Returns the quantile of Student's t that the fit used for its 95 % intervals, computed as half
+/// the width of the exponent's interval divided by the standard error. kNormalQuantile95 if the
+/// exponent has no interval.
 double quantile_of_exponent(const Estimate& beta) {
   if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
   return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
@@ -66,9 +66,9 @@ void add_left_over(const Model& model, DrawnFit& fit) {
       kWithin99 * std::sqrt(squares / static_cast<double>(fit.left_over.size() - 2));
 }
 
-/// Returns pairs of initial speed, m/s, and longest stop time, s, of the coast-downs, by ascending
-/// speed. Each speed occurs once. Of more than kMaxCoastdowns pairs, that many are kept, at even
-/// ranks.
+/// Returns the initial speeds of the coast-downs, m/s, ascending and each once, with the longest
+/// stop time of each, s. If there are more than kMaxCoastdowns speeds, only that many are kept,
+/// evenly spaced in rank.
 std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   std::vector<std::pair<double, double>> coasts;
   for (const TrialPoint& trial : model.record.trials) {

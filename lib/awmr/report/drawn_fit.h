@@ -13,7 +13,7 @@ namespace awmr {
 
 /// One point of the resistance curve that was fitted to steady runs.
 struct CurvePoint {
-  double rate = 0.0;   ///< u in m/s or r in rad/s
+  double rate = 0.0;   ///< steady rate: speed u, m/s, or yaw rate r, rad/s
   double value = 0.0;  ///< input for this steady rate: tau_speed, or tau_turn in m
   /// Half width of the 95 % confidence band at this rate, in the unit of `value`; 0 if the model
   /// has no covariance of the law.
@@ -28,22 +28,22 @@ struct LeftOver {
 
 /// Steady runs of one kind of trial, and the resistance law of the model.
 struct DrawnFit {
-  std::vector<std::size_t> trials =
-      {};                              ///< indices of these runs in the model's trials, never empty
+  /// Indices of these runs in the model's list of trials; never empty.
+  std::vector<std::size_t> trials = {};
   Resistance<double> law{};            ///< `coulomb` includes the motors' dead zone (surge only)
-  std::vector<CurvePoint> curve = {};  ///< empty if the model does not have the law
+  std::vector<CurvePoint> curve = {};  ///< fitted curve; empty if the model does not have the law
   bool has_band = false;               ///< true: the curve has a confidence band
   /// Residuals of the runs; empty if the model predicts fewer than three of them.
   std::vector<LeftOver> left_over = {};
-  double bound_percent = 0.0;  ///< 99 % of normally distributed residuals are within +- this value
+  double bound_percent = 0.0;  ///< 99 % of normally distributed residuals are within +- this
 };
 
 /// Returns the runs of `kind` (kSurge or kTurning) with curve and residuals; empty if the model has
 /// no such run.
 std::optional<DrawnFit> drawn_fit(const Model& model, TrialKind kind);
 
-/// A modelled coast-down, m' du/dt = -g1(u), from its initial speed until 1.1 times the stop time
-/// (the longer of the measured and the predicted one).
+/// A modelled coast-down, m' du/dt = -g1(u), from its initial speed until 1.1 times the measured or
+/// the predicted stop time, whichever is longer.
 struct CoastdownCurve {
   double initial_speed_mps = 0.0;
   std::vector<double> t_s = {};

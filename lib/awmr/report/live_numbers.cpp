@@ -16,8 +16,9 @@
 namespace awmr {
 namespace {
 
-/// Reads which form of T2 < T1 was required: the strict one, T2 < margin/lambda, or the paper's.
-/// The margin follows from the limit of the strict one, which gains.json has in both cases.
+/// Reads which form of the constraint T2 < T1 was required: the strict form, T2 < margin/lambda, or
+/// the paper's form. The margin is computed from the limit of the strict form, which gains.json has
+/// in both cases.
 void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
   for (JsonObject& constraint : gains.optional_objects("constraints")) {
     const bool strict = constraint.string("name") == "T2 < T1 (strict)";
@@ -36,8 +37,8 @@ struct Draws {
   UnmodelledVariation open = {};
 };
 
-/// Reads noise, latency and motor lag for which robust gains were tuned into `context`. Returns the
-/// settings of the draws.
+/// Reads into `context` the noise, latency and motor lag for which robust gains were tuned. Returns
+/// the settings of the vehicles drawn for the tuning.
 Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   JsonObject latency = robust.object("latency");
   const double latest_s = std::max(latency.number("heading_s", kNonNegative),

@@ -1,4 +1,4 @@
-/// Data with which the interactive part (sliders) of the page starts. Private to report/.
+/// Initial data of the page's interactive part (the sliders). Private to report/.
 #pragma once
 
 #include <vector>

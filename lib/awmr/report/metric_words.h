@@ -10,8 +10,8 @@ namespace awmr {
 
 /// Readable name and unit of a metric.
 struct MetricWords {
-  std::string words;  ///< "settling time"
-  std::string unit;   ///< "s"; empty if dimensionless
+  std::string words;  ///< readable name: "settling time"
+  std::string unit;   ///< unit, such as "s"; empty if dimensionless
 };
 
 /// Returns the words and the unit for the name that a metric has in comparison.json. For an unknown

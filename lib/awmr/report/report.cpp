@@ -22,7 +22,8 @@ extern const std::string_view kPageHtml;
 extern const std::string_view kPlotPy;
 extern const std::string_view kPageCss;
 extern const std::string_view kPageJs;
-extern const std::string_view kLiveWasm;  ///< gzip of the WebAssembly module, base64; can be empty
+/// WebAssembly of the sliders (gzip, base64); empty if not built.
+extern const std::string_view kLiveWasm;
 
 namespace {
 
@@ -71,7 +72,7 @@ void round_shown(Json& data) {
 }
 
 /// Makes the page: replaces each `@name@` in page.html by the part of that name (style, scripts,
-/// data). An `@` inside a part is kept.
+/// data). Text between two `@` inside a part is not replaced.
 std::string assembled(const Json& data) {
   const std::string json = script_safe(data);
   const std::array<std::pair<std::string_view, std::string_view>, 5> parts{
@@ -91,9 +92,9 @@ std::string assembled(const Json& data) {
   }
 }
 
-/// Adds the initial data of the interactive part. Its scenario is the first that
-/// is_plain_heading(), else headings of 30, then -30 deg. Adds nothing without gains, or if the
-/// model has no turning motion.
+/// Adds the initial data of the interactive part (the sliders). Its scenario is the first one for
+/// which is_plain_heading() is true, else headings of 30, then -30 deg. Adds nothing without gains,
+/// or if the model cannot simulate turns.
 Status add_live(const fs::path& directory, const Model& model, Json& data) {
   if (kLiveWasm.empty() || !data.contains("gains")) return {};
   Scenario scenario = heading_steps({30.0, -30.0}, {.name = "headings 30 then -30 deg"});

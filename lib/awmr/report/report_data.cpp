@@ -31,7 +31,7 @@ struct Origin {
 };
 
 /// Returns a finding if a result was made from another model or other gains than those in the
-/// directory. Empty if it was made from these, or does not name its inputs.
+/// directory. Empty if it was made from those, or if it does not name its inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
   const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);
@@ -85,7 +85,7 @@ Result<std::optional<Finding>> foreign_run(const std::filesystem::path& director
   return foreign;
 }
 
-/// Findings for the page without repetitions, those with the largest effect on the numbers first.
+/// Findings for the page, each once, those with the largest effect on the results first.
 Json shown_findings(const std::vector<Finding>& findings) {
   std::vector<Finding> order;
   for (const Finding* finding : by_effect(findings)) {
@@ -163,7 +163,7 @@ Result<ReportData> read_report_data(const std::filesystem::path& directory) {
                        "there is no such file; a report needs a directory that awmr run filled, or "
                        "the model.json of awmr identify");
   }
-  // The strict reader comes first: its error has the position of the fault in the file.
+  // read_model() is called first, because its error has the position of the fault in the file.
   AWMR_ASSIGN_OR_RETURN(data.model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.json["model"], read_json_file(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(directory / "model.json"));

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Largest number of rows of all runs together. A row takes about 100 bytes of the page, and the
-/// page must be smaller than 3 MB.
+/// Largest number of rows that all runs together have in the page. A row takes about 100 bytes, and
+/// the page must be smaller than 3 MB.
 constexpr std::size_t kMaxRows = 20000;
 constexpr std::size_t kMaxRowsOfRun = 1500;
 constexpr std::size_t kMinRowsOfRun = 100;

@@ -51,7 +51,7 @@ double rounding_error(double printed, double last_place) {
 namespace {
 
 bool is_automatic(double elapsed_last_place) {
-  // The slack of 1e-9 allows for pow() returning 1.0000000000000002e-3.
+  // The tolerance of 1e-9 is needed because pow() may return 1.0000000000000002e-3 for 1e-3.
   return elapsed_last_place <= kAutomaticTiming_s * (1.0 + 1e-9);
 }
 

@@ -1,5 +1,6 @@
-/// Tolerance for a quantity that a table row gives twice: as a printed value (a speed) and as a
-/// timed one (distance over elapsed time). Private to this folder. The two values agree if
+/// Tolerance for comparing two values of the same quantity in a table row: the printed value (such
+/// as a speed) and the timed value (distance over elapsed time). Private to this folder. The two
+/// values agree if
 ///
 ///     |printed - timed| <= rounding(printed) + timed (stop_watch/elapsed + course)
 ///
@@ -12,7 +13,7 @@
 ///     stop_watch   0.2 s: 0.1 s for pressing the stop watch at the start, 0.1 s at the end. Times
 ///                  given to the millisecond or finer are timed automatically: one unit of their
 ///                  last place.
-///     course       0.5 %: the ends of a 10 m course are known to 5 cm, those of a turn to 2 deg.
+///     course       0.5 %: a track of 10 m is measured to 5 cm, a full turn to 2 deg.
 #pragma once
 
 #include <span>
@@ -22,23 +23,23 @@
 
 namespace awmr {
 
-/// Returns one unit in the last decimal place of a column as written in the file, converted to
-/// awmr's unit of the column. For a column computed by a formula: the last place of its computed
-/// values. `mappings`: column mappings with which the table was read.
+/// Returns one unit in the last decimal place with which the file writes a column, converted to
+/// awmr's unit of the column: 0.01 for speeds such as 1.25 m/s. For a column computed by a formula,
+/// the last place of its computed values. `mappings`: column mappings used to read the table.
 double last_place(const CsvTable& table, std::string_view column,
                   std::span<const ColumnMapping> mappings);
 
-/// Maximum rounding error of a printed value whose column has this last place.
+/// Maximum rounding error of a printed value. `last_place`: result of last_place() for its column.
 double rounding_error(double printed, double last_place);
 
 /// Largest plausible error of `timed`, a speed or yaw rate computed as distance or angle over the
-/// time `elapsed_s` > 0. It allows for the error of the time, and for a fixed relative error of the
-/// distance. `elapsed_last_place`: last_place() of the times, s.
+/// time `elapsed_s` > 0. It includes the error of the time and 0.5 % for the distance or angle.
+/// `elapsed_last_place`: last_place() of the times, s.
 double timing_error(double timed, double elapsed_s, double elapsed_last_place);
 
-/// Standard deviation, s, of a time whose column has this last place, s. Above 1 ms (stop watch):
-/// 0.1 s, from two presses of 0.1/sqrt(2) s each. Else (automatic timing): that of the rounding,
-/// last place/sqrt(12).
+/// Standard deviation of the error of a time, s. `elapsed_last_place`: last_place() of the times,
+/// s. Above 1 ms, the times are from a stop watch: 0.1 s, from two presses of 0.1/sqrt(2) s each.
+/// Otherwise they were taken automatically: only rounding, elapsed_last_place/sqrt(12).
 double timing_std_s(double elapsed_last_place);
 
 }  // namespace awmr

@@ -70,8 +70,8 @@ void report_scan(const Scan& scan, const std::string& file, AwlLog& log) {
   }
 }
 
-/// Returns the rows with current measurements and finite values. Adds a finding if there are
-/// others.
+/// Returns the rows with up-to-date measurements and finite values. Adds the finding
+/// `rows-not-measured` if other rows exist.
 std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const std::string& file,
                                AwlLog& log) {
   const Layout& layout = scan.layout;
@@ -124,7 +124,8 @@ std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std:
   return kept;
 }
 
-/// Adds a finding for runs that began with a supply drop or a watchdog reset.
+/// Adds the finding `chip-reset` for each run that began with a drop of the supply voltage or with
+/// a watchdog reset.
 void report_resets(std::string_view bytes, const Layout& layout, const std::vector<Place>& rows,
                    const std::string& file, AwlLog& log) {
   std::size_t run = 0;

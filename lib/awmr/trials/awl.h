@@ -16,13 +16,13 @@ namespace awmr {
 /// Rows of an `.awl` file, and how many rows and bytes were lost.
 struct AwlLog {
   std::vector<std::string> header = {};           ///< column names: `t_s` first, `run` last
-  std::vector<std::vector<double>> columns = {};  ///< by column, then by row; all finite
+  std::vector<std::vector<double>> columns = {};  ///< values by column, then by row; all finite
   std::string parameters_sha256 = {};  ///< hash of the model and gains, as in awmr_params.h
-  std::size_t runs = 0;                ///< number of runs (starts of the chip), without runs that
-                                       ///< were too short
-  std::size_t lost = 0;                ///< rows numbered by the chip but missing from the file
-  std::size_t damaged_bytes = 0;       ///< bytes that are neither header nor row; a truncated last
-                                       ///< row does not count
+  /// Number of runs (starts of the chip), without those of fewer than ten usable rows.
+  std::size_t runs = 0;
+  std::size_t lost = 0;  ///< rows numbered by the chip but missing from the file
+  /// Number of bytes that are neither header nor row, without a truncated last row.
+  std::size_t damaged_bytes = 0;
   std::vector<Finding> findings = {};
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
@@ -31,20 +31,20 @@ struct AwlLog {
 /// True if the first bytes of a header occur within the first 8 KiB.
 bool is_awl(std::string_view bytes);
 
-/// Reads all complete rows of a file. Each row is found by its own checksum, so that it is also
-/// read after damaged bytes. Findings, with the places in the file:
+/// Reads all complete rows of a file. Each row has its own checksum, so rows after damaged bytes
+/// are found, too. Findings, each with the places in the file:
 ///   `rows-lost`          missing row numbers
 ///   `log-damaged`        bytes that are not a row
 ///   `log-truncated`      the file ends inside a row
-///   `rows-not-measured`  rows not used: heading or speed was too old, or a value is not finite
-///   `short-run`          rows not used: their run has fewer than ten usable rows
+///   `rows-not-measured`  rows not used, because heading or speed was too old or a value not finite
+///   `short-run`          rows not used, because their run has fewer than ten usable rows
 ///   `chip-reset`         a run began with a watchdog reset or a drop of the supply voltage
-/// Errors (input): no complete header; as layout_of() (awl_header.h); two headers that differ; more
-/// than 1000 damaged headers. Errors (refused): no usable row.
+/// Errors (input): no complete header; a header that layout_of() refuses (awl_header.h); two
+/// headers that differ; more than 1000 damaged headers. Errors (refused): no usable row.
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file);
 
-/// As read_awl(), for a file. Records the hash of the file as an input. Errors also: as
-/// read_input().
+/// Reads a file by read_awl(), and records the hash of the file as an input of the command. Errors:
+/// as read_awl() and read_input().
 Result<AwlLog> read_awl_file(const std::filesystem::path& path);
 
 /// Returns the log as CSV text. Numbers are written in the shortest form that reads back exactly.

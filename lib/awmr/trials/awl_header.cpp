@@ -28,7 +28,7 @@ bool is_plain(std::string_view name) {
 
 std::size_t bytes_of(Kind kind) { return kind == Kind::kByte ? 1 : 4; }
 
-/// Reads the columns of the header. Each begins in the row where the one before ends.
+/// Reads the columns of the header. In a row, each column begins where the previous one ends.
 std::vector<Column> columns_in(JsonObject& header) {
   std::vector<Column> columns;
   std::set<std::string> names;

@@ -29,9 +29,9 @@ struct Column {
 
 /// Layout of the rows of a file.
 struct Layout {
-  std::string parameters_sha256;  ///< hash of the firmware's model and gains
+  std::string parameters_sha256;  ///< SHA-256 of the model and gains in the firmware
   std::size_t row_bytes = 0;
-  std::vector<Column> columns;  ///< the first is t_s
+  std::vector<Column> columns;  ///< columns in the order of the row; the first is t_s
 
   bool operator==(const Layout&) const = default;
   /// Returns the column of this name, or null.
@@ -41,15 +41,17 @@ struct Layout {
 /// Returns the scaled value of a column. Precondition: `row` has Layout::row_bytes bytes.
 double value_in(std::string_view row, const Column& column);
 
-/// Returns the one-byte column `name` as stored, without its scale; 0 if there is no such column.
+/// Returns the value of the one-byte column `name`, such as the bits of `fault`, without applying
+/// its scale. 0 if the layout has no such column.
 unsigned bits_in(std::string_view row, const Layout& layout, std::string_view name);
 
-/// Returns the JSON text of the header at this offset; empty if there is no undamaged header.
+/// Returns the JSON text of the header that begins at the offset `at`; empty if no header begins
+/// there or if its checksum is wrong.
 std::optional<std::string_view> header_at(std::string_view bytes, std::size_t at);
 
 /// Parses the JSON text of a header. Errors (input), with the place as `FILE:/pointer`: text that
-/// is not JSON; another version; a column with an invalid or duplicate name, type or scale; a first
-/// column other than t_s; a row size that is not that of the row's head and columns.
+/// is not JSON; an unknown version; a column with an invalid or duplicate name, or an invalid type
+/// or scale; a first column other than t_s; a row size that differs from the sum of its parts.
 Result<Layout> layout_of(std::string_view json, const std::string& file);
 
 }  // namespace awmr::awl

@@ -14,7 +14,8 @@ namespace {
 const std::string_view kMagic(reinterpret_cast<const char*>(kLogMagic), sizeof kLogMagic);
 const std::string_view kSync(reinterpret_cast<const char*>(kLogSync), sizeof kLogSync);
 
-/// Maximum number of damaged headers. With more, their checksums would dominate the reading time.
+/// Maximum number of damaged headers; a file with more is refused, because computing their
+/// checksums would take too long.
 constexpr std::size_t kMaxDamagedHeaders = 1000;
 
 /// The first header of a log begins within this number of bytes.
@@ -32,8 +33,8 @@ std::uint32_t sequence_of(std::string_view bytes, std::size_t offset) {
   return number_in<std::uint32_t>(bytes.substr(offset + kLogRowCovered));
 }
 
-/// Adds the complete row at this offset, and the gap in the row numbers before it. `after_header`:
-/// a header precedes the row, so the row begins a run.
+/// Adds the complete row at the offset `at`, and the gap in the row numbers before it, if any.
+/// `after_header`: true if a header precedes the row, which then begins a run.
 void add_row(std::string_view bytes, std::size_t at, bool after_header, Scan& scan) {
   const std::uint32_t sequence = sequence_of(bytes, at);
   const double t_s = time_of(bytes, at, scan.layout);
@@ -84,8 +85,8 @@ Status add_header(std::string_view json, std::size_t at, const std::string& file
   return {};
 }
 
-/// If the damaged bytes at the end of the file are fewer than those of a row, counts them as a
-/// truncated row instead of damage.
+/// If the file ends with damaged bytes, but fewer than a row has, counts them as a truncated row
+/// instead of damage.
 void note_end(std::string_view bytes, Scan& scan) {
   if (scan.damaged.empty() || scan.damaged.back().end != bytes.size()) return;
   const std::size_t size = bytes.size() - scan.damaged.back().begin;

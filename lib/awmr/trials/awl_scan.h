@@ -23,7 +23,7 @@ struct Damage {
   std::size_t end = 0;
 };
 
-/// Gap in the row numbers: rows that the file does not have.
+/// Gap in the numbers that the chip gives its rows: rows that are missing from the file.
 struct Lost {
   std::size_t count = 0;  ///< number of missing rows
   double before_s = 0.0;  ///< t_s of the row after the gap
@@ -32,7 +32,7 @@ struct Lost {
 };
 
 struct Scan {
-  Layout layout = {};  ///< layout of the rows; row_bytes 0: no complete header
+  Layout layout = {};  ///< layout of the rows; row_bytes is 0 if no complete header was found
   std::vector<Place> rows = {};
   std::vector<Damage> damaged = {};
   std::vector<Lost> lost = {};
@@ -42,8 +42,8 @@ struct Scan {
 /// True if the first bytes of a header occur within the first 8 KiB.
 bool begins_log(std::string_view bytes);
 
-/// Finds all rows by their checksums. Errors (input): no complete header; as layout_of(); headers
-/// that differ; more than 1000 damaged headers.
+/// Finds all rows by their checksums. Errors (input): no complete header; a header that layout_of()
+/// refuses; two headers that differ; more than 1000 damaged headers.
 Result<Scan> scan_of(std::string_view bytes, const std::string& file);
 
 /// t_s of the row at this offset.

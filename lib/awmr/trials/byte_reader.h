@@ -34,8 +34,8 @@ class ByteReader {
 
   std::size_t offset() const { return offset_; }
   std::size_t left() const { return bytes_.size() - offset_; }
-  /// Returns the next `size` bytes and advances. If fewer are left: returns nothing, stays in
-  /// place.
+  /// Returns the next `size` bytes and advances by them. If fewer are left, returns nothing and
+  /// does not advance.
   std::optional<std::string_view> take(std::size_t size) {
     if (left() < size) return std::nullopt;
     const std::string_view taken = bytes_.substr(offset_, size);

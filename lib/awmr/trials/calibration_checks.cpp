@@ -25,8 +25,8 @@ constexpr double kSignificance = 5.0;  // smallest significant error, in standar
 constexpr double kMinScale = 0.03;
 constexpr double kMinOffset_rad = 0.0175;
 
-/// Divides the log into this number of windows, but each 1 to 5 s long. Longer windows reduce the
-/// effect of noise at their ends, but accumulate sideslip and heading errors.
+/// Divides the log into about `count` windows of 1 to 5 s. Longer windows reduce the effect of
+/// noise at their ends, but accumulate more sideslip and heading errors.
 std::vector<LogWindow> calibration_windows(const DrivingLog& log, double count = 20.0) {
   constexpr double kShortest_s = 1.0;
   constexpr double kLongest_s = 5.0;
@@ -40,8 +40,8 @@ struct Regression {
   double scatter = 0.0;  ///< standard deviation of the residuals without outliers
 };
 
-/// Rows that are not outliers: residuals within four standard deviations. The standard deviation is
-/// estimated by the median of the magnitudes.
+/// Indices of the residuals that are not outliers, that is, within four standard deviations. The
+/// standard deviation is estimated from the median of the magnitudes.
 std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
   std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
   for (double& size : sizes) size = std::abs(size);
@@ -76,12 +76,13 @@ std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::Vect
   return found;
 }
 
-/// Displacement of one window, and the integrals a, b, c, d of calibration_checks.h.
+/// Displacement in one window (moved), and the integrals a (driven), b (turned), c (slipped) and
+/// d (hastened) of calibration_checks.h.
 struct CourseWindow {
   Complex moved, driven, turned, slipped, hastened;
 };
 
-/// `psi`: heading by row, rad.
+/// Computes the displacement and the integrals of one window. `psi`: heading by row, rad.
 CourseWindow course_window(const DrivingLog& log, const LogWindow& window,
                            const std::vector<double>& psi) {
   const std::vector<double>& x = log[LogChannel::kX]->value;
@@ -107,11 +108,11 @@ CourseWindow course_window(const DrivingLog& log, const LogWindow& window,
 struct CourseFit {
   Complex factor;          ///< k = s exp(i phi)
   double std_error = 0.0;  ///< standard error of the real and of the imaginary part of k
-  double scatter_m = 0.0;  ///< standard deviation of the residuals
+  double scatter_m = 0.0;  ///< standard deviation of the residuals, m
 };
 
-/// Fits the displacement with headings multiplied by `heading_factor`. Empty if a channel is
-/// missing, with fewer than 15 windows, or if k is not determined.
+/// Fits the displacements (calibration_checks.h) with headings multiplied by `heading_factor`.
+/// Empty if a channel is missing, with fewer than 15 windows, or if the windows do not determine k.
 std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor = 1.0) {
   for (const LogChannel channel :
        {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kHeading}) {
@@ -204,11 +205,11 @@ std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
   return Calibration{found->coefficients(0), found->std_errors(0)};
 }
 
-/// Factor k between the turning of the course over ground and the change of the heading psi, which
-/// is the integral of the yaw rate if the log has no heading (calibration_checks.h). Empty if a
+/// Ratio k of the change of the course over ground to the change of the heading psi
+/// (calibration_checks.h). Without a heading, psi is the integral of the yaw rate. Empty if a
 /// channel is missing, with fewer than 15 windows in motion, or if the windows do not determine k.
 std::optional<Calibration> course_over_heading(const DrivingLog& log) {
-  constexpr double kMoving = 0.3;  // of the longest displacement
+  constexpr double kMoving = 0.3;  // smallest displacement used, as a fraction of the longest one
   constexpr double kWindows = 60.0;
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed}) {
     if (!log[channel]) return std::nullopt;
@@ -224,7 +225,7 @@ std::optional<Calibration> course_over_heading(const DrivingLog& log) {
     longest_m = std::max(longest_m, std::abs(sums.back().moved));
   }
   std::vector<double> angles_rad;
-  std::vector<Eigen::RowVector4d> rows;  // psi, turn, time, 1
+  std::vector<Eigen::RowVector4d> rows;  // columns: psi, change of psi, time, 1
   double before_rad = 0.0;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (!(std::abs(sums[w].moved) > kMoving * longest_m)) continue;
@@ -300,7 +301,7 @@ std::optional<Finding> rate_mismatch(const DrivingLog& log,
                                    compared, rate, heading));
 }
 
-/// A heading and a yaw rate that agree with each other, but not with the positions.
+/// Finding for heading and yaw rate that agree with each other, but not with the positions.
 std::optional<Finding> turn_mismatch(const DrivingLog& log,
                                      std::span<const ColumnMapping> mappings) {
   const auto scale = course_over_heading(log);
@@ -356,7 +357,7 @@ std::vector<Finding> calibration_findings(const DrivingLog& log,
   if (auto rate = rate_mismatch(log, mappings)) {
     findings.push_back(*std::move(rate));
   } else if (auto turn = turn_mismatch(log, mappings)) {
-    // With a wrong scale of the heading, the comparisons below have no meaning.
+    // The comparisons below use the heading, so they are skipped if its scale is wrong.
     return {*std::move(turn)};
   }
   const auto course = course_fit(log);

@@ -13,23 +13,24 @@
 ///     d = int exp(i psi) du                  latency of speed or position
 ///
 /// s is the ratio of the position's scale to the speed's scale (1 if both are right). phi is the
-/// angle from the heading to the course over ground. Without a heading, psi is the integral of the
-/// yaw rate, whose unknown initial value does not change distances. Sideslip (i k_c, k_c real) and
-/// latency (k_d real) then count to first order, and n is constant, from the noise of the
-/// positions:
+/// angle from the heading to the course over ground (the direction of motion). In a log without a
+/// heading, psi is the integral of the yaw rate. Its unknown initial value does not change the
+/// length of a displacement, so only lengths are compared. Here k_c and k_d are real (sideslip is
+/// i k_c), their squares are neglected, and the constant n is due to noise of the positions:
 ///
 ///     |p(t1) - p(t0)|^2 = s^2 |a|^2 + 2 s Re(k_b* a b*) + |k_b|^2 |b|^2 + 2 s k_c Im(a c*)
 ///                         + 2 s k_d Re(a d*) + n
 ///
-/// The change of heading is compared with the integral of the yaw rate in the same way. There, k is
-/// the ratio of the heading's scale to the yaw rate's scale, k_0 corrects an offset of the yaw
-/// rate, and k_1 is the latency between the two:
+/// The change of heading is compared with the integral of the yaw rate in the same way, with other
+/// factors: k is the ratio of the heading's scale to the yaw rate's scale, k_0 corrects an offset
+/// of the yaw rate, and k_1 is the latency between the two channels:
 ///
 ///     psi(t1) - psi(t0) = k int r dt + k_0 (t1 - t0) + k_1 (r(t1) - r(t0))
 ///
-/// If heading and yaw rate agree, both can have a wrong scale, as from odometry with a wrong track
-/// width. Then the angle from a to the displacement grows with the heading, with k the ratio of the
-/// turning of the course to that of the heading (windows of a sixtieth of the log, 1 to 5 s):
+/// Heading and yaw rate can agree although both have the same wrong scale, such as from wheel
+/// odometry with a wrong track width. Then the angle from a to the displacement grows with the
+/// heading. Here k is the ratio of the change of course to the change of heading (windows of a
+/// sixtieth of the log, 1 to 5 s):
 ///
 ///     arg((p(t1) - p(t0))/a) = phi + (k - 1) (psi(t0) + psi(t1))/2
 ///                              + k_2 (psi(t1) - psi(t0)) + k_3 t0
@@ -50,16 +51,16 @@ struct Calibration {
   double std_error = 0.0;
 };
 
-/// Angle phi from the heading to the course over ground, rad, left positive. Empty if phi is below
-/// 1 deg or below five standard errors, if x, y, the heading or the speed was not measured, or with
-/// fewer than 15 windows.
+/// Angle phi from the heading to the course over ground, rad, left positive. Empty if its magnitude
+/// is below 1 deg or below five standard errors, if x, y, the heading or the speed was not
+/// measured, or if the log has fewer than 15 windows.
 std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 
-/// Returns the warnings `heading-offset`, if there is a heading_offset_rad(), and `scale-mismatch`,
-/// for two channels whose scales differ by more than 3 % and five standard errors. For heading and
-/// yaw rate, `scale-mismatch` names the wrong one if the positions agree with the other; else it
-/// names both channels, also if they agree with each other but not with the positions.
-/// `mappings`: column mappings with which the log was read.
+/// Returns the warnings `heading-offset` (heading_offset_rad() is not empty) and `scale-mismatch`
+/// (the scales of two channels differ by more than 3 % and by more than five standard errors). If
+/// heading and yaw rate differ, and the positions agree with one of them, `scale-mismatch` names
+/// the other one. It names both if the positions do not decide, or if heading and yaw rate agree
+/// with each other but not with the positions. `mappings`: column mappings used to read the log.
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings);
 

@@ -14,8 +14,8 @@ namespace {
 /// Fraction of repeated values in a moving signal above which the sensor may be slower than the
 /// log.
 constexpr double kRepeatedShare = 0.5;
-/// Fraction of repeated values above which the resolution is coarse. With fewer repeats, the steps
-/// are only those of the number format.
+/// Fraction of repeated values above which the resolution is coarse. Below it, the steps between
+/// values are only due to the decimal places in the file.
 constexpr double kSomeRepeats = 0.2;
 
 /// Rows at which the value changes, and the magnitude of each change.
@@ -60,9 +60,9 @@ std::vector<double> gaps_of(const Changes& changes) {
   return gaps;
 }
 
-/// True if at least 95 % of the changes are one step of the resolution and fewer than 80 % of their
-/// gaps are multiples of one interval. This is a coarse sensor without noise, which reaches the
-/// next step as the signal moves. A slow sensor changes at multiples of its interval.
+/// True for a coarse sensor without noise: at least 95 % of the changes are one step of the
+/// resolution, and fewer than 80 % of the gaps between changes are multiples of one interval. (A
+/// slow sensor changes at multiples of its sample interval.)
 bool changes_step_by_step(const Changes& changes, double quantum) {
   constexpr double kNearlyAll = 0.95;
   constexpr double kRegular = 0.8;
@@ -81,9 +81,9 @@ bool changes_step_by_step(const Changes& changes, double quantum) {
   return static_cast<double>(multiples) < kRegular * static_cast<double>(gaps.size());
 }
 
-/// Marks the rows with a reading of a slow sensor: the rows where the value changes. If the value
-/// stays for several of the usual (median) intervals between changes, one row per interval is also
-/// marked, because the sensor probably read the same value again.
+/// Marks the rows in which a slow sensor has a new reading: those in which the value changes. If
+/// the value stays the same for several usual (median) intervals between changes, one row per
+/// interval is also marked, because the sensor probably read the same value again.
 std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   std::vector<bool> fresh(rows, false);
   fresh[0] = true;
@@ -117,10 +117,9 @@ bool all_equal(std::span<const double> values) {
 }
 
 /// Limit of |off| (off_median()) above which a reading is a spike: the largest of
-///   - 7 standard deviations of the noise, which normal noise exceeds once in 1e9 readings. The
-///     standard deviation is the 75 % quantile of |off| over 1.04, without five equal readings in a
-///     row (an encoder at rest). About four standard errors of the quantile are added (one is a
-///     fraction 1.3/sqrt(n) of it for n readings);
+///   - 7 standard deviations of the noise. The standard deviation is estimated as the 75 % quantile
+///     of |off| over 1.04, without readings in a row of five equal ones (an encoder at rest). For
+///     the error of this estimate from n readings, a fraction 5/sqrt(n) is added;
 ///   - three times the 80 % quantile of the change between readings, for sharp changes of motion;
 ///   - a tenth of the range of the values;
 ///   - three times the resolution.
@@ -145,8 +144,9 @@ double spike_limit(std::span<const double> value, std::span<const double> off, d
                    0.1 * range, 3.0 * quantum});
 }
 
-/// True if reading `k` is near the straight line through the two nearest unsuspicious readings on
-/// one side (-1 or 1), as at a sharp change of motion. Such a reading is no spike.
+/// True if reading `k` is near the straight line through two neighbouring readings on one side (-1:
+/// before, 1: after). The nearer one is the nearest that is not itself a possible spike. Such a
+/// reading is a sharp change of motion, no spike.
 bool is_reached_from(std::span<const double> value, std::span<const double> off, double limit,
                      std::size_t k, std::ptrdiff_t side) {
   const auto rows = static_cast<std::ptrdiff_t>(value.size());
@@ -163,7 +163,7 @@ bool is_reached_from(std::span<const double> value, std::span<const double> off,
   return std::abs(value[k] - line) < 0.5 * std::abs(off[k]);
 }
 
-/// Finds readings that jump away and back, farther than noise and motion do.
+/// Finds spikes: readings that jump away and back by more than noise and motion explain.
 void find_spikes(std::span<const double> all, ChannelQuality& quality) {
   std::vector<std::size_t> rows;
   std::vector<double> value;
@@ -206,9 +206,9 @@ std::vector<RowSpan> equal_runs(std::span<const double> value) {
   return runs;
 }
 
-/// Time, s, during `run` in which the mean command over 0.3 s differs by more than `notable` from
-/// the mean over the run's first 0.3 s. The last 0.3 s of the run do not count. Means are compared,
-/// because a speed controller changes its command in every row, but hardly on average.
+/// How long, in s, the command differs during `run` from its value at the start of `run` by more
+/// than `notable`. Means of the command over 0.3 s are compared, because a speed controller changes
+/// its command in every row, but hardly on average. The last 0.3 s of the run do not count.
 double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,
                  double notable) {
   constexpr double kMean_s = 0.3;
@@ -228,9 +228,10 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
   return changed;
 }
 
-/// Finds stuck values: constant for a second or more, and for eight times as many rows as usual
-/// (the 90 % quantile), while the command changed for 0.3 s or more. A value near 0 is not stuck:
-/// the vehicle rests. A value that stays so long more than once is not stuck: it is a set-point.
+/// Finds stuck values: constant for a second or more, and for eight times as many rows as the 90 %
+/// quantile of constant spans, while the command changed for 0.3 s or more. A value near 0 is not
+/// stuck, because the vehicle rests. A value that is constant for so long more than once is not
+/// stuck, because it is a set-point.
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {
   const std::vector<RowSpan> runs = equal_runs(value);
@@ -265,8 +266,8 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
 }
 
 /// Finds saturation: the largest or smallest value occurs at least four times as often as any value
-/// between them. Rows without a command do not count, because a resting vehicle also repeats a
-/// value.
+/// between these two. Rows without a command do not count, because a vehicle at rest also repeats
+/// a value.
 void find_saturation(std::span<const double> all, std::span<const double> activity,
                      ChannelQuality& quality) {
   const double idle = 0.02 * largest_size(activity);

@@ -10,7 +10,7 @@ namespace awmr {
 
 /// Reason why a sensor repeats its values.
 enum class Repeats {
-  kNone,    ///< most rows bring a new value
+  kNone,    ///< neither slow nor coarse: repeated values are measurements, too
   kSlow,    ///< sensor slower than the log: values are repeated until the next reading
   kCoarse,  ///< coarse resolution: the value changes only when the signal reaches the next step
 };
@@ -23,26 +23,27 @@ struct RowSpan {
 
 struct ChannelQuality {
   Repeats repeats = Repeats::kNone;
-  std::vector<bool> fresh;          ///< by row: the value is a measurement
+  std::vector<bool> fresh;          ///< by row: true if the value is a measurement
   double quantum = 0.0;             ///< resolution, in the unit of the values; 0: not detected
   std::vector<std::size_t> spikes;  ///< rows whose value jumps away and back
   std::vector<RowSpan> stuck;       ///< rows with one repeated value while the command changed
   std::size_t saturated = 0;        ///< number of rows at the end of the sensor's range
-  double saturated_at = 0.0;        ///< the value in these rows
+  double saturated_at = 0.0;        ///< value at that end of the range
 };
 
-/// Reason why `value` repeats its readings: sets `repeats`, `fresh` and `quantum` as
-/// channel_quality() does. With fewer than 8 changes of the value, every row is a measurement.
+/// Determines why `value` contains repeated readings: sets only `repeats`, `fresh` and `quantum`,
+/// by the rules of channel_quality(). With fewer than 8 changes of the value, every row counts as a
+/// measurement.
 ChannelQuality find_repeats(std::span<const double> value);
 
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
-/// signal, by row, in any scale. A signal that is constant while `activity` changes is stuck.
+/// signal, by row, in any unit. A signal that is constant while `activity` changes is stuck.
 ///
-/// A slow sensor changes its value in every second row at most, at a multiple of its interval. A
-/// coarse sensor changes it at any time, also in neighbouring rows, mostly by one step of its
-/// resolution. Of a slow sensor, only the rows with a new reading are measurements. Of a coarse
-/// sensor, every row is one: an unchanged value means that the signal did not reach the next step.
-/// Rows with spikes, stuck values (except the first) or saturated values are not measurements.
+/// A slow sensor changes its value at multiples of its sample interval, two rows or more. A coarse
+/// sensor can change it in any row, mostly by one step of its resolution. Rows of a slow sensor are
+/// measurements only if they have a new reading. Every row of a coarse sensor is a measurement,
+/// because an unchanged value means that the signal did not reach the next step. Rows with spikes,
+/// stuck values (except the first one) or saturated values are not measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

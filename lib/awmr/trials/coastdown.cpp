@@ -20,7 +20,8 @@ bool is_stop_time(const TrialReader& reader) {
   return reader.has("initial_speed_mps") && reader.has("stop_time_s");
 }
 
-/// True if the file has one row per speed bin, as road-load measurements do.
+/// True if the file has one row per speed bin (from_mps, to_mps, elapsed_s), as road-load
+/// measurements do.
 bool is_binned(const TrialReader& reader) {
   return reader.has("from_mps") && reader.has("to_mps") && reader.has("elapsed_s");
 }
@@ -110,8 +111,8 @@ void check_length(TrialReader& reader, const std::vector<CoastCurve>& curves) {
 }
 
 /// Converts speed bins to curves. The speeds of a curve are the limits of its bins, the times the
-/// sums of their durations. A new curve begins if `run` changes, or if a bin does not begin at the
-/// speed at which the one before ends.
+/// sums of the durations. A new curve begins if `run` changes, or if a bin does not begin at the
+/// speed at which the previous bin ends.
 std::vector<CoastCurve> read_bins(TrialReader& reader) {
   std::vector<CoastCurve> curves;
   std::optional<double> run;

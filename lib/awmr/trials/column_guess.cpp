@@ -54,8 +54,8 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// Assumed angle of the steering stop and voltage of full power. The reason of a guess states them,
-/// so that the user can check them.
+/// Assumed angle of the steering stop and voltage of full power, for guesses that need them. The
+/// reason of such a guess states the value, so that the user can check it.
 constexpr double kUsualStop_deg = 20.0;
 constexpr double kUsualVolts = 12.0;
 
@@ -133,7 +133,8 @@ std::vector<double> first_of(const std::vector<double>& values) {
           values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), kShown))};
 }
 
-/// Guesses the heading from the quaternion of a message with all four components.
+/// Adds guesses of the heading from the orientation quaternion of a message, if the file has all
+/// four components.
 void add_quaternions(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   const std::set<std::string> names(sample.names.begin(), sample.names.end());
   for (const std::string& name : sample.names) {
@@ -192,8 +193,8 @@ void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& gues
   for (ColumnGuess& guess : guesses) {
     const auto source = source_of(guess, sample);
     if (!source) continue;
-    // Values of a channel: for this guess's channel its source column, for others that of their
-    // first guess.
+    // The channel of this guess has the values of the guess's source column; any other channel has
+    // those of the source column of its first guess.
     const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {
       if (column == guess.column) return sample.values[*source];
       for (const ColumnGuess& other : guesses) {
@@ -216,8 +217,8 @@ void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& gues
   }
 }
 
-/// Sorts the guesses of one column by confidence. If none is sure and several are likely, these
-/// become unsure.
+/// Sorts the guesses for one column by confidence. If none is kSure and several are kLikely, the
+/// kLikely ones become kUnsure, because the user must choose between them.
 void settle(std::span<ColumnGuess> guesses) {
   std::stable_sort(guesses.begin(), guesses.end(), [](const ColumnGuess& a, const ColumnGuess& b) {
     return a.confidence < b.confidence;
@@ -240,8 +241,8 @@ bool has_body_velocities(const FileSample& sample) {
   };
   return has("u") && has("v");
 }
-/// Replaces the letter u, v or r by speed, sway or yawrate, if the name is that letter and at most
-/// a unit. (u_ref_mps is a reference.)
+/// Replaces the letter u, v or r by the word speed, sway or yawrate, if the name consists only of
+/// that letter and a unit (u_mps). u_ref_mps stays, because it is a reference, not a measurement.
 Words with_body_velocity(Words words) {
   const bool is_reading = words.size() == 1 || unit_in(words, Dimension::kSpeed) ||
                           unit_in(words, Dimension::kAngularRate);

@@ -28,28 +28,28 @@ Result<FileSample> sample_of(const std::filesystem::path& path);
 enum class Confidence {
   kSure,    ///< the name equals awmr's column name
   kLikely,  ///< the name fits, and the unit follows from the name or the values
-  kUnsure,  ///< the unit is unknown, or another column fits as well: needs confirmation
+  kUnsure,  ///< the unit is unknown, or another column fits as well: the user must choose
 };
 inline constexpr NameTable<Confidence, 3> kConfidenceNames{{{"sure", Confidence::kSure},
                                                             {"likely", Confidence::kLikely},
                                                             {"unsure", Confidence::kUnsure}}};
 
 struct ColumnGuess {
-  std::string column;  ///< awmr's column: "speed_mps"
-  /// EXPRESSION over the file's columns, as parse_column() reads it. Empty if `why` is the reason
-  /// that no column can be used.
+  std::string column;  ///< name of awmr's column, such as "speed_mps"
+  /// Formula of the file's columns in the syntax of `--column`. Empty if no column of the file can
+  /// be used; `why` then gives the reason.
   std::string expression;
   Confidence confidence = Confidence::kUnsure;
   std::string why;                   ///< reason of the guess, as text for the user
   std::vector<double> samples = {};  ///< first few values of the source column
 };
 
-/// Returns the guesses for each column of the trial, in the order of columns_of(kind). Of several
-/// guesses for one column the most confident is first. Uses the words and units in the names of the
-/// file's columns (column_words.h).
+/// Returns the guesses for each column that this kind of trial can have, in the order of
+/// columns_of(kind). If a column has several guesses, the most confident one comes first. The
+/// guesses use the words and units in the names of the file's columns (column_words.h).
 std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind);
 
-/// Returns the first guess of each column of awmr, unless it is kUnsure.
+/// Returns the first guess for each of awmr's columns; omits columns whose first guess is kUnsure.
 std::vector<ColumnGuess> likely_columns(const std::vector<ColumnGuess>& guesses);
 
 }  // namespace awmr

@@ -56,7 +56,7 @@ std::vector<Rule> log_rules() {
       {"steering_cmd_deg", {{"servo"}}, {"feedback", "measured", "actual"}, Dimension::kAngle},
       {"latitude_deg", {{"lat", "latitude"}}, {}, Dimension::kGeographic},
       {"longitude_deg", {{"lon", "lng", "long", "longitude"}}, {}, Dimension::kGeographic}};
-  // Accelerations, times and covariances are none of these columns.
+  // A name with a word for an acceleration, a time or a covariance fits none of these columns.
   for (Rule& rule : rules) rule.none.insert(kAcceleration.begin(), kAcceleration.end());
   return rules;
 }

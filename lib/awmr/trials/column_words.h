@@ -14,8 +14,8 @@ namespace awmr {
 
 using Words = std::vector<std::string>;
 
-/// Splits a name into lower-case words, at other characters than letters and digits and before a
-/// capital that follows a small letter: `IMU.GyrZ` gives imu, gyr, z.
+/// Splits a name into lower-case words: at characters other than letters and digits, and before a
+/// capital that follows a lower-case letter. `IMU.GyrZ` gives imu, gyr, z.
 Words words_of(std::string_view name);
 
 /// True if at least one of the words is in `any`.
@@ -23,14 +23,14 @@ bool has_any(const Words& words, const std::set<std::string>& any);
 
 enum class Dimension { kForce, kAngle, kAngularRate, kSpeed, kLength, kGeographic, kTime, kCount };
 
-/// Returns the dimension of a file's column whose name has these words, if the column may be awmr's
-/// `column` in a trial of this kind. Else empty.
+/// Checks whether a file's column whose name has these words may be awmr's `column` in a trial of
+/// this kind. Returns its dimension, or empty if it may not.
 std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
                                       const Words& words);
 
 /// Unit in the name of a column.
 struct NamedUnit {
-  std::string_view spelling;  ///< "kmh"; two words with a space between them: "m s"
+  std::string_view spelling;  ///< "kmh"; a space between two words: "m s" for m/s
   double factor;              ///< value in awmr's unit = value in the file times this
 };
 /// Returns the unit of this dimension that the last word or the last two words name (`m/s` has the

@@ -9,7 +9,7 @@ namespace {
 
 struct MotionLimit {
   std::string_view column;
-  double least;      ///< threshold in the column's unit
+  double least;      ///< smallest value that counts as motion, in the column's unit
   bool is_position;  ///< true: compare the range of the values; false: their largest magnitude
 };
 constexpr std::array<MotionLimit, 8> kMotionLimits{{{"x_m", 0.2, true},
@@ -22,7 +22,7 @@ constexpr std::array<MotionLimit, 8> kMotionLimits{{{"x_m", 0.2, true},
                                                     {"yaw_rate_radps", 0.1, false}}};
 constexpr std::array<LogChannel, 4> kMotionChannels{LogChannel::kHeading, LogChannel::kSpeed,
                                                     LogChannel::kSway, LogChannel::kYawRate};
-/// Minimum number of values of a constant channel; fewer may be equal by chance.
+/// Minimum number of values for calling a channel constant; fewer may be equal by chance.
 constexpr std::size_t kMinValues = 10;
 
 bool is_constant(std::span<const double> values) {

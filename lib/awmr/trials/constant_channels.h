@@ -18,7 +18,7 @@ using ColumnValues = std::function<std::optional<std::span<const double>>(std::s
 
 struct ConstantChannel {
   LogChannel channel;
-  double value = 0.0;  ///< in the column's unit
+  double value = 0.0;  ///< the constant value, in the column's unit
 };
 
 /// Returns which of speed, lateral speed, yaw rate and heading are constant (in 10 rows or more)

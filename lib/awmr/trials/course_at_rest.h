@@ -7,19 +7,19 @@
 
 namespace awmr {
 
-/// Result of course_at_rest(). A GPS reports the direction of motion (the course) as heading. While
-/// the vehicle rests, the GPS repeats the last course or writes 0 or noise, so the heading jumps
-/// when the vehicle starts. The heading of a compass does not jump.
+/// Result of course_at_rest(). The heading of a GPS is the direction of motion (the course). While
+/// the vehicle rests, the GPS repeats the last course or writes 0 or noise, so its heading jumps
+/// when the vehicle starts to move. The heading of a compass does not jump.
 struct CourseAtRest {
   double rest_mps = 0.0;          ///< below this speed, the vehicle counts as at rest
   std::vector<std::size_t> rows;  ///< rows with an invalid heading; empty: all headings are valid
   double jump_rad = 0.0;          ///< largest change between headings at rest, [0, pi]
 };
 
-/// Finds the rows at rest, and whether their headings jump by more than 20 deg. `present`: the rows
-/// with a heading, ascending. `speed_mps` and `heading_rad` have one value per row; the heading may
-/// wrap. A vehicle that was turned by hand while at rest is not reported: its headings before and
-/// after the rest differ.
+/// Finds the rows at rest whose headings are invalid, because the heading jumps by more than 20 deg
+/// at rest. `present`: the rows with a heading, ascending. `speed_mps` and `heading_rad` have one
+/// value per row; the heading may wrap. If the headings before and after the rest differ, nothing
+/// is reported, because the vehicle may have been turned by hand.
 CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const double> heading_rad,
                             std::span<const std::size_t> present);
 

@@ -22,10 +22,11 @@ struct File {
   std::vector<std::string> header;
 };
 
-/// The mappings of t_s.
+/// The column mappings that define t_s.
 struct TimeMappings {
   std::vector<ColumnMapping> mappings = {};
-  std::vector<std::size_t> places = {};  ///< indices of `mappings` among all mappings
+  /// Index of each of `mappings` in the list of all mappings.
+  std::vector<std::size_t> places = {};
 };
 
 TimeMappings time_mappings(std::span<const ColumnMapping> mappings) {
@@ -70,7 +71,7 @@ struct Span {
   double end_s = 0.0;
 };
 
-/// Errors: a file begins after another has ended.
+/// Checks that the files overlap in time. Errors: a file begins after another has ended.
 Status check_spans(const std::vector<Span>& spans) {
   if (spans.empty()) return {};
   const auto last = std::max_element(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
@@ -109,7 +110,8 @@ Topic topic_of(const CsvTable& table, const std::string& column, std::size_t pla
   return topic;
 }
 
-/// Errors: a time that does not fit into 64-bit nanoseconds (beyond the year 2255 in clock time).
+/// Checks the times of a table. Errors: a time that does not fit into 64-bit nanoseconds (9e9 s,
+/// the year 2255 in clock time).
 Status check_time(const CsvTable& table) {
   constexpr double kMax_s = 9e9;
   for (std::size_t row = 0; row < table.rows(); ++row) {

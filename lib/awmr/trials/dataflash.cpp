@@ -116,8 +116,9 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
 
 /// A topic and its requested fields.
 struct Listed {
-  std::size_t topic = 0;                        ///< index in Signals::topics
-  std::vector<const dataflash::Field*> wanted;  ///< in the order of Topic::columns
+  std::size_t topic = 0;  ///< index in Signals::topics
+  /// Requested fields, in the order of Topic::columns.
+  std::vector<const dataflash::Field*> wanted;
 };
 
 std::map<TopicKey, Listed> list_topics(const Contents& contents, const Wanted& wanted,

@@ -32,12 +32,13 @@ struct Field {
 
 /// Definition of a record type.
 struct Format {
-  std::string definition;  ///< the bytes of the definition, without the record header
+  std::string definition;  ///< bytes of the FMT record, without the record header
   std::string name;
   std::size_t bytes = 0;  ///< size of a record, with its header
   std::vector<Field> fields = {};
-  std::optional<std::size_t> time = {};      ///< index in `fields` of TimeUS or TimeMS
-  std::optional<std::size_t> instance = {};  ///< index in `fields` of the sensor's number
+  std::optional<std::size_t> time = {};  ///< index in `fields` of the time (TimeUS or TimeMS)
+  /// Index in `fields` of the instance number of the sensor.
+  std::optional<std::size_t> instance = {};
 };
 
 /// Formats by the type in the record header.
@@ -50,8 +51,8 @@ double value_in(std::string_view bytes, const FieldKind& kind);
 std::string text_of(std::string_view bytes);
 
 /// Parses the 86 bytes after the header of an FMT record: type, length, name[4], format[16],
-/// labels[64]. Errors: a number of names that is not the number of fields, an unknown format
-/// character, a wrong length.
+/// labels[64]. Errors: `labels` and `format` have different numbers of fields; an unknown format
+/// character; a length that is not that of the fields.
 tl::expected<Format, std::string> format_of(std::string_view bytes);
 
 }  // namespace awmr::dataflash

@@ -175,8 +175,9 @@ Result<TextContents> text_contents(std::string_view bytes, const std::string& fi
 
 /// A topic and its requested fields.
 struct ListedText {
-  std::size_t topic = 0;            ///< index in Signals::topics
-  std::vector<std::size_t> fields;  ///< indices in Format::fields, in the order of Topic::columns
+  std::size_t topic = 0;  ///< index in Signals::topics
+  /// Requested: indices in Format::fields, ordered as Topic::columns.
+  std::vector<std::size_t> fields;
 };
 
 std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, const Wanted& wanted,

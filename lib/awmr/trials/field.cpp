@@ -26,7 +26,7 @@ const std::vector<CsvColumn>& field_columns() {
   return columns;
 }
 
-/// Errors: a mapping to a column that a field record does not have.
+/// Checks the column mappings. Errors: a mapping to a column that a field record does not have.
 Status check_names(const std::vector<ColumnMapping>& mappings) {
   std::vector<Fault> faults;
   for (const ColumnMapping& mapping : mappings) {

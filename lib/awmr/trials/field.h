@@ -1,4 +1,5 @@
-/// Reads the magnetometer record of a turning vehicle, for the calibration of its compass.
+/// Reads the record of a vehicle's magnetometer while it turns, for compass calibration
+/// (`awmr compass`).
 #pragma once
 
 #include <filesystem>

@@ -21,9 +21,11 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
                                                 {1000.0, "per mille"},
                                                 {1023.0, "10-bit PWM counts"},
                                                 {4095.0, "12-bit PWM counts"}}};
-constexpr double kEndOfScale = 0.005;    // relative tolerance for "the force is at full power"
-constexpr double kMinShare = 0.2;        // fraction of full power that every vehicle's trials reach
-constexpr double kPlainlyBeyond = 1.05;  // times F'max; up to this, F' may refer to a smaller F_max
+constexpr double kEndOfScale = 0.005;  // relative tolerance of "the largest force is full power"
+// The trials of any vehicle reach this fraction of full power.
+constexpr double kMinShare = 0.2;
+// Up to this times F'max, forces may be divided by a smaller F_max.
+constexpr double kPlainlyBeyond = 1.05;
 
 constexpr ForceUnit kMicroseconds{
     "microseconds of a servo pulse (F' = (us - 1500)/500 if 1500 is standstill and 2000 full "
@@ -49,8 +51,8 @@ bool may_be_newtons(double largest, const Vehicle& vehicle) {
   return implausible_values(vehicle).empty() && kAcceleration_mps2.contains(pushed_mps2);
 }
 
-/// Returns the scales of which the largest force is 20 to 100 %; exactly one if the force is at
-/// full power; empty if there are none.
+/// Returns the scales for which the largest force is 20 to 100 % of full power. If it is 100 % of
+/// one scale, returns only that scale.
 std::vector<ForceUnit> scales_of(double largest) {
   std::vector<ForceUnit> found;
   for (const FullScale& scale : kFullScales) {
@@ -128,7 +130,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
                          const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
   const ForceSpan of_one{thrust.least / n, thrust.largest / n};
-  // Values up to n are a sum n F' that exceeds n F'max, not another unit.
+  // Values up to n are the sum n F' of n wheels in the right unit, but beyond n F'max.
   const bool is_sum = is_share_of_f_max(of_one);
   ForceUnits units;
   if (wheels && !is_sum) {

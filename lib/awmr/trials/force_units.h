@@ -2,16 +2,17 @@
 /// to this folder.
 ///
 ///     largest force in the files           likely unit
-///     up to 1                              F' itself: `wheel_force` of vehicle.json is too narrow
-///     up to 1.05 F'max                     F' over a force smaller than F_max
+///     up to 1                              F', with too small a `wheel_force` in vehicle.json, or
+///                                          fractions of F'max
+///     up to 1.05 F'max                     multiples of a force smaller than F_max
 ///     900 to 2200, no value below 900      microseconds of a servo pulse: F' = (us - 1500)/500
 ///     100, 255, 1000, 1023, 4095 +-0.5 %   percent, PWM counts or per mille, at full power
-///     20 to 100 % of one of these          possibly that scale: all such scales are listed
+///     20 to 100 % of one of these          possibly that scale; the message lists all such scales
 ///     n F/m of 0.1 to 30 m/s^2             possibly newtons (n driven wheels, mass m in kg)
 ///     2 to 60                              possibly volts
 ///
-/// Only a force at full power identifies the unit for certain. The largest force in all tables of a
-/// vehicle therefore decides the unit of every force column.
+/// Only a force at full power identifies a scale for certain. Therefore the largest force in all
+/// tables of a vehicle decides the unit of every force column.
 #pragma once
 
 #include <optional>
@@ -25,7 +26,8 @@
 
 namespace awmr {
 
-/// A force up to this factor times the limit counts as within it: the excess may be rounding.
+/// A force up to this factor times the limit counts as within the limit, because the excess may be
+/// due to rounding.
 inline constexpr double kForceRounding = 1.01;
 
 /// Range of the pulse lengths of a servo or a motor driver, us.
@@ -37,8 +39,8 @@ struct ForceSpan {
   double largest = 0.0;  ///< largest magnitude
 };
 
-/// True if no magnitude exceeds 1 (by more than 0.5 %), so that the values can be F' even if they
-/// exceed F'max.
+/// True if the largest magnitude is at most 1 (plus 0.5 %). The values can then be F', even if they
+/// exceed the vehicle's limit F'max.
 bool is_share_of_f_max(const ForceSpan& span);
 /// Range that covers both ranges.
 ForceSpan joined(const ForceSpan& a, const ForceSpan& b);
@@ -46,14 +48,14 @@ ForceSpan joined(const ForceSpan& a, const ForceSpan& b);
 /// A possible unit. F' = factor times the value in the file, plus offset.
 struct ForceUnit {
   std::string_view words;  ///< name of the unit: "8-bit PWM counts"
-  double factor = 0.0;     ///< 0: unknown, as for newtons; `words` then names the divisor
+  double factor = 0.0;     ///< 0: unknown, such as for newtons; `words` then describes the divisor
   double offset = 0.0;
 };
 
 /// Possible units of forces beyond F'max.
 struct ForceUnits {
-  std::vector<ForceUnit> units;  ///< most likely first; never empty; exactly one if certain
-  std::string remedy = {};       ///< change of vehicle.json to offer with the mapping, or empty
+  std::vector<ForceUnit> units;  ///< the most likely first; never empty; only one if it is certain
+  std::string remedy = {};       ///< change of vehicle.json that also solves it, as text; or empty
 
   bool is_clear() const { return units.size() == 1; }
 };
@@ -64,19 +66,19 @@ ForceUnits force_units(const ForceSpan& span, const Vehicle& vehicle);
 /// vehicle.json may have to be changed (`units.remedy`).
 std::string words_of(const ForceUnits& units);
 
-/// Mappings that convert `column`, the force of one wheel, to F'. Units with an unknown factor have
-/// none.
+/// Column mappings that convert `column`, the force of one wheel, to F': one for each possible unit
+/// with a known factor.
 std::vector<UnitFix> force_unit_fixes(const ForceUnits& units, std::string_view column);
 
-/// Possible units of a column tau_speed above n F'max (n driven wheels), and the mappings that
-/// convert it to n F'. The column may contain the force of one wheel or the sum of n wheels, so a
-/// unit can have a mapping for each.
+/// Possible units of a column tau_speed with values above n F'max (n: number of driven wheels), and
+/// the mappings that convert it to n F'. The column may contain the force of one wheel or the sum
+/// of n wheels, so each unit can have two mappings.
 struct ThrustUnits {
   ForceUnits units;
   std::vector<UnitFix> unit_fixes;
 };
-/// `thrust`: range of the column tau_speed. `wheels`: range of the other tables' wheel forces if
-/// they exceed F'max; they then decide the unit.
+/// Returns the possible units of tau_speed. `thrust`: range of the column. `wheels`: range of the
+/// wheel forces in the other tables, if it exceeds F'max; it then decides the unit.
 ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>& wheels,
                          const Vehicle& vehicle);
 

@@ -1,4 +1,4 @@
-/// The commands of a log as functions of time. A command is held until the next row.
+/// The commands of a log as functions of time. A command stays constant until the next row.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace awmr {
 class HeldSignal {
  public:
   HeldSignal(const std::vector<double>& t_s, const std::vector<double>& value);
-  /// Integral from the log's first row to t_s. Before the log, the command has its first value;
-  /// after the log, its last.
+  /// Integral from the time of the log's first row to t_s. Before the first row the command has its
+  /// first value, after the last row its last value.
   double integral(double t_s) const;
   /// Value of the command at t_s.
   double at(double t_s) const;
@@ -34,7 +34,7 @@ struct LogSignals {
   const DrivingLog* log;
   HeldSignal left;
   HeldSignal right;
-  HeldSignal steering;  ///< rad: the command, or the angle if only that was logged
+  HeldSignal steering;  ///< rad: the command, or the angle if the log has no steering command
 
   /// The logged angle, rad, interpolated between `row` and the next one. `share`: fraction of the
   /// time between these rows that has passed, 0 to 1. Precondition: the log has steering angles.
@@ -46,20 +46,21 @@ struct LogSignals {
     return log->force_left[row] != log->force_left[other] ||
            log->force_right[row] != log->force_right[other];
   }
-  /// False for a logged angle, which is no command.
+  /// True if two rows have different steering commands; false if the log has only steering angles.
   bool steering_commands_differ(std::size_t row, std::size_t other) const {
     const auto& command = log->steering_command_rad;
     return command && (*command)[row] != (*command)[other];
   }
 };
 
-/// Times closer than this, s, are equal.
+/// Times that differ by less than this, s, count as equal.
 inline constexpr double kSameTime_s = 1e-9;
 
 /// Steps through the rows of a log from one change of the commands to the next.
 class ActingRow {
  public:
-  /// Begins at the row before t_s, so that next_change_s() also returns a change at t_s.
+  /// Begins at the last row before the time `t_s`, so that next_change_s() also finds a change of
+  /// the commands at `t_s`.
   ActingRow(const std::vector<double>& row_times_s, double t_s)
       : t_s_(&row_times_s),
         row_(static_cast<std::size_t>(std::ranges::lower_bound(row_times_s, t_s - kSameTime_s) -
@@ -78,7 +79,7 @@ class ActingRow {
     }
     return std::nullopt;
   }
-  /// Applies the commands of the change that next_change_s() returned.
+  /// Moves to the row of the change that next_change_s() returned.
   void pass_change() { ++row_; }
 
  private:

@@ -11,12 +11,12 @@
 namespace awmr {
 namespace {
 
-/// A jump exceeds kTimes times the usual change between two readings (the quantile kQuantile of the
-/// changes per second, times the time between the readings).
+/// A jump is more than kTimes times the usual change between two readings: the quantile kQuantile
+/// of the changes per second, times the time between the readings.
 constexpr double kTimes = 10.0;
 constexpr double kQuantile = 0.95;
-/// Smallest jump of the position, in vehicle lengths. A smaller one may be a correction by the
-/// position receiver.
+/// Smallest jump of the position that is reported, in vehicle lengths. A smaller one may be a
+/// correction by the position receiver.
 constexpr double kVehicleLengths = 4.0;
 constexpr double kMinTurn_rad = 1.0;
 constexpr std::size_t kMin = 20;
@@ -24,8 +24,8 @@ constexpr std::size_t kMin = 20;
 struct Move {
   std::size_t from = 0;  ///< row of the first reading
   std::size_t to = 0;    ///< row of the second reading
-  double span_s = 0.0;   ///< time between them
-  double size = 0.0;     ///< magnitude of the change
+  double span_s = 0.0;   ///< time between the two readings
+  double size = 0.0;     ///< magnitude of the change, m or rad
 };
 
 /// `size(a, b)`: distance between the readings of two rows.
@@ -48,9 +48,9 @@ double common_rate(const std::vector<Move>& moves) {
   return quantile(std::move(rates), kQuantile);
 }
 
-/// The first jump: a change of more than kTimes times the usual change, after which the signal does
-/// not return. `least`: smallest change that counts as a jump. Empty if there is none, or with
-/// fewer than kMin changes.
+/// The first jump: a single change of more than kTimes times the usual change, after which the
+/// signal does not return. `least`: smallest change that counts as a jump. Empty if there is none,
+/// or with fewer than kMin changes.
 std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
   if (moves.size() < kMin) return std::nullopt;
   const double rate = common_rate(moves);

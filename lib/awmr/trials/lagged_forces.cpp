@@ -6,14 +6,14 @@
 namespace awmr {
 namespace {
 
-/// Largest delay of the commands, in either direction.
+/// Largest magnitude of the delay of the commands, positive or negative.
 constexpr double kLongestDelay_s = 1.0;
-constexpr double kForgotten = 40.0;  // in time constants; exp(-40) = 4e-18 is below rounding
+constexpr double kForgotten = 40.0;  // time constants; after them, exp(-40) = 4e-18 remains
 
 /// Decay of the difference between force and command over a time h, with the time constant T.
 struct Decay {
-  double left_over;  ///< exp(-h/T)
-  double by_lag;     ///< its derivative with respect to T, 1/s
+  double left_over;  ///< remaining fraction of the difference, exp(-h/T)
+  double by_lag;     ///< derivative of left_over with respect to T, 1/s
 };
 Decay decay(double h_s, double lag_s) {
   if (!(lag_s > 0.0)) return {0.0, 0.0};

@@ -14,9 +14,9 @@ namespace awmr {
 ///     T dF'/dt = c - F',   F'(t + h) = c + (F'(t) - c) exp(-h/T)
 ///     mean over [t, t + h] = mean of c - (T/h) (F'(t + h) - F'(t))
 ///
-/// The integration starts with F' = c, at a time of 40 T plus the longest delay before the
-/// requested rows, or at the log's first row. Earlier commands have less effect than rounding. With
-/// T = 0, F' = c.
+/// The computation starts with F' = c, 40 T and the longest delay before the requested rows (or at
+/// the log's first row). Commands before that time have no effect above rounding. With T = 0, F' =
+/// c at all times.
 class LaggedForces {
  public:
   /// Covers the rows [begin, end) of the log, and command delays from -1 to 1 s. The log must
@@ -36,19 +36,20 @@ class LaggedForces {
  private:
   struct Side {
     std::vector<double> force;   ///< F' at the time of each row
-    std::vector<double> by_lag;  ///< its derivative with respect to T, 1/s
+    std::vector<double> by_lag;  ///< derivative of `force` with respect to T, 1/s
   };
   struct Value {
     double force;
     double by_lag;
   };
   Side side(const std::vector<double>& command, std::size_t end) const;
-  /// Returns the force at `t_s`. A command that changes at this time has no effect yet.
+  /// Returns the force at the time `t_s`. With T = 0 and a command that changes at `t_s`, the force
+  /// still has the value before the change.
   Value at(const Side& side, const std::vector<double>& command, double t_s) const;
 
   const DrivingLog* log_;
   double lag_s_;
-  std::size_t first_row_;  ///< row of the log at which left_ and right_ begin
+  std::size_t first_row_;  ///< row of the log to which the first elements of left_, right_ belong
   Side left_;
   Side right_;
 };

@@ -55,7 +55,8 @@ void add_steady_runs(Trials& trials) {
   }
 }
 
-/// Checks the logs of one file by check_consistency() and adds them, also those with faults.
+/// Checks the logs of one file by check_consistency(), and adds them to the trials. Logs with
+/// faults are added, too, so that later checks can report further faults.
 void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
               const TrialOptions& options, Trials& trials, std::vector<Fault>& faults) {
   for (DrivingLog& log : logs) {
@@ -82,8 +83,8 @@ bool is_same_recording(const DrivingLog& a, const DrivingLog& b) {
   return is_same;
 }
 
-/// Adds a fault for each recording that was given twice, because the copy would narrow intervals by
-/// sqrt(2).
+/// Adds a fault for each log that was given twice, because a copy would wrongly narrow confidence
+/// intervals by sqrt(2).
 void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>& faults) {
   for (std::size_t i = 0; i < logs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
@@ -97,7 +98,7 @@ void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>
   }
 }
 
-/// Indices of all mappings that gave a column.
+/// Indices of all column mappings that were used by a file.
 std::vector<std::size_t> mappings_used(const TrialData& data) {
   std::vector<std::size_t> used;
   const auto add = [&](const std::vector<std::size_t>& more) {

@@ -28,18 +28,18 @@ struct TrialFiles {
   std::vector<std::filesystem::path> coastdowns = {};
   /// Driving logs: commands and measurements by time.
   std::vector<std::filesystem::path> logs = {};
-  /// True: finds the parts of the logs with steady motion (steady.h), and adds each as a surge or
-  /// turning row. For vehicles with a log but without surge and turning tables.
+  /// True: finds the parts of the logs with steady motion (steady.h), and adds each as a row of the
+  /// surge or turning table. For vehicles with a log but without these tables.
   bool steady_from_logs = false;
   /// Options for reading every file, such as column mappings.
   TrialOptions options = {};
 };
 
 /// Reads and combines the files. Reports the errors of all files at once. Errors (input): no file;
-/// as read_surge(), read_turning(), read_coastdown() and read_logs(); tables and logs that
-/// contradict themselves or the vehicle (table_consistency.h, log_consistency.h); a recording given
-/// twice; a second file of stop times; steady_from_logs without a log; an unknown or unused
-/// mapping.
+/// the errors of read_surge(), read_turning(), read_coastdown() and read_logs(); tables and logs
+/// that contradict themselves or the vehicle (table_consistency.h, log_consistency.h); the same log
+/// given twice; a second file of stop times; steady_from_logs without a log; an unknown or unused
+/// column mapping.
 Result<Trials> load_trials(const TrialFiles& files);
 
 }  // namespace awmr

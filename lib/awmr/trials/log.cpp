@@ -100,8 +100,8 @@ std::vector<RowSpan> runs_of(const TrialReader& reader) {
   return runs;
 }
 
-/// For a log with steering_deg and no steering_cmd_deg: removes the rows before the first angle,
-/// because the angle is the model's input.
+/// In a log with steering_deg but no steering_cmd_deg, the angle is the steering input of the
+/// model. Returns the rows of `run` from the first one with an angle on.
 RowSpan from_known_steering(TrialReader& reader, RowSpan run) {
   if (reader.has("steering_cmd_deg") || !reader.has("steering_deg")) return run;
   const std::vector<std::size_t> known = rows_present(reader, run, "steering_deg");
@@ -232,8 +232,8 @@ double DrivingLog::median_step_s() const {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
   if (!joined) return median(std::move(steps));
-  // The rows of two signals may come in close pairs, whose short steps count little if weighted
-  // with their length.
+  // Rows of two signals may come in close pairs. The short steps within pairs count little, because
+  // each step is weighted with its length.
   std::sort(steps.begin(), steps.end());
   double left_s = 0.5 * (t_s.back() - t_s.front());
   for (const double step_s : steps) {
@@ -286,8 +286,8 @@ DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
     log.steering_command_rad =
         values_of(reader, rows, "steering_cmd_deg", info(LogChannel::kSteering).to_si);
   } else if (!reader.has("steering_deg")) {
-    log.steering_command_rad.emplace(log.t_s.size(), 0.0);  // a vehicle without steering has the
-                                                            // command 0
+    // A vehicle without steering has the command 0.
+    log.steering_command_rad.emplace(log.t_s.size(), 0.0);
   }
   return log;
 }
@@ -313,8 +313,8 @@ std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<F
   return unmeasured;
 }
 
-/// Last measured speed by row, m/s; in the rows before the first measurement, the first one. Empty
-/// without speeds.
+/// Last measured speed by row, m/s; in the rows before the first measurement, the first measured
+/// speed. Empty if the log has no speed.
 std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   if (!reader.has("speed_mps")) return {};
   const std::vector<std::size_t> present = rows_present(reader, rows, "speed_mps");

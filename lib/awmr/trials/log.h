@@ -21,8 +21,8 @@ inline constexpr std::array<LogChannel, kChannelCount> kChannels{
 
 /// Names and units of a channel.
 struct ChannelInfo {
-  std::string_view column;  ///< CSV name: "heading_deg"
-  std::string_view name;    ///< SI name: "heading_rad"
+  std::string_view column;  ///< name of the column in CSV files: "heading_deg"
+  std::string_view name;    ///< name with the SI unit: "heading_rad"
   std::string_view unit;    ///< unit of the SI value: "rad"
   double to_si = 1.0;       ///< SI value = column value times this
 };
@@ -32,8 +32,8 @@ const ChannelInfo& info(LogChannel channel);
 /// the log repeats its last value: repeated values are not fresh. A sensor with coarse resolution
 /// is fresh in every row. Spikes, stuck and saturated values are not fresh (channel_quality.h).
 struct Measured {
-  std::vector<double> value;  ///< by row, SI; heading unwrapped
-  std::vector<bool> fresh;    ///< by row: the value is a measurement
+  std::vector<double> value;  ///< values by row, SI; the heading has no jumps by full turns
+  std::vector<bool> fresh;    ///< by row: true if the value is a measurement
   int fresh_count = 0;        ///< number of fresh rows
   bool held = false;          ///< true: the sensor is slower than the log
   double quantum = 0.0;       ///< resolution of a coarse sensor, SI; 0: not detected
@@ -42,16 +42,16 @@ struct Measured {
 /// One run of a driving log. Every vector has one entry per row.
 struct DrivingLog {
   std::string file;
-  std::vector<int> line;            ///< line in the file
-  std::vector<std::size_t> mapped;  ///< used mappings: indices in TrialOptions::columns
+  std::vector<int> line;            ///< by row: line in the file
+  std::vector<std::size_t> mapped;  ///< mappings that were used: indices in TrialOptions::columns
   bool joined = false;              ///< joined from signals of different rates: unequal time steps
-  bool has_interpolated_commands = false;  ///< rows without measurements were inserted
+  bool has_interpolated_commands = false;  ///< rows without measurements were inserted between rows
   bool is_geographic = false;       ///< x_m is east and y_m north, from latitude and longitude
-  std::vector<double> t_s;          ///< s, strictly rising
+  std::vector<double> t_s;          ///< time, s, strictly rising
   std::vector<double> force_left;   ///< F'L of each left wheel, over F_max, forward positive
   std::vector<double> force_right;  ///< F'R of each right wheel, over F_max, forward positive
-  /// d_ro, command of the steering servo, rad, left positive. Absent if only the steering angle d_r
-  /// was logged; d_r is then the input of the model.
+  /// d_ro, command of the steering servo, rad, left positive. Absent if the log has only the
+  /// steering angle d_r, which is then the steering input of the model.
   std::optional<std::vector<double>> steering_command_rad;
   std::array<std::optional<Measured>, kChannelCount> measured;
 
@@ -80,7 +80,8 @@ bool has_force_difference(const DrivingLog& log);
 /// than 1 mrad.
 bool has_steering_changes(const DrivingLog& log);
 
-/// A time step of more than this many median steps is a gap. The commands in a gap are unknown.
+/// A time step of more than this many median time steps is a gap. The commands during a gap are
+/// unknown, so the log is not simulated across it.
 inline constexpr double kGapSteps = 10.0;
 
 }  // namespace awmr

@@ -74,8 +74,8 @@ std::vector<double> picked(const std::vector<double>& values,
   return some;
 }
 
-/// Quality of a channel with readings in `rows` only; its rows are rows of the log. The other rows
-/// are not measurements.
+/// channel_quality() of a channel that has values only in `rows`. The result has one entry per row
+/// of the log; rows without a value are not measurements.
 ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel channel,
                           const DrivingLog& log, const std::vector<double>& values) {
   const std::vector<double> activity = activity_for(channel, log);
@@ -111,7 +111,8 @@ void join_position(DrivingLog& log) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const bool new_x = x.value[i] != x.value[i - 1];
     const bool new_y = y.value[i] != y.value[i - 1];
-    // If the new value of x or y is not used (a spike or saturated), the other is not used either.
+    // If a new value of x is not a measurement (a spike, or saturated), y of this row is not used
+    // either, and the reverse.
     const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
     x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
   }

@@ -16,10 +16,11 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
   const Evidence evidence = evidence_of(log, vehicle, mappings);
   if (auto rest = rest_contradiction(evidence)) return {*std::move(rest)};
   std::vector<Contradiction> found = unit_contradictions(evidence);
-  // With a wrong unit of time, windows of one second have no meaning, so no sign can be checked.
+  // If the unit of t_s is wrong, the windows are not one second long, and no sign can be checked.
   if (!found.empty() && found.front().column == "t_s") return found;
   for (Contradiction& one : sign_contradictions(evidence)) found.push_back(std::move(one));
-  // Positions in a wrong unit also seem to jump, so jumps are checked last.
+  // Positions in a wrong unit also seem to jump. Jumps are therefore checked only if nothing else
+  // is wrong.
   if (found.empty()) {
     if (auto jump = jump_contradiction(evidence)) found.push_back(*std::move(jump));
   }

@@ -2,21 +2,21 @@
 /// anything is fitted. The channels are compared with each other, with the commands and with the
 /// vehicle file.
 ///
-/// Compared with the vehicle file: the row spacing with sample_time_s, the forces with wheel_force,
-/// the steering angles with the stop. Compared without a model of the vehicle, over windows of one
-/// second (changes of a reading: from reading to reading):
+/// From the vehicle file: sample_time_s is compared with the row spacing, wheel_force with the
+/// forces, the steering stop with the steering angles. The other comparisons need no model of the
+/// vehicle. They are made over windows of one second (changes of a reading: between two readings):
 ///
 ///     change of heading      with   integral of the yaw rate
 ///     distance of positions  with   integral of the speed
 ///     course of positions    with   heading, or the integral of the yaw rate
 ///     yaw rate               with   tau_steering and tau_diff of the commands (allocation.h)
 ///     sign of the speed      with   sign of the thrust
-///     change of a reading    with   its usual change: a jump means two runs in one file
-///     curvature r/u          with   tan(d_r)/l_f, which it cannot exceed by much
+///     change of a reading    with   its usual change; a jump means two runs in one file
+///     curvature r/u          with   tan(d_r)/l_f, about the largest possible curvature
 ///
 /// A ratio near 57.3, 3.6, 1000 or -1 identifies the wrong unit or sign. If one of several columns
-/// must be wrong, but it is not known which, all of them are named. A log in which the vehicle
-/// never moves is refused.
+/// must be wrong but the log does not show which one, the message names all of them. A log in which
+/// the vehicle never moves is refused.
 #pragma once
 
 #include <optional>
@@ -32,23 +32,23 @@ namespace awmr {
 
 /// A column with a wrong unit or sign.
 struct Contradiction {
-  std::string column;       ///< "yaw_rate_radps"
+  std::string column;       ///< wrong column: "yaw_rate_radps"
   std::string message;      ///< the comparison, its result, the likely cause
   std::string mapping;      ///< column mapping that corrects it, `NAME=SOURCE*FACTOR`; may be empty
-  std::string remedy = {};  ///< advice to show in place of `mapping`; may be empty
+  std::string remedy = {};  ///< if not empty: advice that the message shows instead of `mapping`
 };
 
 /// Returns the columns with a wrong unit or sign; empty if all channels agree. `mappings`: column
-/// mappings with which the log was read, so that a correction names the column of the file. A
-/// comparison is skipped if its signals are weak (a straight drive, a vehicle at rest) or if the
-/// log has too few windows.
+/// mappings used to read the log; corrections name the columns of the file from them. A comparison
+/// is skipped if its signals are weak (a straight drive, a vehicle at rest) or if the log has too
+/// few windows.
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 
 /// Checks a log by contradictions(). Errors (input): each contradiction, with the mapping that
-/// corrects it. `place` names the log in errors. With `options.as_is`, contradictions are warnings
-/// (`log-contradiction`) instead. For a log without contradictions, adds the findings of
-/// calibration_checks.h and `gyro-bias` (a significant gyro_bias()).
+/// corrects it; with `options.as_is`, contradictions are warnings (`log-contradiction`) instead.
+/// `place` names the log in errors. For a log without contradictions, adds the findings of
+/// calibration_checks.h, and `gyro-bias` if gyro_bias() is significant.
 Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
                          const TrialOptions& options, std::vector<Finding>& findings);
 

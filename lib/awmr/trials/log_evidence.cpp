@@ -15,8 +15,9 @@ namespace {
 
 /// Approximate time from a command to the vehicle's response.
 constexpr double kResponse_s = 0.2;
-/// Adds the means of the commands to which the vehicle responds in the window: those logged
-/// kResponse_s earlier. A log with the steering angle and no command is used without this delay.
+/// Adds the means of the commands to which the vehicle responds in the window, which are those
+/// logged kResponse_s earlier. Without this delay if the log has the steering angle instead of the
+/// command.
 void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window,
                   EvidenceWindow& sums) {
   const double delay_s = log.steering_command_rad ? kResponse_s : 0.0;
@@ -73,15 +74,14 @@ EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle,
     const auto [least, most] = std::ranges::minmax(
         std::span(speed->value).subspan(window.begin, window.end - window.begin));
     sums.has_stuck_speed = !(least < most) && !is_rest(least, kRestSpeed_mps);
-    if (sums.driven_m < 0.0)
-      sums.course_rad += pi<double>();  // backward: reversed, to be compared
-                                        // with the heading
+    // Driving backward: reversed, so that it can be compared with the heading.
+    if (sums.driven_m < 0.0) sums.course_rad += pi<double>();
   }
   add_commands(log, vehicle, window, sums);
   return sums;
 }
 
-/// True if position and heading of a row are new readings, not held from an earlier row.
+/// True if position and heading of a row are new readings, not values repeated from an earlier row.
 bool has_readings(const DrivingLog& log, std::size_t row) {
   return std::ranges::all_of(
       std::array{LogChannel::kX, LogChannel::kY, LogChannel::kHeading}, [&](LogChannel channel) {
@@ -111,8 +111,8 @@ std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   return moved;
 }
 
-/// Returns two windows for every two consecutive windows, shifted by a third and by two thirds of
-/// their length, so that they overlap both. Empty if there are twenty windows or more.
+/// Returns two further windows for every two consecutive windows: the first of the two, shifted by
+/// a third and by two thirds of its length. Empty if there are twenty windows or more.
 std::vector<LogWindow> windows_between(const std::vector<LogWindow>& windows) {
   constexpr std::size_t kEnough = 20;
   constexpr std::size_t kParts = 3;
@@ -175,12 +175,12 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   const double determinant = ss * dd - sd * sd;
   const bool steering_only = dd < 1e-6 * ss;
   const bool sides_only = ss < 1e-6 * dd;
-  // A controller in combined mode makes the two moments proportional, so they cannot be separated.
-  // Above a correlation of 0.9, separate coefficients would fit neglected effects, mainly inertia.
+  // A controller in combined mode makes the two moments proportional; then they cannot be
+  // separated. Above a correlation of 0.9, joint coefficients would mainly fit neglected inertia.
   const bool apart = determinant > 0.19 * ss * dd && !steering_only && !sides_only;
   if (n < 10.0 || rr <= 0.0) return {};
   constexpr double kSignificant = 5.0;  // smallest significant coefficient, in standard errors
-  // The coefficient if it is significant, else 0.
+  // Returns the coefficient if it is significant, else 0.
   const auto shown = [&](double coefficient, double variance_factor, double explained) {
     const double noise = std::max(0.0, rr - explained) / std::max(1.0, n - 2.0);
     return std::abs(coefficient) > kSignificant * std::sqrt(noise * variance_factor) ? coefficient
@@ -189,9 +189,9 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   if (steering_only) return {shown(sr / ss, 1.0 / ss, sr * sr / ss), 0};
   if (sides_only) return {0.0, shown(dr / dd, 1.0 / dd, dr * dr / dd)};
   if (!apart) {
-    // Moments of opposite sign and nearly equal size would not turn the vehicle. If it turns, one
-    // of the two has the wrong sign: the one that opposes the yaw rate.
-    constexpr double kNearlyEqual = 4.0;  // bound on the ratio of their squares
+    // Moments of opposite sign and nearly equal size would not turn the vehicle. Because it turns,
+    // one of the two has the wrong sign: the one that opposes the yaw rate.
+    constexpr double kNearlyEqual = 4.0;  // bound on the ratio of the squares of the two moments
     const bool cancel = sd < 0.0 && ss < kNearlyEqual * dd && dd < kNearlyEqual * ss;
     if (sd < 0.0 && !cancel) return {};
     return {shown(sr / ss, 1.0 / ss, sr * sr / ss), shown(dr / dd, 1.0 / dd, dr * dr / dd)};
@@ -204,7 +204,7 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
 
 namespace {
 
-/// EXPRESSION for a column: the file's column from which it was read, times a factor, plus an
+/// Formula for `--column`: the file's column from which `column` was read, times a factor, plus an
 /// offset.
 std::string scaled_source(std::span<const ColumnMapping> mappings, std::string_view column,
                           double factor, double offset) {

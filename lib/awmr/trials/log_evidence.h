@@ -1,5 +1,5 @@
-/// Integrals and means of a log's signals over windows of one second, from which the units and
-/// signs of its columns are checked. Private to this folder.
+/// Integrals and means of a log's signals over windows of one second. The checks of units and signs
+/// compare them. Private to this folder.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace awmr {
 
-/// Window length, s: long enough to average the noise, and so short that a vehicle turns by less
-/// than a full circle.
+/// Window length, s: long enough to average the noise, and short enough that a vehicle turns by
+/// less than a full circle.
 inline constexpr double kEvidenceWindow_s = 1.0;
 
 /// Signals of a log over one window; 0 for channels that the log lacks. Headings, courses and yaw
@@ -32,17 +32,18 @@ struct EvidenceWindow {
   double steering_rad = 0.0;     ///< mean steering input: the command, else the logged angle
   double tau_steering_m = 0.0;   ///< l_f (F'L + F'R) sin d_r, as in allocation.h
   double tau_diff_m = 0.0;       ///< d (F'R - F'L)(cos d_r + 1), as in allocation.h
-  double span_s = 0.0;           ///< length of the window
+  double span_s = 0.0;           ///< length of the window, s
 };
 
-/// Input of every check of a log: the log, its vehicle and its windows.
+/// Input of the checks of a log: the log, its vehicle and its windows.
 struct Evidence {
   const DrivingLog& log;
   const Vehicle& vehicle;
   std::span<const ColumnMapping> mappings;  ///< column mappings used to read the log
-  std::vector<EvidenceWindow> windows;      ///< consecutive, without overlap
-  /// The same windows, for robust_ratio(), which needs twenty. If there are fewer, windows that
-  /// overlap by two thirds are added, so that ten seconds suffice to detect a wrong unit.
+  std::vector<EvidenceWindow> windows;      ///< consecutive windows without overlap
+  /// For robust_ratio(), which needs twenty windows: `windows`, and if they are fewer than twenty
+  /// also windows that overlap them by thirds. A log of ten seconds is then enough to detect a
+  /// wrong unit.
   std::vector<EvidenceWindow> overlapping;
 
   bool has(LogChannel channel) const { return log[channel].has_value(); }
@@ -67,10 +68,10 @@ std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member me
   return values;
 }
 
-/// Coefficients of the regression of the yaw rate on the two yaw moments of EvidenceWindow:
-///     rate = steering tau_steering + sides tau_diff
-/// A coefficient below five standard errors is 0. Both are 0 with fewer than 10 windows. If the
-/// moments are too correlated to be separated, each coefficient is fitted alone.
+/// Coefficients of a linear regression of the yaw rate on the two yaw moments of EvidenceWindow:
+///     yaw rate = steering tau_steering + sides tau_diff
+/// A coefficient whose magnitude is below five standard errors is set to 0. Both are 0 with fewer
+/// than 10 windows. If the moments are too correlated to be separated, each is fitted alone.
 struct MomentShares {
   double steering = 0.0;  ///< 1/(m s)
   double sides = 0.0;     ///< 1/(m s)
@@ -81,8 +82,8 @@ struct MomentShares {
 MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
                            double (*rate)(const EvidenceWindow&));
 
-/// Text of the mapping `NAME="SOURCE"*FACTOR+OFFSET`, where NAME is `column` and SOURCE the file's
-/// column from which it was read.
+/// Text of the mapping `NAME="SOURCE"*FACTOR+OFFSET` for `--column`. NAME is `column`, SOURCE the
+/// file's column from which it was read.
 std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_view column,
                            double factor, double offset = 0.0);
 std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor,
@@ -90,7 +91,7 @@ std::string scaled_mapping(const Evidence& evidence, std::string_view column, do
 /// The two mappings that swap the force columns.
 std::array<std::string, 2> swapped_mappings(const Evidence& evidence);
 
-/// Detects a vehicle that never moves, so that its channels cannot be compared.
+/// Detects a log in which the vehicle never moves, so that its channels cannot be compared.
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence);
 /// Checks the units of time, forces, steering angle, yaw rate and speed.
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence);

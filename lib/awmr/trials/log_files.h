@@ -1,4 +1,4 @@
-/// Lists the files that form one log.
+/// Lists the files of a log that is given as a file or as a directory.
 #pragma once
 
 #include <filesystem>

@@ -13,10 +13,10 @@ double largest_measured(const DrivingLog& log, LogChannel channel);
 /// speed or yaw rate is above 5 % of the largest reading.
 bool begins_in_motion(const DrivingLog& log);
 
-/// In a log that begins at rest with motors switched on, adds a row one median time step before the
-/// first one, without forces and without measurements. No force acted before the log, because the
-/// vehicle would have moved. Without this row, lagged or delayed forces would be simulated as if
-/// the first command had been constant before the log. Does nothing in a log without a speed.
+/// If the log begins at rest and its first row commands a force, adds a row one median time step
+/// before the first one, with forces 0 and without measurements. The forces before the log were 0,
+/// because the vehicle was at rest. Without this row, a simulation with motor lag or command delay
+/// would assume the first command for the time before the log. No effect in a log without a speed.
 void add_row_of_rest(DrivingLog& log);
 
 }  // namespace awmr

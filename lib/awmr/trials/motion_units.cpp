@@ -15,8 +15,8 @@
 namespace awmr {
 namespace {
 
-/// True if the ratio of two channels is 0.6 to 1.6, which calibration, slip or noise can explain.
-/// Otherwise a unit is wrong.
+/// True if the ratio of two channels is 0.6 to 1.6, which errors of calibration, slip or noise can
+/// explain. Otherwise a unit is wrong.
 bool agree(double ratio) { return ratio >= 0.6 && ratio <= 1.6; }
 
 /// A unit that a channel may have by mistake.
@@ -53,8 +53,8 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
-/// If turning_rate() is below this number, the unit of the yaw rate is not deg/s, because 2 deg/s
-/// would hardly be a turn.
+/// If turning_rate() is below this number, the yaw rate is not in deg/s, because the vehicle would
+/// hardly turn at 2 deg/s.
 constexpr double kSlowTurn = 2.0;
 /// Typical yaw rate while turning: the 75 % quantile over windows, in the unit of the column.
 double turning_rate(const Evidence& evidence) {
@@ -81,8 +81,8 @@ double usual_largest(const Measured& channel) {
   return sizes.empty() ? 0.0 : quantile(std::move(sizes), 0.95);
 }
 
-/// Ratio of the change of heading to the integral of the yaw rate. Empty if it is about 1, with or
-/// without correction of the gyro's bias, or if the two are not proportional.
+/// Ratio of the change of heading to the integral of the yaw rate. Empty if the two agree (with or
+/// without correction of the gyro's bias) or are not proportional.
 std::optional<double> turned_over_rate(const Evidence& evidence) {
   const std::vector<double> rate =
       series(evidence.overlapping, [](const EvidenceWindow& w) { return w.rate_rad; });
@@ -92,7 +92,7 @@ std::optional<double> turned_over_rate(const Evidence& evidence) {
   if (!ratio) return std::nullopt;
   const double size = std::abs(ratio->ratio);
   if (agree(size)) return std::nullopt;
-  // A large gyro bias also changes the ratio, but not after subtraction of the medians.
+  // A large gyro bias changes the ratio, too, but not that of the deviations from the medians.
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
   if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   return size;
@@ -132,11 +132,11 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
                        "data sheets"};
 }
 
-/// Ratio of the yaw rate to that of rolling wheels, u tan(d)/(2 l_f) (d: steering angle, 2 l_f:
-/// about the wheelbase), in windows with about equal forces on both sides.
+/// Ratio of the yaw rate to that of wheels that roll without sliding, u tan(d)/(2 l_f) (d: steering
+/// angle, 2 l_f: about the wheelbase). Uses windows with about equal forces left and right.
 std::optional<double> rate_over_rolling(const Evidence& evidence) {
-  constexpr double kLittle = 0.1;  // largest moment of the force difference, as a fraction of the
-                                   // steering moment
+  // Largest moment of the force difference, as a fraction of the moment of the steering.
+  constexpr double kLittle = 0.1;
   if (!evidence.has(LogChannel::kSpeed) || !evidence.vehicle.has_steering()) return std::nullopt;
   std::vector<double> rolling;
   std::vector<double> rate;
@@ -151,14 +151,14 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
   return std::abs(ratio->ratio);
 }
 
-/// Detects a yaw rate in deg/s in logs without a heading, because the values are too large for a
-/// wheeled vehicle, or for its steering angle and speed.
+/// Detects a yaw rate in deg/s in logs without a heading: its values are too large for any wheeled
+/// vehicle, or for the steering angle and the speed.
 std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
-  constexpr double kLargest_radps = 25.0;  // as for turning tables (turn_evidence.h)
+  constexpr double kLargest_radps = 25.0;  // largest plausible yaw rate, as in turn_evidence.h
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
-  // Sliding wheels turn the vehicle less or more than rolling ones, but not by this factor. deg/s
-  // instead of rad/s give a factor of 57.
+  // With sliding wheels, the ratio differs from 1, but is below this bound. deg/s instead of rad/s
+  // makes it 57.
   constexpr double kMaxSlide = 14.0;
   if (rate_radps <= kLargest_radps) {
     const auto ratio = rate_over_rolling(evidence);
@@ -221,17 +221,17 @@ double position_variance_m2(const DrivingLog& log) {
   return quantile(std::move(squares), 0.25) / (12.0 * std::log(4.0 / 3.0));
 }
 
-/// Ratio, over the windows, of the distance between first and last position to the integral of the
-/// speed. The noise sigma of the two positions makes the distance longer: E moved^2 = true^2 +
-/// 4 sigma^2. The term 4 sigma^2 is therefore subtracted. Empty if the median distance in the
-/// faster half of the windows is below twice that of noise alone.
+/// Ratio of the distance between the first and the last position of a window to the integral of the
+/// speed, as a robust ratio over all windows. Noise sigma of each coordinate makes the distance
+/// longer, E moved^2 = true^2 + 4 sigma^2, so 4 sigma^2 is subtracted. Empty if the median distance
+/// in the faster half of the windows is below twice that of noise alone.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
   constexpr double kClear = 4.0;  // smallest ratio of the squared distance to that of noise alone
   const double noise_m2 = 4.0 * position_variance_m2(evidence.log);
   std::vector<double> driven;
   std::vector<double> moved;
   for (const EvidenceWindow& w : evidence.overlapping) {
-    if (w.has_stuck_speed) continue;  // a stuck value shows no unit
+    if (w.has_stuck_speed) continue;  // a stuck value says nothing about the unit
     driven.push_back(std::abs(w.driven_m));
     moved.push_back(std::sqrt(std::max(0.0, w.moved_m * w.moved_m - noise_m2)));
   }
@@ -287,7 +287,7 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
 /// positions.
 std::optional<Contradiction> check_speed_alone(const Evidence& evidence) {
   constexpr double kLargest_mps = 100.0;
-  constexpr double kLargestLengthsPerSecond = 100.0;  // as for surge tables
+  constexpr double kLargestLengthsPerSecond = 100.0;  // as in table_units.h
   if (!evidence.has(LogChannel::kSpeed) || !implausible_values(evidence.vehicle).empty()) return {};
   const double length_m = evidence.vehicle.length_m;
   const double speed_mps = usual_largest(*evidence.log[LogChannel::kSpeed]);

@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// Compares yaw rate with heading, and speed with positions. If heading or positions are missing,
-/// detects values that no wheeled vehicle reaches.
+/// Compares yaw rate with heading, and speed with positions. Without a heading or without
+/// positions, detects yaw rates and speeds that no wheeled vehicle reaches.
 std::vector<Contradiction> motion_unit_contradictions(const Evidence& evidence);
 
 }  // namespace awmr

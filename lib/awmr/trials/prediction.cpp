@@ -12,12 +12,12 @@
 namespace awmr {
 namespace {
 
-/// Sums over the measurements y of a channel.
+/// Sums over the measurements y of a channel; each field is the sum of the quantity named.
 struct Sums {
-  double one_step = 0.0;      ///< squared errors of the one-step prediction
-  double long_horizon = 0.0;  ///< squared errors of the long-horizon prediction
-  double measured = 0.0;      ///< y
-  double squares = 0.0;       ///< y^2
+  double one_step = 0.0;      ///< sum of squared errors of the one-step prediction
+  double long_horizon = 0.0;  ///< sum of squared errors of the long-horizon prediction
+  double measured = 0.0;      ///< sum of y
+  double squares = 0.0;       ///< sum of y^2
   int count = 0;
   PredictedSeries series = {};
 };

@@ -1,5 +1,5 @@
-/// Predicts the channels of a driving log from its commands with a model, and computes the
-/// prediction errors.
+/// Simulates a model with the commands of a driving log, and compares the predicted channels with
+/// the measured ones.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct PredictionError {
 
 /// Measurements of a channel over time, and their predictions.
 struct PredictedSeries {
-  std::vector<double> t_s = {};        ///< rising
+  std::vector<double> t_s = {};        ///< times of the measurements, rising
   std::vector<double> measured = {};   ///< SI
   std::vector<double> predicted = {};  ///< SI
 };
@@ -27,16 +27,17 @@ struct PredictedSeries {
 struct ChannelPrediction {
   LogChannel channel = LogChannel::kX;
   int samples = 0;               ///< number of measurements
-  PredictionError one_step;      ///< prediction of each row from the measurements of the row before
-  PredictionError long_horizon;  ///< prediction of a whole window from its initial state
+  PredictionError one_step;      ///< each row is predicted from the measurements of the row before
+  PredictionError long_horizon;  ///< a whole window is predicted from its measured initial state
   PredictedSeries series = {};   ///< long-horizon prediction; empty if most_in_series is 0
 };
 
 struct PredictionOptions {
-  double horizon_s = 10.0;   ///< maximum length of a window, s; each begins at a measured state
+  double horizon_s = 10.0;   ///< maximum length of a window, s
   double delay_s = 0.0;      ///< latency from a command to its effect, s
   double motor_lag_s = 0.0;  ///< time constant of the motors, s, >= 0
-  /// Maximum number of measurements in a series; of more, every n-th is kept. 0: no series.
+  /// Maximum number of measurements in a series; if there are more, only every n-th is kept. 0: no
+  /// series.
   std::size_t most_in_series = 0;
 };
 

@@ -14,17 +14,18 @@
 namespace awmr {
 
 /// Reads a log of a flight controller (ULog, DataFlash) or a ROS 2 bag as signals. `file`: path,
-/// for errors. `wanted`: signals whose values are read. Empty if `bytes` have none of these
-/// formats.
+/// for errors. `wanted`: selects the signals whose values are read. Empty if `bytes` are in another
+/// format.
 std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
                                             const Wanted& wanted);
 
-/// Reads the requested columns. The first bytes determine the format: ULog, DataFlash, ROS 2 bag in
-/// SQLite, log of the emitted firmware (`.awl`), SysId's JSON, else CSV. The files of a directory
-/// are joined by time. Errors: as read_csv() and the readers of these formats.
+/// Reads the requested columns of a file. Its first bytes determine the format: ULog, DataFlash,
+/// ROS 2 bag in SQLite, log of the emitted firmware (`.awl`), JSON of WPILib's SysId, otherwise
+/// CSV. The files of a directory are joined by time. Errors: as read_csv() and the readers of these
+/// formats.
 Result<CsvTable> read_table(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                             const TrialOptions& options);
-/// The same, with the columns of this kind of trial: columns_of(kind).
+/// As read_table() above, with the columns of this kind of trial: columns_of(kind).
 Result<CsvTable> read_table(const std::filesystem::path& path, TrialKind kind,
                             const TrialOptions& options);
 

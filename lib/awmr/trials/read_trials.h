@@ -17,17 +17,17 @@
 
 namespace awmr {
 
-/// Value to use if a row gives a speed or yaw rate twice: as a number in its column (printed), and
-/// as a distance or number of turns over an elapsed time (timed).
+/// Which value to use if a row has a speed or yaw rate twice: the number in its column (printed),
+/// or the distance or number of turns over the elapsed time (timed).
 enum class Preference { kPrinted, kTimed };
 inline constexpr NameTable<Preference, 2> kPreferenceNames{
     {{"printed", Preference::kPrinted}, {"timed", Preference::kTimed}}};
 
 struct TrialOptions {
-  std::vector<ColumnMapping> columns;  ///< load_trials() appends those of the vehicle file
+  std::vector<ColumnMapping> columns;  ///< load_trials() appends the mappings of the vehicle file
   Preference preference = Preference::kPrinted;
-  /// True: trials that contradict themselves or the vehicle are accepted with a warning
-  /// (log_consistency.h, table_consistency.h). For unusual vehicles.
+  /// True: trials that contradict themselves or the vehicle file (log_consistency.h,
+  /// table_consistency.h) are accepted with a warning instead of refused. For unusual vehicles.
   bool as_is = false;
   /// False: the vehicle has no steering, so a log needs no steering column.
   bool has_steering = true;
@@ -35,17 +35,17 @@ struct TrialOptions {
   int driven_wheels = 4;
   /// Interval of t_s, s, of each log to use, bounds included.
   Interval used_s{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max()};
-  /// Intervals of t_s, s, of each log to leave out. The rows before and after such an interval
-  /// become two runs.
+  /// Intervals of t_s, s, of each log to leave out. The rows before and the rows after such an
+  /// interval become separate runs.
   std::vector<Interval> excluded_s = {};
 };
 
-/// Read one table. Findings: the notes of CsvTable::notes(), `speed-mismatch`,
+/// Each function reads one table. Findings: the notes of CsvTable::notes(), `speed-mismatch`,
 /// `tau-speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
 /// `turned-by-sides`, `rows-set-aside`, `repeated-rows`. Errors: as read_csv(); missing columns, or
-/// columns that exclude each other; a negative force, speed, time or distance (the force of one
-/// side may be negative); turns whose signs, forces or angles contradict each other; a coast-down
-/// curve with fewer than three rows or time that does not rise.
+/// columns that exclude each other; a negative force, speed, time or distance (force_left and
+/// force_right may be negative); turns whose signs, forces or angles contradict each other; a
+/// coast-down curve with fewer than three rows or with times that do not rise.
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings);
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
@@ -59,13 +59,13 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
 /// steering_deg. latitude_deg and longitude_deg may replace x_m (east) and y_m (north), in the
 /// local tangent plane at the first row used of each run. Findings: the notes of CsvTable::notes(),
 /// those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: as read_csv(); missing or
-/// contradictory columns; a latitude or longitude out of range; time that does not rise; fewer than
-/// 10 rows; no row within the options' times; more than one run.
+/// contradictory columns; a latitude or longitude out of range; times that do not rise; fewer than
+/// 10 rows; no row left by used_s and excluded_s of the options; more than one run.
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
                             std::vector<Finding>& findings);
 
-/// As read_log(), for a file with one or more runs, which a column `run` numbers. Returns one log
-/// per run, or several if `excluded_s` divides the run.
+/// As read_log(), for a file with one or more runs, numbered by its column `run`. Returns one log
+/// per run, or several for a run that `excluded_s` divides.
 Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings);

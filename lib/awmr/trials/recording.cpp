@@ -103,8 +103,8 @@ void Recording::take(const std::string& line) {
   put(line);
 }
 
-/// Looks for the header in a line; true if the line itself is the header. Names in a comment become
-/// the header at the first row below it with as many cells.
+/// Looks for the header in a line; true if the line itself is the header. A comment with column
+/// names becomes the header at the first row below it that has the same number of cells.
 bool Recording::find_header(const std::string& line) {
   const std::optional<Header> header = header_of(without_marks(line), mappings_);
   if (is_blank(line)) {
@@ -122,7 +122,7 @@ bool Recording::find_header(const std::string& line) {
   return false;
 }
 
-/// Turns the lines before the header into comments.
+/// Sets aside the lines before the header: turns them into comments.
 void Recording::put_before_aside() {
   const std::string before = std::exchange(text_, {});
   lines_ = 0;

@@ -1,4 +1,4 @@
-/// Collects a driving log from a stream of bytes, such as a serial port, as text in complete lines.
+/// Collects the text of a driving log from a stream of bytes, such as a serial port (`awmr live`).
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,16 @@ inline constexpr std::size_t kMaxRecordedLine = std::size_t{1} << 16U;
 /// Maximum size of a recording in bytes: about two million rows.
 inline constexpr std::size_t kMaxRecording = std::size_t{1} << 28U;
 
-/// The recorded text of one stream. Damaged lines (a serial port loses bytes) and other text (a
-/// board prints messages, and its header again after a restart) are "set aside": the text keeps
-/// such a line at its place, as a comment of at most 200 bytes. Line numbers therefore match the
-/// stream.
+/// The recorded text of one stream. Lines that are not rows are "set aside": damaged lines (a
+/// serial port loses bytes) and other text (a board prints messages, and after a restart its header
+/// again). The text keeps such a line at its place, as a comment of at most 200 bytes, so that line
+/// numbers match the stream.
 ///
 /// The header is the first line that names a column of a log. It may be a comment (`#`). Lines
 /// above an uncommented header are set aside. Below the header, these lines are set aside:
 ///   - lines with more or fewer cells than the header, and repetitions of the header;
-///   - lines with a cell that has digits but is not a number, if the first row has a number there;
+///   - lines with a cell that has digits but is not a number, if the first row has a number in this
+///     column;
 ///   - lines with control characters, lines that are too long, and a last line without line end.
 /// A number that lost a digit cannot be detected.
 class Recording {
@@ -34,8 +35,8 @@ class Recording {
     char delimiter = ',';
   };
 
-  /// `mappings`: column mappings with which the log will be read. They make a header with other
-  /// column names recognisable. `most_bytes`: maximum size of the text.
+  /// `mappings`: column mappings with which the log will be read; a header with their source
+  /// columns is recognised, too. `most_bytes`: maximum size of the text.
   explicit Recording(std::vector<ColumnMapping> mappings = {},
                      std::size_t most_bytes = kMaxRecording);
 
@@ -70,14 +71,14 @@ class Recording {
   std::vector<ColumnMapping> mappings_;
   std::size_t most_bytes_;
   std::string text_ = {};
-  std::string line_ = {};  ///< incomplete last line
+  std::string line_ = {};  ///< last line, which is still incomplete
   bool line_too_long_ = false;
-  bool after_return_ = false;  ///< the last byte was a carriage return, which ended its line
+  bool after_return_ = false;  ///< true: the last byte was a carriage return
   bool full_ = false;
   Header header_ = {};
-  Header commented_ = {};             ///< last comment above the first row that may be the header
-  std::vector<bool> is_number_ = {};  ///< by column: the first row has a number
-  int lines_ = 0;                     ///< lines in text_
+  Header commented_ = {};             ///< names in the last comment that may be the header
+  std::vector<bool> is_number_ = {};  ///< by column: true if the first row has a number
+  int lines_ = 0;                     ///< number of lines in text_
   std::size_t rows_ = 0;
   std::size_t set_aside_ = 0;
   int first_aside_ = 0;  ///< line number of the first line set aside

@@ -17,14 +17,15 @@ namespace {
 constexpr double kChance = 0.01;
 /// Minimum degrees of freedom for an estimate of the scatter from rows with equal settings.
 constexpr int kMinDifferences = 3;
-/// A reading with more than six significant digits was computed, so its last place is not its
-/// resolution.
+/// If the last decimal place of the largest reading is below this fraction of it, the readings were
+/// computed, and their last place is not their resolution.
 constexpr double kComputed = 1e-6;
 
 /// Probability p that two readings are the same by chance; a = q/(2 s) (repeated_rows.h).
 double chance_of_same(double q, double s) {
   const double a = q / (2.0 * s);
-  // For small a the two terms cancel; then p = a/sqrt(pi) to within a^3/10.
+  // For small a the two terms below cancel numerically; p is then a/sqrt(pi), with an error below
+  // a^3/10.
   if (a < 1e-3) return a / std::sqrt(pi<double>());
   return std::erf(a) - (1.0 - std::exp(-a * a)) / (a * std::sqrt(pi<double>()));
 }
@@ -48,8 +49,8 @@ struct LikeRuns {
   std::vector<double> readings;
 };
 
-/// The column to compare: `timed` if it has a value in all rows, else `printed` if that has one;
-/// else none.
+/// The column to compare: `timed` if it has a value in all rows, else `printed` if it has a value
+/// in all rows, else none.
 std::optional<std::string_view> reading_of(const TrialReader& reader,
                                            const std::vector<std::size_t>& rows,
                                            const RepeatRule& rule) {
@@ -79,8 +80,8 @@ std::vector<LikeRuns> like_runs(const TrialReader& reader, const std::vector<std
   return found;
 }
 
-/// Relative standard deviation of the readings of runs with equal settings, repeated readings
-/// counted once. Empty with fewer than kMinDifferences degrees of freedom.
+/// Relative standard deviation of the readings of runs with equal settings. Equal readings count
+/// once. Empty with fewer than kMinDifferences degrees of freedom.
 std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
   double squares = 0.0;
   int differences = 0;

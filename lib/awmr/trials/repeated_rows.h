@@ -1,8 +1,8 @@
 /// Detects copied rows in a table of runs. Copies make confidence intervals too narrow. Private to
 /// this folder.
 ///
-/// A row repeats an earlier one if all settings (forces, angle, distance, turns) and all readings
-/// (time, speed) are the same to the last digit. Separate runs may also agree by chance: two
+/// A row repeats an earlier one if all settings (forces, angle, distance, turns) and the reading
+/// (time or speed) are the same to the last digit. Separate runs may also agree by chance: two
 /// readings with standard deviation s, rounded to multiples of q, are the same with probability
 ///
 ///     p = erf(a) - (1 - exp(-a^2))/(a sqrt(pi)),   a = q/(2 s)
@@ -15,10 +15,10 @@
 ///     P(k or more) = sum over j >= k of L^j exp(-L)/j! <= 1/100
 ///
 /// This Poisson probability is an upper bound for independent rows [Hoeffding 1956; Anderson and
-/// Samuels 1967, for k >= L + 1]. s is a small plausible scatter: 0.3 % of the reading (1 % for
-/// stop times), or the scatter of the table's rows with equal settings if that is smaller. The
-/// error of a stop watch is not included in s, because times in tenths of a second may be
-/// automatic.
+/// Samuels 1967, for k >= L + 1]. s is the smallest plausible scatter of repeated runs: 0.3 % of
+/// the reading (1 % for stop times), or the scatter of the table's rows with equal settings if that
+/// is smaller. It does not include the error of a stop watch, because times in tenths of a second
+/// may have been taken automatically.
 #pragma once
 
 #include <string_view>
@@ -33,7 +33,7 @@ struct RepeatRule {
   /// Columns with the settings of a run; those missing from the table are skipped.
   std::vector<std::string_view> settings;
   std::string_view timed = "elapsed_s";  ///< column with the reading that is compared
-  std::string_view printed = {};         ///< compared instead if a row lacks `timed`; may be empty
+  std::string_view printed = {};         ///< column compared if any row lacks `timed`; may be empty
   double scatter = 0.003;                ///< relative standard deviation of the reading
 };
 

@@ -23,9 +23,9 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel chann
   return std::nullopt;
 }
 
-/// Slope of a channel, 1/s, at the begin of the window: of the straight line by least squares
-/// through its measurements in the 0.5 s from the first one, or through the first two. Empty if
-/// there are fewer.
+/// Rate of change of a channel at the start of the window, in its unit per second: slope of the
+/// least-squares line through the measurements within 0.5 s of the first one, at least two. Empty
+/// with fewer than two measurements.
 std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   constexpr double kSpan_s = 0.5;
   const auto first = first_fresh(window, channel, window.begin);
@@ -53,8 +53,8 @@ std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   return (n * ty - t * y) / (n * tt - t * t);
 }
 
-/// True if the vehicle probably moves backward at the begin of the window: the mean force of the
-/// second before it is negative, or at the begin of the log that of the first half second.
+/// True if the vehicle probably moves backward at the start of the window, because the mean force
+/// of the second before is negative. For the first window of a log: that of its first half second.
 bool moves_backward(const LogWindow& window) {
   constexpr double kBefore_s = 1.0;
   constexpr double kAfter_s = 0.5;
@@ -82,13 +82,13 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
     if (end - begin >= kShortestWindow) windows.push_back({&log, begin, end});
     begin = end;
   };
-  std::size_t piece_end = 0;  // end of the gap-free piece that contains `begin`
+  std::size_t piece_end = 0;  // end of the part without a gap that contains `begin`
   for (std::size_t row = 1; row <= log.rows(); ++row) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > kGapSteps * step_s) {
       piece_end = row;
-      // Equal parts leave no short remainder. A log with its time in a wrong unit (nanoseconds)
-      // would need more parts than it has rows. One step more than a whole number of parts, as that
-      // of add_row_of_rest(), makes no further part.
+      // Equal parts leave no short remainder. One step is subtracted, so that the row added by
+      // add_row_of_rest() does not make a further part. The number of parts is limited to the
+      // number of rows, which a log with times in nanoseconds would exceed.
       const double span_s = log.t_s[piece_end - 1] - log.t_s[begin] - step_s;
       const double most = static_cast<double>(piece_end - begin);
       const auto parts =

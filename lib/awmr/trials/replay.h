@@ -1,5 +1,5 @@
-/// Simulates the model with the commands of a log ("replays" the log). Templates on the scalar type
-/// T: double for predictions, ceres::Jet for derivatives.
+/// Simulates the model with the commands of a log ("replays" the log). The functions are templates
+/// on the scalar type T: double for predictions, ceres::Jet for derivatives.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,8 @@ struct LogWindow {
   std::size_t end = 0;
 };
 
-/// Splits the log at its gaps, and each part into equal windows of at most `longest_s` and one
-/// step. Windows of fewer than 3 rows are dropped.
+/// Splits the log at its gaps, and each part into windows of equal length, at most `longest_s` plus
+/// one median time step. Windows of fewer than 3 rows are dropped.
 std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s);
 
 /// Number of equal steps that divide a time span so that none is longer than `longest_step_s`.
@@ -35,8 +35,8 @@ inline int steps_in(double span_s, double longest_step_s) {
 
 /// Mean force over [t, t + h] of motors with lag. `delay_s`: latency of the commands, null for
 /// none; the result carries the derivative with respect to it. `command`: mean command over the
-/// same time, after the delay. Motors with back-EMF have force 0 where the command is 0, without
-/// lag.
+/// same time, after the delay. If the motors have back-EMF and the command is 0, the force is 0 at
+/// once, because the lag does not apply to a motor that is switched off.
 template <class T>
 SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals, double t_s,
                            double h_s, const T* delay_s, const SideForces<T>& command,
@@ -52,8 +52,8 @@ SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals
           side(mean.force.right, mean.by_delay.right, command.right)};
 }
 
-/// Advances `state` from the time `from_s` to `to_s`, both between `row` and the next one, with the
-/// commands of the row `acting`. Other arguments: see replay_rows().
+/// Advances `state` from the time `from_s` to `to_s`, both between `row` and the next row, with
+/// constant commands: those of the row `acting`. Other arguments: see replay_rows().
 template <class T, class Step>
 State<T> step_between(const LogSignals& signals, std::size_t row, std::size_t acting,
                       const T& from_s, const T& to_s, const Plant<T>& plant, const T* delay_s,
@@ -83,9 +83,9 @@ State<T> step_between(const LogSignals& signals, std::size_t row, std::size_t ac
   return state;
 }
 
-/// Advances `state` from the time `from_s` to `to_s`, both between `row` and the next one. Steps
-/// end where a delayed command changes, because servo limits and a dead zone apply to the commands,
-/// not to their mean over a step. Other arguments: see replay_rows().
+/// Advances `state` from the time `from_s` to `to_s`, both between `row` and the next row. An
+/// integration step ends where a delayed command changes, because servo limits and the dead zone
+/// apply to each command, not to the mean over a step. Other arguments: see replay_rows().
 template <class T, class Step>
 State<T> advance_after_row(const LogSignals& signals, std::size_t row, T from_s, const T& to_s,
                            const Plant<T>& plant, const T* delay_s, double longest_step_s,
@@ -128,16 +128,16 @@ void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
   }
 }
 
-/// Removes the steering stop (limit 10 rad) if the log has the steering angle and no command: the
-/// logged angle is used unchanged, even beyond the stop.
+/// In a log with a steering angle but no command, the logged angle is used unchanged, even beyond
+/// the steering stop: sets the stop to 10 rad. Otherwise returns the plant unchanged.
 template <class T>
 Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
   if (!log.steering_command_rad) plant.steering_max_rad = T(10.0);
   return plant;
 }
 
-/// Integration step of the 3-DOF model along a log. Coulomb friction (sliding.h) is integrated
-/// exactly, so it can hold the vehicle at rest.
+/// Integration step of the 3-DOF model along a log. Coulomb friction (sliding.h) is treated as
+/// discontinuous at rest, so that it can hold the vehicle.
 template <class T>
 class ModelStep {
  public:
@@ -199,10 +199,11 @@ bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
   return resolution.resolved;
 }
 
-/// State at the time delay_s >= 0 before the last of `states`, the states at the rows from `begin`
-/// on. The state is computed by Runge-Kutta steps from the row before that time; their length
-/// carries the derivative with respect to the delay. For a time before the row `begin`, the state
-/// there is extrapolated linearly with its rates. `input_delay_s`: `delay_s` of replay().
+/// State that a sensor with latency sees: the state at the time `delay_s` >= 0 before the last of
+/// `states`, which are the states at the rows from `begin` on. It is computed by Runge-Kutta steps
+/// from the row before that time; the length of the steps carries the derivative with respect to
+/// `delay_s`. For a time before the row `begin`, the state of that row is extrapolated linearly.
+/// `input_delay_s`: latency of the commands, null for none.
 template <class T>
 State<T> earlier_state(const LogSignals& signals, std::size_t begin,
                        const std::vector<State<T>>& states, const Plant<T>& plant, const T& delay_s,
@@ -268,10 +269,11 @@ void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
   }
 }
 
-/// Initial state of a window: the first measurement of each channel in it. A channel without one is
-/// derived from others (yaw rate from heading, heading and speed from position), else it is 0. The
-/// steering angle is then the command at the first row. A heading from positions is that of the
-/// course, or opposite to it if the vehicle moves backward, by its speed or else by its commands.
+/// Initial state of a window: the first measurement of each channel in it. Without a measurement,
+/// the yaw rate is derived from the heading, heading and speed from the positions, and the steering
+/// angle is the command at the first row; otherwise the state is 0. The heading from positions is
+/// the direction of motion, or opposite to it if the vehicle moves backward, as its speed (without
+/// a speed, its commands) shows.
 State<double> measured_initial_state(const LogWindow& window);
 
 /// Longest step of replay() that is accurate for this plant, s: a quarter of the shortest time
@@ -280,12 +282,12 @@ State<double> measured_initial_state(const LogWindow& window);
 /// relative error of 3e-5 per time constant of an exponential decay.
 double replay_step_s(const Plant<double>& plant);
 
-/// Shortest permitted step, s. It belongs to a time constant of 0.4 ms, shorter than that of any
-/// effect in a log. Shorter steps would take too long.
+/// Shortest permitted step, s. It resolves a time constant of 0.4 ms, shorter than that of any
+/// effect visible in a log. Shorter steps would take too long.
 inline constexpr double kShortestReplayStep_s = 1e-4;
 
-/// Checks that a log can be replayed with this plant. Errors (input): a time constant requires
-/// steps below kShortestReplayStep_s. The fault names that time constant; its place is `file`.
+/// Checks that a log can be replayed with this plant. Errors (input): a time constant of the plant
+/// requires steps below kShortestReplayStep_s; the message names it. `file`: place in the error.
 Result<void> check_replay(const Plant<double>& plant, const std::string& file);
 
 }  // namespace awmr

@@ -36,10 +36,11 @@ std::vector<WindowMoments> moments_of(const DrivingLog& log, LogChannel channel)
   return all;
 }
 
-/// True if a channel is only noise about one value. Analysis of variance: F = n var(means of the
-/// windows)/mean variance within a window, with n readings per window, is at most kMaxForce.
+/// True if a channel is only noise about a constant value. Analysis of variance: F = n var(means of
+/// the windows)/(mean variance within a window) is at most kMaxForce (n: readings per window).
 bool is_noise_alone(const std::vector<WindowMoments>& windows) {
-  constexpr double kMaxForce = 5.0;  // F is above 1 for correlated noise, above 100 for motion
+  // F can exceed 1 for correlated noise; motion gives more than 100.
+  constexpr double kMaxForce = 5.0;
   const auto n = static_cast<double>(windows.size());
   double mean = 0.0, within = 0.0, readings = 0.0, between = 0.0;
   for (const WindowMoments& w : windows) {

@@ -1,4 +1,4 @@
-/// Ratio of two signals by medians, which tolerates about 10 % outliers.
+/// Ratio y/x of two signals, computed from medians so that about 10 % outliers do no harm.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ struct RobustRatio {
   int pairs = 0;        ///< number of pairs used
 };
 
-/// Median of y/x over the half of the pairs with the larger |x|. Empty if there are fewer than 10
-/// such pairs, or if `spread` would exceed 0.6: the two signals are then not proportional.
+/// Median of y/x over the half of the pairs with the larger |x|. Empty if this half has fewer than
+/// 10 pairs, or if `spread` would exceed 0.6 because the two signals are not proportional.
 std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y);
 
 }  // namespace awmr

@@ -8,12 +8,13 @@
 namespace awmr {
 namespace {
 
-/// Kinds of elements of a message. kSkipped9, kSkipped36: arrays of so many doubles, not read.
+/// Kinds of elements of a message. kSkipped9, kSkipped36: arrays of 9 and 36 doubles that are
+/// skipped (covariances).
 enum class Part { kHeader, kText, kFloat32, kFloat64, kSkipped9, kSkipped36 };
 
 struct Piece {
   Part part;
-  std::string_view name;  ///< name of a number; empty for other parts
+  std::string_view name;  ///< name of the signal if the part is a number, else empty
 };
 
 struct MessageType {

@@ -1,5 +1,5 @@
-/// Decodes the numbers in ROS 2 messages of the types that FORMATS.md lists. Private to this
-/// folder.
+/// Decodes the numbers in ROS 2 messages of the supported types, which FORMATS.md lists. Private to
+/// this folder.
 #pragma once
 
 #include <optional>

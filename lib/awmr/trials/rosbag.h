@@ -1,8 +1,8 @@
 /// Reads ROS 2 bags in SQLite (`.db3`). Private to this folder.
 ///
 /// Signals are named `TOPIC.FIELD`, the topic without its first '/': `odom.twist.twist.linear.x`.
-/// The time of a message is when the recorder received it, because that clock is common to all
-/// topics.
+/// The time of a message is the time at which the recorder received it, because all topics share
+/// the recorder's clock.
 #pragma once
 
 #include <string>

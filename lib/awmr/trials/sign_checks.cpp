@@ -17,7 +17,8 @@
 namespace awmr {
 namespace {
 
-/// Columns whose sign may be wrong. kSides: force_left and force_right, which may be swapped.
+/// Columns whose sign may be wrong. kSides: force_left and force_right; a wrong sign of their
+/// difference means that they are swapped.
 enum class Signed { kSteering, kSides, kYawRate, kHeading, kY };
 constexpr std::size_t kSignedCount = 5;
 
@@ -25,13 +26,13 @@ constexpr std::size_t kSignedCount = 5;
 struct SignRelation {
   Signed a;
   Signed b;
-  int sign;  ///< +1: they agree; -1: one of the two is wrong
+  int sign;  ///< +1: the signs agree; -1: one of the two columns has the wrong sign
 };
 
-/// Relation of the course over ground to the heading.
+/// Relation of the course over ground (the direction in which the positions move) to the heading.
 struct CourseRelation {
-  int sign =
-      0;  ///< +1: positions move along the heading; -1: along its mirror image; 0: undetermined
+  /// +1: positions move along the heading; -1: along its mirror image; 0: undetermined.
+  int sign = 0;
   double offset_rad = 0.0;  ///< mean angle from the heading or its mirror image to the course
 };
 
@@ -54,8 +55,8 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   }
   // On a straight drive, the heading and its mirror image cannot be distinguished.
   if (n < 10.0 || std::abs(headings) / n > 0.95) return {};
-  // Scatter of the angles, 0 to 1. With the right sign, the angles scatter only by noise; with the
-  // wrong sign, twice the heading is added to every angle.
+  // Largest scatter of the angles, on a scale from 0 to 1. With the right sign, the angles scatter
+  // only by noise; with the wrong sign, twice the heading is added to every angle.
   constexpr double kMaxNoise = 0.3;
   const auto holds = [n](double one, double other) {
     const double of_one = 1.0 - one / n;
@@ -66,9 +67,9 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   return {};
 }
 
-/// The sign of course_relation() for logs without a heading, with the integrated yaw rate in its
-/// place. Because this integral drifts, each 60 windows (a minute) are evaluated separately. 0 if
-/// two minutes contradict each other, or if the sign is undetermined.
+/// The sign of course_relation() for logs without a heading; the integral of the yaw rate takes its
+/// place. Because this integral drifts, parts of 60 windows (about a minute) are evaluated
+/// separately. 0 if two parts contradict each other, or if no part determines the sign.
 int turning_sign(std::span<const EvidenceWindow> windows) {
   constexpr std::size_t kPart = 60;
   int sign = 0;
@@ -116,8 +117,8 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
 
 unsigned bit(Signed column) { return 1U << static_cast<unsigned>(column); }
 
-/// Smallest sets of columns (as bits) whose change of sign makes all relations agree. `fixed`:
-/// columns whose sign is known to be right.
+/// Smallest sets of columns, one bit per column, that make all relations agree if the signs of the
+/// columns are changed. `fixed`: columns whose sign is known to be right.
 std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations, unsigned fixed) {
   std::vector<unsigned> best;
   std::size_t least = kSignedCount + 1;
@@ -136,11 +137,11 @@ std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations,
   return best;
 }
 
-/// Offset to add to the heading after its change of sign, deg, a multiple of 90: a compass counts
-/// from north, and x may be east. 0 if the positions show no such offset.
+/// Offset to add to the heading after changing its sign, deg, a multiple of 90. It is needed if a
+/// compass counts from north and x points east. 0 if the positions show no such offset.
 double mirrored_heading_deg(const Evidence& evidence) {
   constexpr double kQuarter_deg = 90.0;
-  constexpr double kClose_deg = 20.0;  // tolerance, deg, for declination and sideslip
+  constexpr double kClose_deg = 20.0;  // tolerance for declination and sideslip, deg
   if (!evidence.has(LogChannel::kX) || !evidence.has(LogChannel::kY)) return 0.0;
   const CourseRelation course = course_relation(evidence.overlapping);
   if (course.sign != -1) return 0.0;
@@ -185,7 +186,7 @@ Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
       scaled_mapping(evidence, "y_m", -1.0)};
 }
 
-/// The columns of each solution: "a, or b and c". `columns`: by Signed.
+/// Text of the alternative solutions, "a, or b and c". `columns`: names, in the order of Signed.
 std::string alternatives(const std::array<std::string, kSignedCount>& columns,
                          const std::vector<unsigned>& solutions) {
   std::string text;
@@ -224,7 +225,7 @@ std::vector<Contradiction> check_signs(const Evidence& evidence) {
   return found;
 }
 
-/// Detects a speed with the wrong sign: opposite to that of the thrust.
+/// Detects a speed whose sign is opposite to that of the thrust.
 std::optional<Contradiction> check_direction(const Evidence& evidence) {
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto ratio = robust_ratio(
@@ -237,14 +238,14 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
                        scaled_mapping(evidence, "speed_mps", -1.0)};
 }
 
-/// Fractions of sum y^2 over the windows that the sum and the difference of the logged forces
-/// explain:
+/// How well the sum and the difference of the logged forces explain a signal y (such as the speed):
+/// fractions of sum y^2 over the windows,
 ///
 ///     R^2 = (sum y s)^2 / (sum y^2 sum s^2)   for s = F'L + F'R and for s = F'R - F'L
 struct SideShares {
   double of_sum = 0.0;
   double of_difference = 0.0;
-  bool is_positive = true;  ///< y has the sign of F'R - F'L
+  bool is_positive = true;  ///< true: y has the sign of F'R - F'L
 
   bool follows_difference() const { return explains(of_difference, of_sum); }
   bool follows_sum() const { return explains(of_sum, of_difference); }
@@ -270,11 +271,11 @@ SideShares side_shares(const std::vector<EvidenceWindow>& windows, Y y_of) {
   return {share(ys, ss), share(yd, dd), yd > 0.0};
 }
 
-/// Detects a speed that is proportional to F'R - F'L instead of the sum. If heading or yaw rate
-/// follow F'R - F'L as well, the forces are right and the speed is not that of the vehicle: it
-/// comes from wheels of which one side is reversed, or it is another column. Otherwise a force
-/// column has the wrong sign, but without a heading both columns of wheel odometry can be wrong
-/// instead.
+/// Detects a speed that is proportional to F'R - F'L instead of F'L + F'R. If heading or yaw rate
+/// follow F'R - F'L as well, the forces are right, and the speed is wrong: it comes from wheels of
+/// which one side is reversed, or it is another column. Otherwise a force column has the wrong
+/// sign. If the log has a yaw rate but no heading, speed and yaw rate from wheel odometry with one
+/// side reversed are possible, too.
 std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   constexpr std::size_t kMinSeconds = 10;
   if (!evidence.has(LogChannel::kSpeed) || evidence.windows.size() < kMinSeconds) {
@@ -310,12 +311,12 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
                                    option_text("column '" + mapping + "'"))};
 }
 
-/// Speed gained during rearward thrust, m/s, summed over all spans of such thrust. The gain in a
-/// span is the largest rise of the mean speed over 0.25 s above the smallest earlier mean. The
-/// first half second of a span does not count, because motors and sensors may lag.
+/// Increase of the logged speed during rearward thrust, m/s, summed over all spans of such thrust.
+/// In a span it is the largest rise of the mean over 0.25 s above the smallest earlier mean. The
+/// first half second of a span is skipped, because motors and sensors may lag.
 double gathered_backwards_mps(const DrivingLog& log) {
-  constexpr double kPushes = 0.1;  // smallest rearward thrust that counts, as a fraction of the
-                                   // largest thrust
+  // Smallest rearward thrust that counts, as a fraction of the largest thrust.
+  constexpr double kPushes = 0.1;
   constexpr double kLag_s = 0.5;
   constexpr double kMean_s = 0.25;
   const std::vector<double>& speed = log[LogChannel::kSpeed]->value;
@@ -345,8 +346,8 @@ double gathered_backwards_mps(const DrivingLog& log) {
 /// Detects a column with speeds without sign: never negative, and rising during rearward thrust.
 /// (Rearward thrust would slow down a vehicle that drives forward.)
 std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
-  constexpr double kNegative = 0.05;  // smallest negative speed that counts, as a fraction of the
-                                      // largest speed
+  // Smallest negative speed that counts, as a fraction of the largest speed.
+  constexpr double kNegative = 0.05;
   constexpr double kMuch = 0.15;
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
   const auto [slowest, fastest] = std::ranges::minmax(evidence.log[LogChannel::kSpeed]->value);
@@ -366,8 +367,8 @@ std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
 }  // namespace
 
 std::vector<Contradiction> sign_contradictions(const Evidence& evidence) {
-  // If the force of one side has the wrong sign, thrust and yaw moment are exchanged: no other sign
-  // can be checked.
+  // If the force of one side has the wrong sign, thrust and yaw moment are exchanged, and no other
+  // sign can be checked.
   if (auto one_side = check_one_side(evidence)) return {*std::move(one_side)};
   std::vector<Contradiction> found;
   if (auto is_unsigned = check_unsigned(evidence)) found.push_back(*is_unsigned);

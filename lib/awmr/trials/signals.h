@@ -16,15 +16,15 @@ namespace awmr {
 /// Messages of one topic, in file order, with the fields that were requested.
 struct Topic {
   std::string name;
-  std::vector<std::int64_t> time_ns = {};        ///< by message
+  std::vector<std::int64_t> time_ns = {};        ///< time of each message
   std::vector<std::size_t> columns = {};         ///< requested signals: indices in Signals::header
-  std::vector<std::vector<double>> values = {};  ///< by requested signal, then by message
+  std::vector<std::vector<double>> values = {};  ///< values by requested signal, then by message
 };
 
 /// Signals of a file.
 struct Signals {
   std::vector<std::string> header = {};  ///< names of all signals: `TOPIC.FIELD`
-  std::vector<Topic> topics = {};        ///< with the values of the requested signals
+  std::vector<Topic> topics = {};        ///< topics, each with the values of the requested signals
   std::vector<CsvNote> notes = {};
 };
 
@@ -35,9 +35,9 @@ using Wanted = std::function<bool(const std::string& name)>;
 inline constexpr std::size_t kMaxSignals = 200'000;
 
 /// Converts signals to a table with one row for every time at which a topic with requested signals
-/// has a message. A row has values of messages at this time only; nothing is interpolated. The
-/// first column is t_s, counted from the first row. NaN means "no value", as in uORB, and is noted.
-/// Errors: time that does not rise within a topic; an infinite value.
+/// has a message. A row has only the values of messages at its time; nothing is interpolated. The
+/// first column is t_s, counted from the first row. NaN counts as an empty cell, as in PX4's uORB,
+/// with a note. Errors: times that do not rise within a topic; an infinite value.
 Result<RawTable> join(Signals signals, const std::string& file);
 
 }  // namespace awmr

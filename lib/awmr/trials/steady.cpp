@@ -43,8 +43,8 @@ std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
   return stretches;
 }
 
-/// Straight line fitted to a rate over a stretch: its mean, its rise from end to end, and their
-/// standard errors.
+/// Straight line fitted to a rate over a stretch: its mean, its rise from end to end, and the
+/// standard errors of both.
 struct Line {
   int count = 0;
   double mean = 0.0;
@@ -114,7 +114,7 @@ double mean_of(const std::vector<double>& signal, Stretch s) {
 struct SteadyRun {
   SteadySegment segment;
   double wheel_force = 0.0;   ///< F' of each wheel, the mean of both sides
-  double steering_rad = 0.0;  ///< rad, left positive
+  double steering_rad = 0.0;  ///< steering angle, rad, left positive
   SideForces<double> sides{};
 };
 
@@ -133,7 +133,7 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
   if (!rate || (!by_sides && (!(left > 0.0) || uneven))) return std::nullopt;
   const auto line = steady_rest(log, *rate, rule, stretch);
   if (!line) return std::nullopt;
-  // The mean rate is 0 within its error: the vehicle may be at rest.
+  // If the mean rate is 0 within its error, the vehicle may be at rest.
   if (!(std::abs(line->mean) > 3.0 * line->mean_error) || line->mean == 0.0) return std::nullopt;
   const double left_turn = by_sides ? right - left : steering_rad;
   if (turning ? line->mean * left_turn < 0.0 : line->mean < 0.0) return std::nullopt;
@@ -144,7 +144,7 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
                    {left, right}};
 }
 
-/// Turning row of a run without steering.
+/// Turning row of a steady run of a vehicle without steering.
 TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
   const auto [least, most] = std::minmax(run.sides.left, run.sides.right);
   return {.line = run.segment.line,

@@ -16,13 +16,13 @@ namespace awmr {
 ///   - the remainder is steady if a straight line fitted to its rate (at least five measurements)
 ///     changes from end to end by at most `drift` of the mean rate, or by at most three standard
 ///     errors of that change.
-/// A vehicle with steering must have equal forward forces left and right; |steering| <=
-/// straight_rad is a surge run, else a turning run. A vehicle without steering: a run whose left
-/// and right forces differ by more than `same` is a turning run; a surge run must have forward
-/// forces. The mean rate must also exceed three standard errors and have the direction of the
+/// With steering, the forces left and right must be equal and forward; the segment is a surge run
+/// if |steering| <= straight_rad, else a turning run. Without steering, the segment is a turning
+/// run if the forces left and right differ by more than `same`, else a surge run, whose forces must
+/// be forward. The mean rate must also exceed three standard errors and have the direction of the
 /// command.
 struct SteadyRule {
-  double same = 1e-3;            ///< F' or rad of steering, >= 0: increase for noisy commands
+  double same = 1e-3;            ///< in units of F' and in rad, >= 0: increase for noisy commands
   double settling_s = 1.0;       ///< s, >= 0: increase for vehicles that settle slowly
   double shortest_s = 1.0;       ///< s, > 0: decrease to accept more, less certain segments
   double later_s = 0.25;         ///< s, > 0: length of each further piece that is cut off
@@ -55,14 +55,15 @@ SteadyRuns steady_runs(const DrivingLog& log, const Vehicle& vehicle, const Stea
 
 /// Steady speed of a wheel at a constant command.
 struct SteadyWheel {
-  double command = 0.0;    ///< F', over F_max
+  double command = 0.0;    ///< commanded force of the wheel, F'
   double speed_mps = 0.0;  ///< mean rolling speed; forward positive
-  double std_error = 0.0;  ///< of speed_mps, m/s
+  double std_error = 0.0;  ///< standard error of speed_mps, m/s
 };
 
 /// Returns the steady speeds of the wheels in the segments of the log in which speed and yaw rate
-/// are steady (SteadyRule): with equal commands that of all wheels, u, else those of the left and
-/// the right wheels, u -+ d r. Without a yaw rate, only segments with equal commands count.
+/// are steady (SteadyRule). A segment with equal commands left and right gives one speed, u; others
+/// give u - d r for the left and u + d r for the right wheels. Without a yaw rate, only segments
+/// with equal commands are used.
 std::vector<SteadyWheel> steady_wheels(const DrivingLog& log, const Vehicle& vehicle,
                                        const SteadyRule& rule);
 

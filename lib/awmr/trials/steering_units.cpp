@@ -16,9 +16,9 @@ namespace awmr {
 namespace {
 
 /// Ratio of the curvature of the path to that of the steering angle: (r/u)/(tan(factor d_r)/l_f).
-/// It is at most about 1 if `factor` converts the logged angle to rad. Windows in which the force
-/// difference turns the vehicle more than its steering are skipped. Empty without speed, or without
-/// both heading and yaw rate, or if the two curvatures are not proportional.
+/// It is at most about 1 if factor d_r is the angle in rad. Windows in which the force difference
+/// turns the vehicle more than the steering are skipped. Empty without a speed, without heading and
+/// yaw rate, or if the two curvatures are not proportional.
 std::optional<double> sharpness(const Evidence& evidence, double factor) {
   const bool heading = evidence.has(LogChannel::kHeading);
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
@@ -108,9 +108,9 @@ std::optional<Contradiction> check_large_angles(const Evidence& evidence, const 
           option_text(fmt::format("column '{}=(COUNTS - CENTRE)*DEGREES_PER_COUNT'", column)))};
 }
 
-/// Ratio of the path's curvature to that of the logged steering angle. Without a speed: ratio of
-/// the yaw rates per moment of steering and of a force difference, which is about 1 in the right
-/// unit. 0 if the log does not determine it.
+/// Ratio of the path's curvature to that of the logged steering angle. Without a speed: yaw rate
+/// per moment of the steering, divided by yaw rate per moment of a force difference. Both ratios
+/// are about 1 in the right unit, and large for radians. 0 if the log does not determine it.
 double times_as_sharp(const Evidence& evidence) {
   const double degree = degrees(1.0);
   if (const auto sharp = sharpness(evidence, degree)) return *sharp * degree;

@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// Detects steering angles in radians, a servo's angle, pulse, percent or counts, and any angle of
-/// a vehicle without steering.
+/// Detects values that are not steering angles in degrees: radians, and a servo's angle, pulse
+/// length, percent or counts. Also detects any angle other than 0 of a vehicle without steering.
 std::optional<Contradiction> steering_unit_contradiction(const Evidence& evidence);
 
 }  // namespace awmr

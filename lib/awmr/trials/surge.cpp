@@ -27,8 +27,8 @@ void check_surge_columns(TrialReader& reader) {
   }
 }
 
-/// tau_speed as in the file, else computed from the force of one wheel. Adds a finding if the row
-/// has both and they disagree by more than rounding.
+/// tau_speed of a row: from the file, else computed from the force of one wheel. Adds a finding if
+/// the row has both and they differ by more than rounding.
 double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
                     std::vector<Finding>& findings) {
   const auto printed = reader.non_negative(row, "tau_speed");

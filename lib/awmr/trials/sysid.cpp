@@ -33,7 +33,7 @@ enum class SysIdUnit { kNone, kDegrees, kMetres };
 
 /// A number of a row that becomes a column.
 struct SysIdField {
-  std::size_t index;      ///< place of the number in the row, from 0
+  std::size_t index;      ///< index of the number in the row, from 0
   std::string_view name;  ///< name of the column
   SysIdUnit unit = SysIdUnit::kNone;
 };
@@ -118,7 +118,8 @@ std::optional<std::string> SysIdReader::text_at(const char* key) {
   return std::nullopt;
 }
 
-/// Selects the row format by the row length; null after a fault.
+/// Selects the row format by the number of values in a row. If no format has this number, adds a
+/// fault and returns null.
 const SysIdRow* SysIdReader::find_form() {
   const std::string test = text_at("test").value_or("");
   if (test == "Arm" || test == "Elevator") {

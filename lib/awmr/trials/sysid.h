@@ -6,9 +6,9 @@
 ///                        rad, rad/s], ...],
 ///      "slow-backward": ..., "fast-forward": ..., "fast-backward": ...}
 ///
-/// Each test ("slow-forward", ...) becomes a run. The file has positions and velocities in
-/// rotations of the wheel; they are converted to metres with unitsPerRotation and units. rad is the
-/// heading, rad/s the yaw rate.
+/// Each test ("slow-forward", ...) becomes a run. "rot" are positions of the wheels in rotations,
+/// "rot/s" their velocities; both are converted to metres with unitsPerRotation and units. "rad" is
+/// the heading, "rad/s" the yaw rate, "V" the voltage of the motors.
 ///                      [wpilibsuite/sysid, docs/data-collection.md and AnalysisManager.cpp]
 /// The count of numbers in the first row determines their meaning:
 ///     9   Drivetrain, Drivetrain (Angular)    as above
@@ -28,9 +28,9 @@ namespace awmr {
 
 /// All tests one after the other. `t_s` begins at 0 in each run.
 struct SysIdLog {
-  std::vector<std::string> header = {};  ///< run, t_s, left_volts, ..., in SI units and degrees
+  std::vector<std::string> header = {};           ///< column names: run, t_s, left_volts, ...
   std::vector<std::vector<double>> columns = {};  ///< by column, then by row
-  std::vector<CsvNote> notes = {};                ///< one: `sysid-log`
+  std::vector<CsvNote> notes = {};                ///< a single note, `sysid-log`
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
@@ -39,10 +39,10 @@ struct SysIdLog {
 /// first 4 KiB.
 bool is_sysid(std::string_view bytes);
 
-/// Reads all tests. If a side turned backward in a test and none of its voltages is negative, they
-/// become negative, because some programs record voltages without sign. Errors: JSON that is not a
-/// SysId record; a mechanism that does not drive the robot (elevator, arm); units that are not
-/// lengths; no rows; rows with a wrong number of values; a time that does not rise.
+/// Reads all tests. Some programs record voltages without sign: if the wheels of a side turned
+/// backward in a test and none of its voltages is negative, all of them are made negative. Errors:
+/// JSON that is not a SysId record; a mechanism that does not drive the robot (elevator, arm);
+/// units that are not lengths; no rows; rows with a wrong number of values; times that do not rise.
 Result<SysIdLog> read_sysid(std::string_view bytes, const std::string& file);
 
 }  // namespace awmr

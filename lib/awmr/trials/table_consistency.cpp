@@ -42,8 +42,8 @@ struct Table {
   }
 };
 
-/// The first row whose force exceeds the vehicle's limit (null if none), and the range of the
-/// forces of all rows.
+/// Result of comparing forces with the vehicle's limit: the first row beyond it (null if none), and
+/// the range of the forces of all rows.
 template <class Row>
 struct Beyond {
   const Row* first = nullptr;
@@ -79,12 +79,12 @@ double side_limit(const Vehicle& vehicle) {
   return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
 }
 
-/// Range of the wheel forces that have another unit than F', over all tables of a vehicle.
+/// Range of the wheel forces over all tables of a vehicle whose forces are in another unit than F'.
 struct FolderForces {
   std::optional<ForceSpan> wheels = {};
 
-  /// Range that decides the unit of a column with the range `own`: that of all tables, or `own` if
-  /// its forces can be F'.
+  /// Range that decides the unit of a column with the range `own`: the range over all tables, or
+  /// only `own` if its forces can be F'.
   ForceSpan with(const ForceSpan& own) const {
     return is_share_of_f_max(own) || !wheels ? own : *wheels;
   }
@@ -174,8 +174,8 @@ void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tab
 /// degrees. Returns false if reported.
 bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
                     const Vehicle& vehicle) {
-  constexpr double kSmall = 0.02;  // largest angle, as a fraction of the stop, that may be radians;
-                                   // 1 deg is 0.0175 rad
+  // Largest angle, as a fraction of the stop, that may be in radians (1 deg is 0.0175 rad).
+  constexpr double kSmall = 0.02;
   if (rows.empty()) return true;
   const double steepest_deg =
       degrees(std::ranges::max_element(rows, {}, &TurningRow::steering_rad)->steering_rad);
@@ -194,8 +194,8 @@ double fastest_run_mps(const TrialSet<SurgeRow>& surge) {
   return std::ranges::max_element(surge.rows, {}, &SurgeRow::speed_mps)->speed_mps;
 }
 
-/// Adds the warning `coast-beyond-surge` if a coast-down begins much faster than every surge run:
-/// its speed is in another unit, or its resistance is extrapolated.
+/// Adds the warning `coast-beyond-surge` if a coast-down begins much faster than every surge run.
+/// Then either its speed is in another unit, or its resistance must be extrapolated.
 void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                          const std::optional<TrialSet<SurgeRow>>& surge) {
   constexpr double kFar = 1.5;
@@ -210,7 +210,7 @@ void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                    fastest_mps, fastest_mps / driven_mps, driven_mps)});
 }
 
-/// First row or point of the coast-down that begins fastest.
+/// First row or point of the coast-down with the highest initial speed.
 struct FastestCoast {
   std::string file = {};
   int line = 0;

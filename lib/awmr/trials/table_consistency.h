@@ -10,18 +10,19 @@
 
 namespace awmr {
 
-/// Vehicle and tables with which a table of this vehicle is compared.
+/// The vehicle and its other tables, with which a table is compared.
 struct Tables {
   const Vehicle& vehicle;
-  const std::optional<TrialSet<SurgeRow>>& surge;      ///< for the top speed and the unit of force
-  const std::optional<TrialSet<TurningRow>>& turning;  ///< for the unit of force
+  /// Determines the top speed and the unit of force.
+  const std::optional<TrialSet<SurgeRow>>& surge;
+  const std::optional<TrialSet<TurningRow>>& turning;  ///< determines the unit of force
 };
 
 /// Checks one table. Adds these faults, each at the first wrong row and with the mapping that would
 /// correct it:
 ///   - a tau_speed above n F'max (n driven wheels), or a wheel force above F'max, with the likely
-///     units (force_units.h); all tables have one unit of force;
-///   - steering angles all below 2 % of the stop: probably radians;
+///     units (force_units.h); the unit is assumed to be the same in all tables;
+///   - steering angles that are all below 2 % of the stop: probably radians;
 ///   - speeds and times in another unit (table_units.h);
 ///   - turns that are faster than wheels can roll or than grip allows (turn_evidence.h).
 /// With `options.as_is`, adds them as findings (warning `table-contradiction`) instead.
@@ -31,8 +32,9 @@ void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::p
 void check_consistency(const TrialSet<TurningRow>& turning, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
-/// As check_consistency() of surge runs, for coast-downs. Also adds the warning
-/// `coast-beyond-surge` if a coast-down begins above 1.5 times the speed of the fastest surge run.
+/// Checks a coast-down file: speeds and times in another unit (table_units.h). Also adds the
+/// warning `coast-beyond-surge` if a coast-down begins above 1.5 times the speed of the fastest
+/// surge run.
 void check_consistency(const CoastdownSet& coastdown, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);

@@ -21,7 +21,7 @@ namespace {
 
 /// A wrong unit of a column.
 struct TableUnit {
-  double times;             ///< ratio of printed to timed value with this unit
+  double times;             ///< ratio of printed to timed value if the column has this unit
   std::string_view column;  ///< column to correct
   double factor;            ///< corrected value = value in the file times this
   std::string_view words;
@@ -41,11 +41,11 @@ constexpr std::array<TableUnit, 2> kTableTurnUnits{
 
 constexpr Interval kLengthsPerSecond{0.02, 100.0};
 constexpr double kUsualLengthsPerSecond = 20.0;
-constexpr double kSlowTable_radps = 0.01;  // minimum for the fastest turn of a table
+constexpr double kSlowTable_radps = 0.01;  // smallest plausible yaw rate of the fastest turn
 constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 
-/// The unit whose `times` agrees within 10 % with all ratios of printed to timed values; null if
-/// there is none, or with fewer than two ratios.
+/// The unit whose `times` agrees within 10 % with every ratio of a printed to a timed value. Null
+/// if there is none, or with fewer than two ratios.
 template <std::size_t N>
 const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<TableUnit, N>& units) {
   for (const TableUnit& unit : units) {
@@ -63,8 +63,8 @@ struct Smaller {
   std::string_view words;
 };
 
-/// Selects the correction by 1/100 or by 1/1000, whichever brings the fastest run nearer to three
-/// vehicle lengths per second, a common value.
+/// Selects the correction by 1/100 or by 1/1000: the one with which the speed of the fastest run is
+/// nearer to three vehicle lengths per second, a common value.
 Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thousandth) {
   constexpr double kCommon = 3.0;
   const auto apart = [&](const Smaller& unit) {
@@ -103,10 +103,10 @@ std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
   return ratios;
 }
 
-/// Upper bound of the vehicle's speed at full thrust, from its fastest surge run. Assumes that the
-/// resistance grows at least with the square root of the speed: tau_speed/tau_run = (u/u_run)^b,
-/// b >= 1/2. Includes a margin of 30 %. Empty if that run used less than half of the full thrust,
-/// because static friction then dominates.
+/// Upper bound of the vehicle's speed u at full thrust, with a margin of 30 %. Extrapolated from
+/// the fastest surge run by tau_speed/tau_run = (u/u_run)^b with b = 1/2, because the resistance
+/// grows at least with the square root of the speed. Empty if that run used less than half of the
+/// full thrust, because static friction then dominates.
 std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   constexpr double kRoom = 1.3;
@@ -151,8 +151,8 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
   const double speed_mps = fastest(surge.rows, &SurgeRow::speed_mps);
   const double lengths = speed_mps / vehicle.length_m;
   if (const TableUnit* unit = unit_of(ratios, kTableSpeedUnits)) {
-    // A factor of 1000 means mm/s or milliseconds. If the printed speed is usual for the vehicle's
-    // length, the time is wrong.
+    // A factor of 1000 means that either the speed is in mm/s or the time in milliseconds. If the
+    // printed speed is usual for the vehicle's length, it is the time.
     const bool is_time = unit->times == 1000.0 && lengths <= kUsualLengthsPerSecond;
     if (is_time) unit = &kTableSpeedUnits[4];
     return wrong(first.line,
@@ -196,9 +196,9 @@ namespace {
 
 /// The quantities of a coast-down file from which its units are checked.
 struct Coasts {
-  int line;                    ///< first line of data
+  int line;                    ///< number of the first line with data
   double fastest_mps;          ///< highest initial speed
-  Interval deceleration_mps2;  ///< mean deceleration of the gentlest and of the hardest stop
+  Interval deceleration_mps2;  ///< mean decelerations, from the gentlest to the hardest stop
   const char* speed;           ///< name of the speed column
   const char* time;            ///< name of the time column
 };

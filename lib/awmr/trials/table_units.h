@@ -6,8 +6,8 @@
 ///     yaw_rate_radps over 2 pi turns/elapsed_s  1; 57.3, 1000 identify a unit
 ///     fastest run over the vehicle's length     0.02 to 100 1/s: from a crawl to a racing model
 ///     fastest turn, if timed                    0.01 rad/s and more; upper limit: turn_evidence.h
-///     hardest coast-down, mean deceleration     0.01 m/s^2 and more: that of the best bearings
-///     gentlest coast-down, mean deceleration    20 m/s^2 and less: locked wheels on racing tyres
+///     hardest coast-down, mean deceleration     0.01 m/s^2 (the best bearings) and more
+///     gentlest coast-down, mean deceleration    20 m/s^2 (locked racing tyres) and less
 #pragma once
 
 #include <optional>
@@ -22,16 +22,16 @@ namespace awmr {
 
 struct WrongUnit {
   int line = 0;                     ///< line of the first affected row
-  std::string message;              ///< the comparison, its result, the likely units
-  std::vector<UnitFix> unit_fixes;  ///< corrections, most likely first; empty: no known one
+  std::string message;              ///< the comparison, its result and the likely units, as text
+  std::vector<UnitFix> unit_fixes;  ///< corrections, most likely first; empty if none is known
   std::string remedy = {};          ///< what to do if `unit_fixes` is empty
 };
 
 /// Returns the first column with values that are implausible in its unit; empty if there is none.
 std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehicle& vehicle);
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning);
-/// `surge`: surge runs of the same vehicle, if there are any. Their fastest run limits the speed at
-/// which a coast-down can begin.
+/// As wrong_unit() above, for coast-downs. `surge`: surge runs of the same vehicle, if there are
+/// any; the fastest of them limits the speed at which a coast-down can begin.
 std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);

@@ -93,8 +93,8 @@ struct Header {
   std::vector<std::string> names;
 };
 
-/// Names in a file's header; for a directory of tables, both `TABLE.COLUMN` and `COLUMN`. nullopt
-/// if the file is unreadable or has a number in place of a name.
+/// Names in a file's header; for a directory of tables, both `TABLE.COLUMN` and `COLUMN`. Empty if
+/// the file cannot be read or its first row has a number where a name should be.
 std::optional<Header> header_of(const std::filesystem::path& path) {
   const auto sample = sample_of(path);
   if (!sample) return std::nullopt;

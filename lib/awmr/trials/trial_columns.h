@@ -14,8 +14,8 @@ namespace awmr {
 
 /// Columns read from a file of this kind.
 std::span<const CsvColumn> columns_of(TrialKind kind);
-/// Columns of a turning table of this vehicle. A vehicle without steering has a force column for
-/// each side.
+/// Columns of a turning table of this vehicle. Without steering, force_left and force_right are
+/// required.
 std::span<const CsvColumn> turning_columns(const Vehicle& vehicle);
 
 /// Returns the options with the mappings of the vehicle file appended, and with `has_steering` and
@@ -24,16 +24,16 @@ std::span<const CsvColumn> turning_columns(const Vehicle& vehicle);
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle);
 
 /// Checks that every mapping of the options was used by a file. `used`: indices of the mappings
-/// that were used. Mappings from the vehicle file may be unused. Errors: an unused mapping, with
-/// the reason: no file has its file name, no file has its source columns (the message suggests the
-/// closest name), or no file needs its column.
+/// that were used. Mappings from the vehicle file may remain unused. Errors: any other unused
+/// mapping, with the reason: no file has the name that the mapping is limited to, no file has its
+/// source columns (the message suggests the closest name), or no file needs its column.
 Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
                       std::span<const std::filesystem::path> files);
 
-/// Returns a fault for each mapping that none of the files can use, because no file has its file
-/// name or its source columns. For reports of files that could not be read, where a misspelt
-/// mapping is a frequent cause. Skips the mappings of the vehicle file, and those of required
-/// columns, whose absence is already an error.
+/// Returns a fault for each mapping that none of the files can use, because no file has the name
+/// that the mapping is limited to, or its source columns. Called after files could not be read,
+/// because a misspelt mapping is a frequent cause. Skips mappings of the vehicle file, and those to
+/// required columns, whose absence is already an error.
 std::vector<Fault> unusable_mappings(const TrialOptions& options,
                                      std::span<const std::filesystem::path> files);
 

@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// Trials by kind. A kind of which no file was given is absent or empty.
+/// Trials by kind. A kind for which no file was given is absent or empty.
 struct TrialData {
   std::optional<TrialSet<SurgeRow>> surge = {};
   std::optional<TrialSet<TurningRow>> turning = {};
@@ -24,7 +24,7 @@ struct TrialData {
 struct Trials {
   Vehicle vehicle;
   TrialData data;
-  std::vector<Finding> findings;  ///< order: surge, turning, coast-downs, logs
+  std::vector<Finding> findings;  ///< from reading surge, turning, coast-downs, logs, in this order
 };
 
 }  // namespace awmr

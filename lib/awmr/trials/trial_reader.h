@@ -1,5 +1,5 @@
-/// Helpers that the readers of trial files (surge.cpp, turning.cpp, coastdown.cpp, log.cpp) share.
-/// Private to this folder.
+/// Helpers of the readers of trial files (surge.cpp, turning.cpp, coastdown.cpp, log.cpp). Private
+/// to this folder.
 #pragma once
 
 #include <optional>
@@ -20,14 +20,14 @@ class TrialReader {
 
   const CsvTable& table() const { return table_; }
   bool has(std::string_view column) const { return table_.has(column); }
-  /// Returns the values of a column, and leaves the column of the table empty (CsvTable::take()).
+  /// Moves the values of a column out of the table; the column is empty afterwards.
   std::vector<double> take(std::string_view column) { return table_.take(column); }
   /// Returns the value of a cell; empty if the file has no such column or the cell is empty.
   std::optional<double> cell(std::size_t row, std::string_view column) const;
   /// As cell(), and adds a fault if the value is negative.
   std::optional<double> non_negative(std::size_t row, std::string_view column);
 
-  /// Adds a fault at the cell of this row and column, or at the header.
+  /// Adds a fault at the cell of this row and column; header_fault() adds one at the header.
   void fault(ErrorCode code, std::size_t row, std::string_view column, std::string message);
   void header_fault(ErrorCode code, std::string message);
   std::vector<Fault>& faults() { return faults_; }
@@ -48,24 +48,25 @@ class TrialReader {
 /// A speed or yaw rate that a row can give as a printed value, as a timed value, or both. Timed
 /// value: `per_amount` times the cell of `amount_column` over the cell of `elapsed_s`.
 struct Rate {
-  std::string_view printed_column;  ///< "speed_mps"
-  std::string_view amount_column;   ///< "distance_m", "turns"
-  double per_amount = 1.0;          ///< 1 for a distance, 2 pi rad for turns
+  std::string_view printed_column;  ///< column of the printed value: "speed_mps"
+  std::string_view amount_column;   ///< column of the distance or number of turns: "turns"
+  double per_amount = 1.0;          ///< 1 for distance_m, 2 pi (rad) for turns
   std::string code;                 ///< code of the finding if the two values disagree
 };
 
 /// The rate of one row, and the amount and time from which it was timed.
 struct RateInRow {
-  /// m/s or rad/s, >= 0: the preferred value if the row has both, else the one that it has; 0 if
-  /// the row has neither.
+  /// m/s or rad/s, >= 0: the value that TrialOptions prefer if the row has a printed and a timed
+  /// one, else the one that it has; 0 if it has neither.
   double used = 0.0;
-  std::optional<double> amount;     ///< distance, m, or number of turns; absent unless elapsed_s >
-                                    ///< 0
-  std::optional<double> elapsed_s;  ///< s; absent unless > 0
+  /// Distance, m, or number of turns; absent unless elapsed_s > 0.
+  std::optional<double> amount;
+  std::optional<double> elapsed_s;  ///< elapsed time, s; absent unless > 0
 };
 
 /// Returns the rate of a row; empty on a fault. Adds a finding if the printed and the timed value
-/// disagree (agreement.h). Adds a fault if a value is negative, or if a moving row has elapsed_s 0.
+/// disagree (agreement.h). Adds a fault if a value is negative, or if elapsed_s is 0 although the
+/// row has a rate or an amount.
 std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rate& rate,
                                  std::optional<double> printed, Preference preference,
                                  std::vector<Finding>& findings);

@@ -21,7 +21,7 @@ struct SurgeRow {
   int line = 0;                      ///< line in the file
   double tau_speed = 0.0;            ///< n F' of n driven wheels, dimensionless, > 0
   double speed_mps = 0.0;            ///< u, m/s, > 0: as printed in the file or timed
-  std::optional<double> distance_m;  ///< m, > 0; with elapsed_s if the run was timed
+  std::optional<double> distance_m;  ///< m, > 0; given together with elapsed_s if the run was timed
   std::optional<double> elapsed_s;   ///< s, > 0
 };
 
@@ -37,7 +37,7 @@ struct TurningRow {
   double wheel_force = 0.0;         ///< F' of each wheel, over F_max, > 0; 0 for differential turns
   double tau_turn_m = 0.0;          ///< yaw moment/F_max, m, > 0: from the file, else computed
   double yaw_rate_radps = 0.0;      ///< r, rad/s, > 0: as printed in the file or timed
-  std::optional<double> turns;      ///< full turns, > 0; with elapsed_s if the run was timed
+  std::optional<double> turns;      ///< number of full turns, > 0; given with elapsed_s if timed
   std::optional<double> elapsed_s;  ///< s, > 0
   /// Set for differential turns: F' of each left and of each right wheel. The larger is `right`.
   std::optional<SideForces<double>> sides = {};
@@ -59,7 +59,8 @@ struct CoastCurve {
   int line = 0;  ///< line of its first row
   std::vector<double> t_s;
   std::vector<double> speed_mps;
-  std::vector<std::size_t> mapped = {};  ///< used mappings: indices in TrialOptions::columns
+  /// Mappings that were used: indices in TrialOptions::columns.
+  std::vector<std::size_t> mapped = {};
   bool of_bins = false;  ///< true: built from columns from_mps, to_mps, elapsed_s (speed bins)
 };
 
@@ -70,17 +71,19 @@ template <class Row>
 struct TrialSet {
   std::string file;
   std::vector<Row> rows;
-  int set_aside = 0;                     ///< number of rows that are not used
-  std::vector<std::size_t> mapped = {};  ///< used mappings: indices in TrialOptions::columns
-  std::string force_column = {};         ///< surge, turning: "tau_speed" or "wheel_force"
-  std::string rate_column =
-      {};  ///< source column of the rate of a turning run: "yaw_rate_radps" or "turns"
-  /// Differential turns of a vehicle that also steers; not in `rows`. They are kept apart because
-  /// they include tyre scrub, which g3 of steered turns does not. Empty if the table has no steered
-  /// turn: the differential turns are then in `rows`.
+  int set_aside = 0;  ///< number of rows that are not used
+  /// Mappings that were used: indices in TrialOptions::columns.
+  std::vector<std::size_t> mapped = {};
+  /// Source column of the forces: "tau_speed" or "wheel_force".
+  std::string force_column = {};
+  /// Source column of the rate of a turning run: "yaw_rate_radps" or "turns".
+  std::string rate_column = {};
+  /// Differential turns of a vehicle with steering. They are not in `rows`, because their
+  /// resistance includes tyre scrub, which g3 of steered turns does not. Empty if the table has no
+  /// steered turn; the differential turns are then in `rows`.
   std::vector<Row> by_sides = {};
-  /// Differential runs in which the vehicle did not turn. Their yaw moment is a lower bound of the
-  /// moment at which the tyres begin to slide.
+  /// Runs with a force difference in which the vehicle did not turn. The yaw moment of such a run
+  /// is a lower bound of the moment at which the tyres begin to slide.
   std::vector<Row> standing = {};
 };
 

@@ -19,25 +19,26 @@
 namespace awmr {
 namespace {
 
-/// Largest accepted yaw rate over that of rolling wheels: 3 for a steered turn (the vehicle may
-/// drift or also steer its rear wheels), 4 for a differential turn (u is interpolated twice).
+/// Largest accepted ratio of the yaw rate to that of rolling wheels: 3 for a steered turn (the
+/// vehicle may drift, or steer its rear wheels, too), 4 for a differential turn (the speed is
+/// interpolated twice).
 constexpr double kMaxSteered = 3.0;
 constexpr double kMaxBySides = 4.0;
-/// Smallest accepted yaw rate of the fastest steered turn of a table, over that of rolling wheels.
-/// A real turn has a ratio several times larger, even with a wheelbase of five times l_f and strong
-/// understeer.
+/// Smallest accepted ratio of the yaw rate to that of rolling wheels, for the turn of a table with
+/// the largest ratio. Real turns have ratios several times larger, even with a wheelbase of five
+/// times l_f and strong understeer.
 constexpr double kMinSteered = 0.01;
 constexpr double kMaxAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;
 
-/// Ratios of the yaw rate to that of rolling wheels that are usual in the right unit. A unit is
-/// suggested only if it brings the fastest turn into this range.
+/// Usual range of the ratio of the yaw rate to that of rolling wheels, in the right unit. A unit is
+/// suggested only if it brings the largest ratio into this range.
 constexpr Interval kPossibleShare{0.03, 2.5};
 constexpr double kPossibleAcceleration_mps2 = 15.0;
 
 /// A wrong unit of a yaw rate.
 struct RateUnit {
-  double times;             ///< value in this unit over value in rad/s
+  double times;             ///< values are too large by this factor if the file has this unit
   std::string_view column;  ///< column to correct
   double factor;            ///< corrected value = value in the file times this
   std::string_view words;
@@ -140,7 +141,8 @@ std::string turn_text(const TurningRow& row) {
                      row.sides->right - row.sides->left);
 }
 
-/// Yaw rate r of a steered turn over that of rolling wheels, u tan(d_r)/l_f. Empty if u is unknown.
+/// Yaw rate r of a steered turn, divided by that of rolling wheels, u tan(d_r)/l_f. Empty if the
+/// speed u is unknown.
 std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& speed,
                                        const Vehicle& vehicle) {
   const auto u = speed.at(vehicle.driven_wheels() * row.wheel_force);
@@ -152,9 +154,9 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
                                *u, most)};
 }
 
-/// Yaw rate r of a differential turn over that of rolling wheels, (u(n F'R) - u(n F'L))/(2 d).
-/// Empty if a speed u is unknown. Scatter of the surge runs may make their curve flat between the
-/// two forces. Its slope there counts as at least half the mean slope from the origin.
+/// Yaw rate r of a differential turn, divided by that of rolling wheels, (u(n F'R) - u(n F'L))/(2
+/// d). Empty if a speed u is unknown. Scatter of the surge runs may make their curve too flat
+/// between the two forces, so at least half its mean slope from the origin is assumed there.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
@@ -172,8 +174,8 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
                                difference, most)};
 }
 
-/// Yaw rate r of a steered turn over that at which the centripetal acceleration on the smallest
-/// possible circle, of radius l_f/tan(d_r), reaches its limit.
+/// Yaw rate r of a steered turn, divided by the yaw rate at which the centripetal acceleration
+/// reaches its limit on the smallest possible circle, of radius l_f/tan(d_r).
 TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
   const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
   const double most = std::sqrt(kMaxAcceleration_mps2 / radius_m);
@@ -187,8 +189,8 @@ TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
 struct TurnCriterion {
   std::vector<TurnShare> shares;
   double most;        ///< largest accepted ratio of yaw rate to limit
-  double least;       ///< smallest accepted ratio of the row with the largest one; 0: none
-  Interval possible;  ///< ratios that are usual in the right unit
+  double least;       ///< smallest accepted value of the table's largest ratio; 0: none
+  Interval possible;  ///< usual ratios in the right unit
 };
 
 std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
@@ -213,7 +215,8 @@ std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
                             fmt::format("faster than {:g} rad/s", kFastestTurn_radps)});
     }
   }
-  // If the vehicle's dimensions are implausible, only the limit without dimensions applies.
+  // If the dimensions in the vehicle file are implausible, only the limit of 25 rad/s, which does
+  // not depend on them, is checked.
   if (!implausible_values(vehicle).empty()) return {std::move(any)};
   return {std::move(steered), std::move(by_sides), std::move(circle), std::move(any)};
 }

@@ -42,7 +42,7 @@ void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
 
 /// Cause of the turn in a row of the file: steering, or a force difference.
 struct Turn {
-  double left = 0.0;        ///< steering_deg or F'R - F'L: positive in a turn to the left
+  double left = 0.0;        ///< steering_deg or F'R - F'L, whichever turns; positive to the left
   std::string in_words;     ///< "steering_deg 5", for messages
   double computed_m = 0.0;  ///< tau_turn computed from the forces, m, >= 0
   std::string equation;     ///< equation of computed_m, for messages
@@ -83,7 +83,7 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
 }
 
 /// Magnitude of tau_turn, m: the value in the file, else the computed one. (The paper's table gives
-/// the unit N m; divided by F_max, as everywhere in awmr, the unit is m.)
+/// the unit N m. In awmr, moments are divided by F_max, so the unit is m.)
 double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
                    std::vector<Finding>& findings) {
   const auto cell = reader.cell(row, "tau_turn");
@@ -227,7 +227,8 @@ std::optional<Turn> by_sides_alone(TrialReader& reader, std::size_t row, const V
   return by_sides(reader, row, vehicle);
 }
 
-/// Adds one fault for all rows of a vehicle without steering that lack a side's force.
+/// Adds a single fault that lists all rows without force_left or force_right, in the table of a
+/// vehicle without steering.
 void check_sides_given(TrialReader& reader) {
   std::vector<std::size_t> without;
   for (std::size_t row = 0; row < reader.table().rows(); ++row) {
@@ -315,7 +316,7 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   if (set.rows.empty()) {
-    // The moment that tyres hold without turning is evaluated only if there are steered turns.
+    // Runs without a turn are used only to determine tyre scrub, which needs steered turns.
     set.standing.clear();
     set_aside.insert(set_aside.end(), standing.begin(), standing.end());
     std::sort(set_aside.begin(), set_aside.end());

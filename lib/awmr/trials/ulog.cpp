@@ -20,7 +20,7 @@ constexpr std::size_t kFileHeaderBytes = 16;
 struct Subscription {
   std::size_t needed = 0;                       ///< minimum size of a message, bytes
   std::optional<std::size_t> time_offset = {};  ///< offset of `timestamp`; empty: not a time series
-  std::vector<ulog::Leaf> wanted = {};          ///< requested numbers
+  std::vector<ulog::Leaf> wanted = {};          ///< requested numbers of the topic
   std::size_t topic = 0;                        ///< index in Signals::topics
 };
 
@@ -37,7 +37,7 @@ tl::unexpected<Error> wrong(const Reading& reading, std::size_t offset, std::str
                      fmt::format("byte {}: {}", offset, what));
 }
 
-/// Reads a message 'A', which announces a topic: instance, id, name.
+/// Reads a message of type 'A', which announces a topic: instance number, id, name.
 Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   const auto instance = message.number<std::uint8_t>();
   const auto id = message.number<std::uint16_t>();
@@ -72,7 +72,7 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   return {};
 }
 
-/// Reads a message 'D', the data of a topic: id, fields.
+/// Reads a message of type 'D', the data of a topic: its id, then its fields.
 Status take_data(std::string_view message, std::size_t offset, Reading& reading) {
   ByteReader reader(message);
   const auto id = reader.number<std::uint16_t>();
@@ -101,8 +101,8 @@ Status take_data(std::string_view message, std::size_t offset, Reading& reading)
   return {};
 }
 
-/// Reads a message 'B': flags that a reader must know, and offsets of data that were appended after
-/// a crash. Returns the offsets.
+/// Reads a message of type 'B': flags that a reader must know, and offsets of data that were
+/// appended after a crash. Returns the offsets.
 Result<std::vector<std::uint64_t>> flags_of(std::string_view message, std::size_t offset,
                                             const Reading& reading) {
   constexpr std::size_t kFlagBytes = 40;

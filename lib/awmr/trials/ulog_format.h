@@ -12,7 +12,7 @@
 
 namespace awmr::ulog {
 
-inline constexpr std::size_t kLongestMessage = 65535;  ///< bytes; the size is a 16-bit number
+inline constexpr std::size_t kLongestMessage = 65535;  ///< bytes; the file format has a 16-bit size
 
 /// Basic types.
 enum class Basic { kI8, kU8, kI16, kU16, kI32, kU32, kI64, kU64, kFloat, kDouble, kBool, kChar };
@@ -27,7 +27,7 @@ using Formats = std::map<std::string, std::vector<Field>, std::less<>>;
 
 /// A number in a message, possibly within nested types.
 struct Leaf {
-  std::string name;  ///< "position[2]", "pose.x"
+  std::string name;  ///< name of the signal without its topic: "position[2]", "pose.x"
   Basic type = Basic::kU8;
   std::size_t offset = 0;
 };
@@ -35,8 +35,8 @@ struct Leaf {
 /// Layout of a topic's message.
 struct Layout {
   std::vector<Leaf> leaves = {};
-  std::size_t bytes = 0;   ///< size of all fields
-  std::size_t needed = 0;  ///< size without the padding at the end, which is not logged
+  std::size_t bytes = 0;   ///< size of all fields, bytes
+  std::size_t needed = 0;  ///< bytes without the padding at the end, which is not logged
 };
 
 /// Returns the number of this type at the beginning of the bytes.

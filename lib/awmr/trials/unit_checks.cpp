@@ -67,7 +67,8 @@ std::optional<Contradiction> check_force(const Evidence& evidence, std::string_v
       "vehicle: ",
       worst, limit.lo, limit.hi);
   if (of_both.largest <= std::max(limit.hi, -limit.lo) * kForceRounding) {
-    // The vehicle permits this magnitude in the other direction, so the unit is right.
+    // The vehicle allows this magnitude in the other direction, so only the sign is wrong, not the
+    // unit.
     return Contradiction{
         std::string(column), beyond + "the vehicle permits it only in the other direction", "",
         fmt::format("widen wheel_force in vehicle.json to {:.4g}, or correct the signs", worst)};
@@ -88,8 +89,8 @@ std::optional<Contradiction> check_force(const Evidence& evidence, std::string_v
                        remedy_of(units, unit_fixes, evidence.mappings)};
 }
 
-/// Range of the forces of both sides, without zeros: 0 in a column of servo pulses means no
-/// reading.
+/// Range of the forces of both sides. Zeros are left out, because 0 in a column of servo pulses
+/// means that there was no reading.
 ForceSpan force_span(const DrivingLog& log) {
   ForceSpan span{std::numeric_limits<double>::infinity(), 0.0};
   for (const auto* values : {&log.force_left, &log.force_right}) {
@@ -114,8 +115,8 @@ std::vector<Contradiction> check_forces(const Evidence& evidence) {
 
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
   std::vector<Contradiction> found = check_forces(evidence);
-  // With a wrong unit of time, windows of one second have no meaning, so the units of the motion
-  // are not checked.
+  // If the unit of t_s is wrong, the windows are not one second long, and the units of the motion
+  // cannot be checked.
   if (auto time = check_time(evidence)) {
     found.insert(found.begin(), *time);
     return found;

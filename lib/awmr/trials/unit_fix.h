@@ -20,9 +20,9 @@ struct UnitFix {
 };
 
 /// Advice for messages: "map it with --column 'A'", or for several corrections "map it with
-/// --column 'A' (percent) or with --column 'B' (PWM counts)". Empty for no corrections. `in_doubt`:
-/// true if units without a known factor are also possible; the unit of a single correction is then
-/// also named. `mappings`: column mappings with which the table was read.
+/// --column 'A' (percent) or with --column 'B' (PWM counts)". Empty if `unit_fixes` is empty.
+/// `in_doubt`: true if units without a known factor are possible, too; then the unit is named even
+/// for a single correction. `mappings`: column mappings used to read the table.
 std::string mapped_by(std::span<const UnitFix> unit_fixes, std::span<const ColumnMapping> mappings,
                       bool in_doubt = false);
 

@@ -22,8 +22,8 @@ namespace {
 
 constexpr double kLevel = 0.95;
 constexpr double kShortest_s = 2.0;
-/// Random stream of draw 0, for its latencies, initial state and the noise added to its readings.
-/// It differs from the streams of the simulator.
+/// First random stream of the predicted drives; drive i has the stream kReadingsStream + i for its
+/// latencies, initial state and added noise. The simulator uses other streams.
 constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
@@ -40,8 +40,8 @@ State<double> moved_by(State<double> state, const State<double>& error, Random& 
   return state;
 }
 
-/// Draws each latency or lag that the vehicle file does not give, uniformly between 0 and twice its
-/// default.
+/// Draws each sensor latency and the motor lag, uniformly between 0 and twice the default, unless
+/// the vehicle file has a value for it.
 LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
   const auto draw = [&](const std::optional<double>& given, double& value) {
     const double share = 2.0 * random.uniform();
@@ -56,19 +56,20 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
 
 /// The logged drive, with the conditions and the initial state for its prediction.
 struct LoggedDrive {
-  double from_s = 0.0;      ///< time of the first row of the drive, on the log's clock
-  double duration_s = 0.0;  ///< time from there to the end of the log or of the scenario, whichever
-                            ///< is first
+  double from_s = 0.0;  ///< t_s of the log's row at which the scenario begins
+  /// Time from from_s to the end of the log or of the scenario, whichever comes first.
+  double duration_s = 0.0;
   LoopConditions conditions;
   std::vector<DriveChannel> channels;
   DriveStart start;
   Scenario scenario;  ///< with these conditions and this initial state
 };
 
-/// The window means of a predicted drive.
+/// A simulated drive: means of each channel over windows of half a second.
 struct PredictedDrive {
-  double end_s = 0.0;                ///< end of the run; later windows are invalid
-  std::vector<WindowMeans> windows;  ///< by channel
+  /// Scenario time at the end of the run; later windows are invalid.
+  double end_s = 0.0;
+  std::vector<WindowMeans> windows;  ///< window means by channel
 };
 
 PredictedDrive predicted_drive(const Run& run, const std::vector<DriveChannel>& channels,
@@ -128,7 +129,8 @@ PredictedBand prediction_of(const DriveChannel& channel, const std::vector<Windo
     for (const WindowMeans& draw : draws) squares += std::pow(draw.mean[w] - series.mean[w], 2);
     series.spread[w] = std::sqrt(squares / (n - 1.0));
   }
-  // A lower bound keeps the distance finite if all draws are equal, as for a command at its limit.
+  // The lower bound keeps distances finite if all predicted drives are equal, such as for a command
+  // at its limit.
   const double most = *std::max_element(series.spread.begin(), series.spread.end());
   double size = channel.noise;
   for (const double mean : series.mean) size = std::max(size, std::abs(mean));
@@ -137,7 +139,8 @@ PredictedBand prediction_of(const DriveChannel& channel, const std::vector<Windo
   return series;
 }
 
-/// Distance of each window from the prediction; 0 for a window without a measurement.
+/// Distance of each window from the prediction, in standard deviations of the predictions; 0 for a
+/// window without a measurement.
 std::vector<double> distances(const WindowMeans& windows, const PredictedBand& predicted) {
   std::vector<double> all(windows.mean.size());
   for (std::size_t w = 0; w < all.size(); ++w) {
@@ -157,13 +160,13 @@ int samples_in(const WindowMeans& windows) {
   return std::accumulate(windows.rows.begin(), windows.rows.end(), 0);
 }
 
-/// A channel of the drive, with its distances in the predicted drives.
+/// A channel of the logged drive, its prediction, and the distances of the predicted drives.
 struct Compared {
   DriveChannel channel;
   WindowMeans measured;
   PredictedBand predicted;
   std::vector<double> largest;  ///< for each predicted drive, its largest distance in this channel
-  double usual = 0.0;           ///< 95 % quantile of `largest`
+  double usual = 0.0;           ///< 95 % quantile of `largest` over the predicted drives
 };
 
 Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> draws,
@@ -233,8 +236,8 @@ std::vector<Compared> compare(const std::vector<DriveChannel>& channels,
   return all;
 }
 
-/// Compares the channels with their allowed distances, and computes the p-value from the rank of
-/// the drive among the predicted drives.
+/// Compares each channel with its allowed distance, and computes the p-value from the rank of the
+/// logged drive among the predicted drives.
 void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
   const std::vector<double> factors = factors_of_draws(channels, at(result.draws));
   const double allowed = rank_quantile(factors, kLevel);

@@ -24,33 +24,33 @@ struct AcceptanceOptions {
   /// Time in the log, s, at which the scenario begins. Absent: the time of the first row with a
   /// command other than 0.
   std::optional<double> from_s = {};
-  int threads = 0;  ///< 0: one per core
+  int threads = 0;  ///< number of threads; 0: one per core
 };
 
 /// One channel of the drive, compared with the predicted drives. Measured and predicted values are
 /// averaged over windows of half a second. The distance of a window is the difference of its mean
 /// from the mean of the predictions, divided by the standard deviation of the predictions.
 struct ChannelAcceptance {
-  std::string channel;  ///< "heading_rad", "force_left"
+  std::string channel;  ///< name: "heading_rad", "force_left"
   std::string unit;
-  int samples = 0;              ///< number of rows compared
-  double noise = 0.0;           ///< standard deviation of the noise of a reading, in `unit`
-  bool noise_from_log = false;  ///< true: `noise` was estimated from the log, because neither
-                                ///< scenario nor vehicle gives it
-  double distance = 0.0;        ///< largest distance of a window, >= 0
-  double allowed = 0.0;         ///< limit of the distance. The limits of all channels together
-                                ///< contain 95 % of the predicted drives
-  bool inside = false;          ///< distance <= allowed
+  int samples = 0;     ///< number of rows compared
+  double noise = 0.0;  ///< standard deviation of the noise of a reading, in `unit`
+  /// True: `noise` was estimated from the log, because neither scenario nor vehicle gives it.
+  bool noise_from_log = false;
+  double distance = 0.0;  ///< largest distance of a window, >= 0
+  /// Limit of the distance: 95 % of the predicted drives are within the limits of all channels.
+  double allowed = 0.0;
+  bool inside = false;  ///< true: distance <= allowed
   /// Scenario time, s, of the first window with a larger distance than allowed; absent if inside.
   std::optional<double> outside_since_s = {};
   double difference = 0.0;  ///< measured minus predicted in the window of `distance`, in `unit`
 };
 
-/// A possible cause of the difference between drive and prediction: one change of the vehicle, its
-/// sensors, or the forces on it.
+/// A possible cause of the difference between the logged drive and the prediction: a change of one
+/// property of the vehicle or its sensors, or an external force.
 struct FaultHypothesis {
   std::string what;    ///< changed quantity: "mass_norm", "bias of the yaw rate"
-  double value = 0.0;  ///< value that explains the drive best: a factor if `unit` is "times"
+  double value = 0.0;  ///< value that explains the drive best, in `unit`
   std::string unit;    ///< unit of `value`; "times": a factor on the model's value
   /// Fraction in [0, 1] of the sum of squared distances that disappears with this change.
   double explained = 0.0;
@@ -61,27 +61,27 @@ struct Acceptance {
   std::string file;
   std::string scenario;
   YawMode mode{};
-  double from_s = 0.0;      ///< time in the log at which the scenario begins
-  double duration_s = 0.0;  ///< compared duration: to the end of the log or of the shortest
-                            ///< simulated run
+  double from_s = 0.0;  ///< time in the log at which the scenario begins
+  /// Compared duration: to the end of the log or of the shortest simulated run.
+  double duration_s = 0.0;
   int draws = 0;
   /// Fraction of all drives (the predicted ones and the logged one) that are at least as far from
   /// the prediction as the logged one.
   double p_value = 0.0;
-  bool inside = false;  ///< p_value > 0.05
+  bool inside = false;  ///< true: p_value > 0.05, the drive agrees with the prediction
   std::vector<ChannelAcceptance> channels = {};
   /// The best hypotheses, best first, at most four; empty if the drive is inside.
   std::vector<FaultHypothesis> hypotheses = {};
 };
 
-/// Simulates the scenario with vehicles drawn from the model's covariance, or with the model itself
-/// if it has none, and compares the logged drive with these predicted drives. All start from the
-/// state at the beginning of the logged drive. Sensor noise, sensor latency and motor lag are those
-/// of the scenario or the vehicle. If neither gives them, noise is estimated from the log, and
-/// latencies and lag are drawn between 0 and twice the defaults of LoopConditions.
+/// Simulates the scenario with vehicles drawn from the model's covariance (without a covariance,
+/// with the model itself), and compares the logged drive with these predicted drives. They start
+/// from the state at the beginning of the logged drive. Sensor noise, sensor latency and motor lag
+/// are those of the scenario or the vehicle. If neither has a value, noise is estimated from the
+/// log, and latencies and lag are drawn between 0 and twice the defaults of LoopConditions.
 /// Errors (input): as simulate(), controller_for() and PlantSampler; the vehicle does not have the
-/// mode; the log has no command, or less than 2 s of the scenario; from_s is not within the log;
-/// options.draws is out of range.
+/// yaw mode of the options; the log has no command, or less than 2 s of the scenario; from_s is not
+/// within the log; options.draws is out of range.
 Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
                                 const Gains<double>& gains, const Scenario& scenario,
                                 const AcceptanceOptions& options);

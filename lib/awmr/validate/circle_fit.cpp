@@ -29,7 +29,7 @@ std::optional<Circle> fit_circle(std::span<const Point> points) {
     syz += y * z;
   }
   const double determinant = sxx * syy - sxy * sxy;
-  // Points on a line: one eigenvalue of the scatter matrix is 0 except for rounding.
+  // If the points are on a line, one eigenvalue of the scatter matrix is 0 except for rounding.
   if (!(determinant > 1e-12 * (sxx + syy) * (sxx + syy))) return std::nullopt;
   const double cx = 0.5 * (syy * sxz - sxy * syz) / determinant;
   const double cy = 0.5 * (sxx * syz - sxy * sxz) / determinant;

@@ -11,7 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Steady yaw rate, rad/s, at the largest moment of a mode while tau_speed holds the speed:
+/// Largest steady yaw rate of a mode, rad/s. The yaw moment is the largest that the mode can make
+/// while tau_speed holds the speed:
 ///   r = (moment/a3)^(1/b3)
 double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits<double>& limits,
                               YawMode mode, double speed_mps) {
@@ -74,7 +75,7 @@ double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, Ya
 int reversals(std::span<const double> signal, double band) {
   if (signal.empty()) return 0;
   int count = 0;
-  int direction = 0;  // 1 rising, -1 falling; 0 until the signal has moved by more than the band
+  int direction = 0;  // 1: rising, -1: falling, 0: not yet moved by more than the band
   double low = signal[0];
   double high = signal[0];
   for (const double value : signal) {
@@ -117,7 +118,7 @@ std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
     if (gains) {
       std::vector<Claim> heading = check_heading_claims(settings[i]);
       move_to(claims[i], heading.begin(), heading.end() - 1);
-      move_to(claims[i], guided[i].begin(), guided[i].end());  // C8 to C12, before C13
+      move_to(claims[i], guided[i].begin(), guided[i].end());  // inserts C8 to C12 before C13
       move_to(claims[i], heading.end() - 1, heading.end());
     }
     claims[i].push_back(check_time_constants(gains));

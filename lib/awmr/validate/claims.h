@@ -1,8 +1,9 @@
 /// Checks of the paper's claims C1 to C14 by simulation of a model. Private to validate/.
 ///
-/// The paper's terms ("fast", "slight", "no overshoot") have no numbers. Each check therefore has a
-/// criterion for "reproduced", which is part of the output (Claim::tolerance). A claim that fails
-/// is reported as not reproduced, with the simulated numbers (Claim::figure).
+/// The paper does not give numbers for its terms ("fast", "slight", "no overshoot"). Each check
+/// therefore has its own numerical criterion for "reproduced", which is part of the output
+/// (Claim::tolerance). A claim that does not meet it is reported as not reproduced, with the
+/// simulated numbers (Claim::figure).
 #pragma once
 
 #include <algorithm>
@@ -22,8 +23,8 @@
 
 namespace awmr {
 
-inline constexpr double kFullThrust =
-    2.0;  ///< the paper's largest tau_speed             [paper 3.5]
+/// The paper's largest tau_speed.                                              [paper 3.5]
+inline constexpr double kFullThrust = 2.0;
 
 /// Run of a claim's scenario in one mode.
 struct ModeRun {
@@ -43,14 +44,14 @@ struct ClaimSetting {
   const Plant<double>& plant;  ///< plant of `model`
   const Gains<double>& gains;
   BatchArithmetic arithmetic;   ///< arithmetic of the runs
-  ControlOptions control = {};  ///< used in every scenario
+  ControlOptions control = {};  ///< control options of every scenario
 
-  /// Simulates the scenario in all three modes. Precondition: the model has every parameter, and an
-  /// interval for each parameter of the scenario's corner.
+  /// Simulates the scenario in all three modes. Precondition: the model has every parameter, and a
+  /// 95 % interval for each parameter that the scenario's `corner` moves to an end of it.
   ModeRuns run(const Scenario& scenario) const;
 };
-/// ClaimSetting::run() for each setting, in one batch. Precondition: the settings have the same
-/// control, arithmetic and sample time.
+/// ClaimSetting::run() for each setting, simulated together in one batch. Precondition: all
+/// settings have the same control, arithmetic and sample time.
 std::vector<ModeRuns> run_all(std::span<const ClaimSetting> settings, Scenario scenario);
 
 template <class Condition>
@@ -82,10 +83,10 @@ std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 /// Precondition: as run_all().                                           [paper 5, section 7]
 std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);
 
-/// Longest settling time that counts as fast in C3, s. It is the time for the step at the mode's
-/// largest steady yaw rate, plus 4 (T1 + 2 T2) with the paper's gains. The sliding variable S
+/// Longest settling time that counts as fast in C3, s: the time for the heading step at the largest
+/// steady yaw rate of the mode, plus 4 (T1 + 2 T2) with the paper's gains. The sliding variable S
 /// decays with the time constant 2 T2, then the heading error with T1. After four time constants
-/// e^-4 = 1.8 % is left, which is within the settling band of 2 %.
+/// e^-4 = 1.8 % remains, which is within the settling band of 2 %.
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
                           double step_rad, double speed_mps);
 /// Number of reversals of a signal. A reversal is a return by more than `band` from the signal's

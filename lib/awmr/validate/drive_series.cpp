@@ -15,12 +15,12 @@
 namespace awmr {
 namespace {
 
-/// Standard deviation sigma of white noise in the values x_k, from their second differences, which
-/// smooth motion hardly changes:
+/// Standard deviation sigma of white noise in the values x_k, estimated from second differences,
+/// because smooth motion hardly changes them:
 ///   Var(x_(k+1) - 2 x_k + x_(k-1)) = 6 sigma^2
 /// The variance is estimated by the median absolute deviation, which ignores outliers. The result
-/// is at least q/sqrt(12), with the quantisation step q = `quantum`; it is that for fewer than 10
-/// values.
+/// is at least q/sqrt(12), the error of rounding to the quantisation step q = `quantum`. With fewer
+/// than 10 values, it is q/sqrt(12).
 double white_noise(const std::vector<double>& values, double quantum) {
   const double least = quantum / std::sqrt(12.0);
   if (values.size() < 10) return least;
@@ -79,8 +79,8 @@ WindowMeans means(const DriveChannel& channel, double duration_s, const Value& v
   return windows;
 }
 
-/// Adds time and value of each row for which `counts(row)` is true to the channel, over duration_s
-/// from row `first`.
+/// Adds to the channel the time and value of the rows from `first` on, over duration_s, for which
+/// `counts(row)` is true.
 template <class Counts, class Value>
 void take_rows(const DrivingLog& log, std::size_t first, double duration_s, const Counts& counts,
                const Value& value, DriveChannel& channel) {

@@ -19,8 +19,9 @@ namespace awmr {
 struct DriveChannel {
   std::string name;
   std::string unit;
-  /// Returns the value of the channel in a row of a simulated run: the reading of the controller's
-  /// sensor; without such a sensor, the state; for a command, the command.
+  /// Returns the value of the channel in a row of a simulated run: for a command, the command; for
+  /// a measured quantity, the reading of the controller's sensor, or the state if there is no
+  /// sensor.
   std::function<double(const RunRow& row)> of_run;
   double noise = 0.0;           ///< standard deviation of the noise of a reading, in `unit`
   bool noise_from_log = false;  ///< true: `noise` was estimated from the log
@@ -31,7 +32,7 @@ struct DriveChannel {
 
 /// Means of a channel over windows of half a second, and the number of rows in each window.
 struct WindowMeans {
-  std::vector<double> mean;  ///< 0 for a window without rows
+  std::vector<double> mean;  ///< mean of each window; 0 for a window without rows
   std::vector<int> rows;
 };
 inline constexpr double kWindow_s = 0.5;
@@ -55,10 +56,10 @@ double noise_in(const DrivingLog& log, LogChannel which, std::size_t first);
 /// give is estimated from the log, if the log has the channel.
 LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle);
 
-/// Returns the measured channels of the log and its commands, over duration_s from row `first`. A
-/// sensor of the controller has the noise that the scenario gives. If that is 0, and for all other
-/// measured channels, noise is estimated from the log. Commands have none. Precondition: the
-/// scenario has `sensors`.
+/// Returns the measured channels of the log and its commands, over duration_s from row `first`. The
+/// noise of a channel that is a sensor of the controller is that of the scenario. If the scenario
+/// has 0, or for any other measured channel, it is estimated from the log. Commands have no noise.
+/// Precondition: the scenario has `sensors`.
 std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, double duration_s,
                                       const Scenario& scenario);
 
@@ -69,9 +70,8 @@ DriveStart start_of(const DrivingLog& log, std::size_t first,
 
 /// Means of the measured values, for the windows that end at duration_s or before.
 WindowMeans means_of(const DriveChannel& channel, double duration_s);
-/// Means of the values in a simulated run, at the times of the log's rows. Noise drawn from
-/// `random` is added if the rows of the run do not include noise (noise_in_run); nullptr: none is
-/// added.
+/// Window means of the values in a simulated run, at the times of the log's rows. If the run does
+/// not include noise (noise_in_run), noise drawn from `random` is added; none if it is null.
 WindowMeans means_of(const DriveChannel& channel, const Run& run, double sample_time_s,
                      double duration_s, Random* random);
 

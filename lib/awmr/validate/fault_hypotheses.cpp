@@ -24,8 +24,8 @@ struct PerturbedModel {
 struct Change {
   std::string what;
   std::string unit;
-  Interval range;  ///< searched range of the value; a factor is searched in its logarithm
-  double none;     ///< value without effect
+  Interval range;  ///< range of the search; factors are searched in the logarithm
+  double none;     ///< value that changes nothing: 0, or 1 for a factor
   std::function<void(PerturbedModel&, double value)> apply;
   bool is_factor() const { return unit == "times"; }
 };
@@ -39,7 +39,7 @@ constexpr std::size_t kMaxNamed = 4;
 void add_parameters(const Model& model, std::vector<Change>& changes) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const ParameterId id = parameter.id;
-    // Only the coefficient of a resistance is varied, because its exponent changes the same curve.
+    // Exponents are not varied: a changed exponent and a changed coefficient have similar effects.
     const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
     if (exponent || !model[id].value || *model[id].value <= 0.0) continue;
     changes.push_back({std::string(parameter.name), "times", kFactor, 1.0,
@@ -127,7 +127,7 @@ Scenario without_noise(Scenario scenario) {
 struct Search {
   const Model& model;
   const Controller<double>& controller;
-  Scenario scenario;  ///< without noise
+  Scenario scenario;  ///< the scenario of the drive without noise
   const AcceptanceOptions& options;
   double duration_s;
   const std::vector<EvidenceChannel>& evidence;

@@ -1,4 +1,4 @@
-/// Searches for single causes that explain a drive outside of the prediction: a change of the
+/// Searches for the cause of a drive that differs from the prediction: a single change of the
 /// vehicle, its sensors, or the forces on it. Private to validate/.
 #pragma once
 
@@ -23,11 +23,11 @@ struct EvidenceChannel {
   const PredictedBand* predicted;
 };
 
-/// Tries each fault hypothesis: a parameter (the exponents excepted), force or lag of the motors,
-/// bias or latency of a sensor, a constant external force or moment. For each, it searches the
-/// value that minimises the squared distance of the simulated run from the drive; the controller
-/// stays the same. Returns the hypotheses that remove at least 30 % of that distance, best first,
-/// at most four.
+/// Tries each fault hypothesis: a change of a parameter (except exponents), of the force or lag of
+/// the motors, of the bias or latency of a sensor, or a constant external force or moment. For
+/// each, searches the value with the smallest sum of squared distances between the simulated run
+/// and the drive; the controller stays the same. Returns the hypotheses that remove at least 30 %
+/// of this sum, best first, at most four.
 std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
                                               const Controller<double>& controller,
                                               const Scenario& scenario,

@@ -20,8 +20,8 @@ constexpr double kOnTheLineShare = 0.01;
 /// Criterion for "alike": the longest finishing time of a mode exceeds the shortest by at most this
 /// fraction.
 constexpr double kAlikeShare = 0.10;
-/// Criterion for "followed": largest distance from the path's point, a twentieth of the path's
-/// width of 20 m. Less is hardly visible in a printed figure.
+/// Criterion for "followed": largest distance from the moving point of the path. It is a twentieth
+/// of the path's width of 20 m; less is hardly visible in a printed figure.
 constexpr double kPathTolerance_m = 1.0;
 /// A value counts as equal to the best one if it is at most this fraction larger.
 constexpr double kAsGoodShare = 0.01;
@@ -56,7 +56,7 @@ Claim waypoints_reached(const ModeRuns& runs) {
   const auto steering = [](const ModeRun& run) -> std::optional<double> {
     return largest_steering_deg(run);
   };
-  constexpr double kStop_deg = 20.0;  // [paper 5.1]
+  constexpr double kStop_deg = 20.0;  // the paper's steering stop [paper 5.1]
   const auto within = [&](const ModeRun& run) { return *steering(run) <= kStop_deg + 1e-9; };
   const bool reached = all_modes(runs, completed);
   const bool all_within = all_modes(runs, within);
@@ -165,7 +165,7 @@ double least_radius_m(const Lissajous<double>& path, double duration_s) {
   return least;
 }
 
-/// off_path_m() by mode. The runs themselves are not kept, because they need much memory.
+/// off_path_m() by mode. Kept instead of the runs, which need much memory.
 using OffPath = std::map<YawMode, double>;
 OffPath off_path_by_mode(const ModeRuns& runs) {
   OffPath off;

@@ -15,8 +15,8 @@ namespace {
 
 const std::vector<double> kDriven_deg{30.0, 45.0};  ///< headings of the experiment     [paper 6]
 
-/// Criterion for "without overshoot": largest overshoot, which is not visible in a printed figure.
-/// The settling band (simulate/metrics.h) is at least as wide.
+/// Criterion for "without overshoot": largest overshoot. It is not visible in a printed figure, and
+/// not larger than the settling band (simulate/metrics.h).
 constexpr double kNoOvershoot_deg = 0.5;
 /// Criterion for "chattering": a command reverses by more than 1 % of its range more than once per
 /// second, on average over the run. A discontinuous law reverses up to every second sample: 50
@@ -24,7 +24,7 @@ constexpr double kNoOvershoot_deg = 0.5;
 constexpr double kReversalBand = 0.01;
 constexpr double kReversalsPerSecond = 1.0;
 constexpr double kDrivenTauSpeed = 1.4;     ///< 35 % of four motors' thrust       [paper 6]
-constexpr double kYawRateMax_degps = 20.0;  ///< [paper 6]
+constexpr double kYawRateMax_degps = 20.0;  ///< bound on the yaw rate in C13 [paper 6]
 
 std::optional<double> settling_s(const ModeRun& run) { return run.metrics.settling_time_s; }
 
@@ -85,8 +85,8 @@ bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double
          1e-9;
 }
 
-/// C6. The sideslip in differential mode depends on the yaw rate, and so on the gains. With other
-/// gains than the paper's, the result with the paper's gains is therefore added.
+/// C6. The sideslip in differential mode depends on the yaw rate, and therefore on the gains. If
+/// the gains are not the paper's, the result with the paper's gains is added.
 Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
     return run.metrics.sideslip_max_deg;
@@ -119,7 +119,7 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   return claim;
 }
 
-/// Number of reversals per second of the command that reverses most: F'L, F'R or d_r.
+/// Number of reversals per second of the command that reverses most often: F'L, F'R or d_r.
 double reversals_per_second(const Model& model, const ModeRun& run) {
   std::vector<double> left, right, steering;
   for (const RunRow& row : run.run.rows) {

@@ -23,8 +23,8 @@ inline constexpr double kLargestStep_deg = 60.0;               ///< the step fro
 /// Rounds a result to 1e-4, because smaller digits depend on rounding errors. -0 becomes 0.
 inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
-/// Text of a value in each mode: "differential 0.1, steering 0.2, combined 0.3 UNIT". `value`
-/// computes it from a run; "none" if it is absent.
+/// Text of a value in each mode: "differential 0.1, steering 0.2, combined 0.3 UNIT", with "none"
+/// for a mode without the value. `value` computes it from a run.
 template <class Value>
 std::string by_mode(const ModeRuns& runs, const std::string& unit, Value value) {
   std::string text;
@@ -62,8 +62,8 @@ struct HeadingSetting : ClaimSetting {
 
 /// C4: the speed converges to u_d. `runs`: headings of 30, then -30 deg.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs);
-/// C5: the speed drop by mode, from the same runs. The drops with other force limits are only
-/// reported, in Claim::figure.
+/// C5: the speed drop by mode, from the same runs as C4. The drops with other force limits do not
+/// affect the verdict; they are reported in Claim::figure.
 Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs);
 
 }  // namespace awmr

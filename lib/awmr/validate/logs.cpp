@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// The first row with a steering command or different left and right forces.
+/// The first row whose steering is not 0 or whose left and right forces differ.
 std::optional<std::size_t> first_turning_row(const DrivingLog& log) {
   for (std::size_t row = 0; row < log.rows(); ++row) {
     const bool straight =
@@ -24,8 +24,8 @@ std::optional<std::size_t> first_turning_row(const DrivingLog& log) {
   return std::nullopt;
 }
 
-/// The log with its commands and speed only, because a model of straight motion predicts no other
-/// channel. Errors (input): the log turns, or has no speed.
+/// The log with only its commands and its speed, the only channel that a model of straight motion
+/// predicts. Errors (input): the log turns, or has no speed.
 Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   if (const auto row = first_turning_row(log)) {
     Error error = model.plant().error();

@@ -13,13 +13,13 @@ namespace awmr {
 
 /// Prediction errors of one channel of a log.
 struct ChannelValidation {
-  std::string channel;  ///< "yaw_rate_radps"
+  std::string channel;  ///< name: "yaw_rate_radps"
   std::string unit;
   int samples = 0;
-  PredictionError one_step;      ///< errors of the prediction from each measured row to the next
-  PredictionError long_horizon;  ///< errors of the prediction over windows of
-                                 ///< LogValidation::horizon_s, each from a measured state
-  PredictedSeries series = {};   ///< long-horizon prediction, reduced to the points for a chart
+  PredictionError one_step;  ///< errors of the prediction from each measured row to the next
+  /// Errors of the prediction over windows of LogValidation::horizon_s, each from a measured state.
+  PredictionError long_horizon;
+  PredictedSeries series = {};  ///< long-horizon prediction, reduced to the points for a chart
 };
 
 /// Result of validate_log().
@@ -27,21 +27,22 @@ struct LogValidation {
   std::string file;
   double horizon_s = 0.0;  ///< maximum length of a window, s, at most the log's length
   std::vector<ChannelValidation> channels;
-  bool passed = false;  ///< true: the long-horizon NRMSE of every channel is within the tolerance,
-                        ///< and there is a channel
+  /// True: there is a channel, and the long-horizon NRMSE of every channel is within the tolerance.
+  bool passed = false;
 };
 
-/// Predicts the channels of the log from its commands. A channel that does not vary (vehicle at
-/// rest) has no NRMSE and is left out. `tolerance`: largest accepted NRMSE. `motor_lag_s`: time
-/// constant of the motors, s, >= 0.
+/// Predicts the channels of the log from its commands. A channel that does not vary (a vehicle at
+/// rest) has no NRMSE (RMS error divided by the standard deviation of the measurements) and is left
+/// out. `tolerance`: largest accepted NRMSE. `motor_lag_s`: time constant of the motors, s, >= 0.
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s = 0.0);
 
-/// The same for a model, which may lack parameters. If it covers straight motion only
-/// (Model::simulated_motion()), it predicts the speed of a log that drives straight. Errors
-/// (input): g1 or m' is missing; the model is too stiff for a replay, or the replay diverges; no
-/// channel can be predicted within the horizon; the model covers straight motion only, and the log
-/// turns (the message names the row and the missing parameters) or has no speed_mps.
+/// As validate_log() above, for a model that may lack parameters. If it has only the parameters of
+/// straight motion (Model::simulated_motion()), it predicts the speed of a log that drives
+/// straight. Errors (input): g1 or m' is missing; a time constant of the model is too short for a
+/// simulation, or the simulation diverges; no channel can be predicted within the horizon; the
+/// model has only the parameters of straight motion, and the log turns (the message names the row
+/// and the missing parameters) or has no speed_mps.
 Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
                                    double tolerance);
 

@@ -60,14 +60,14 @@ ClaimCase with_result(ClaimCase open, bool reproduced) {
   return open;
 }
 
-/// Settings of a case as numbers. Cases whose keys are equal after one setting was made equal
-/// (Setting::forget) differ in that setting only.
+/// Settings of a case as numbers. If two cases have the same key after Setting::forget() of one
+/// setting, they differ only in this setting.
 using Key = std::tuple<int, double, double, double, int>;
 /// A setting that the paper leaves open.
 struct Setting {
   std::string_view name;
-  std::function<void(ClaimCase&)> forget;  ///< sets it to one fixed value, so that cases that
-                                           ///< differ only in this setting become equal
+  /// Sets it to one fixed value, so that cases that differ only in this setting become equal.
+  std::function<void(ClaimCase&)> forget;
 };
 
 Key key_of(const ClaimCase& open) {
@@ -78,8 +78,9 @@ Key key_of(const ClaimCase& open) {
 /// Returns the number of combinations of the other settings in which the verdict depends on this
 /// setting, and the number of all combinations of the other settings.
 std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
-  std::map<Key, std::pair<bool, bool>> places;  // first: the claim is reproduced in one of the
-                                                // cases; second: it is not in another
+  // By combination of the other settings: whether the claim is reproduced in a case, and whether it
+  // is not reproduced in a case.
+  std::map<Key, std::pair<bool, bool>> places;
   for (const ClaimCase& open : cases) {
     ClaimCase others = open;
     setting.forget(others);

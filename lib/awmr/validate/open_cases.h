@@ -1,9 +1,10 @@
 /// Checks how the verdicts on the paper's claims depend on settings that the paper leaves open.
 /// Private to validate/.
 ///
-/// The paper prints neither the limits of F' nor how the combined mode divides the moment when a
-/// limit is reached. Its allocation is for small angles, and its m' requires more tyre force than
-/// friction permits. The cases are all combinations of
+/// The paper prints neither the limits of the wheel force F' nor how the combined mode divides the
+/// yaw moment when a limit is reached. Its allocation is an approximation for small steering
+/// angles, and with its m' the largest thrust needs more tyre force than friction permits. The
+/// cases are all combinations of
 ///
 ///     allocation   exact, paper (control/allocation.h)
 ///     F'           [-1, 1], [0, 1] (the paper's own normalisation), [0, 0.5]
@@ -20,18 +21,19 @@
 
 namespace awmr {
 
-/// Returns all combinations. The only mass factor is 1 if the model's m' is at least 2/(0.8 g).
+/// Returns all combinations. If the model's m' is at least 2/(0.8 g), they include only its m'.
 std::vector<ClaimCase> open_cases(const Model& model);
 
-/// Adds to each claim its verdict in all cases, and the settings that decide it. `claims` must be
-/// those of check_claims() with the same gains. The result does not depend on the number of cores.
+/// Adds to each claim its verdict in all cases, and the settings on which the verdict depends.
+/// `claims` must be the result of check_claims() with the same gains. The result does not depend on
+/// the number of cores.
 void add_open_cases(const Model& model, const std::optional<Gains<double>>& gains,
                     const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
                     const Progress& progress = {});
 
-/// Text of the settings that decide the verdict, the most decisive first. "wheel_force (8 of 12)":
-/// in 8 of the 12 combinations of the other settings, the verdict depends on wheel_force. Empty if
-/// the verdict is the same in all cases.
+/// Text of the settings on which the verdict depends, the most decisive first. "wheel_force (8 of
+/// 12)": in 8 of the 12 combinations of the other settings, the verdict depends on wheel_force.
+/// Empty if the verdict is the same in all cases.
 std::string decisive_settings(const std::vector<ClaimCase>& cases);
 
 }  // namespace awmr

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kCircleTurn_m = 0.4;  ///< the paper's constant tau_turn [paper 3.5.2]
 
-/// Largest relative difference between the final speed and the solution of g1(u) = tau_speed. The
-/// run is longer than the transient, and the error of the integrator is far smaller.
+/// Largest accepted relative difference between the final speed and the solution of g1(u) =
+/// tau_speed. The run is longer than the transient, and the error of the integrator is far smaller.
 constexpr double kSteadyTolerance = 1e-3;
-/// Largest relative difference from a measured speed. It is 5 %, because Table 2 itself has an
-/// error of 5 % (10 m/9.26 s is 1.080 m/s, printed 1.03).
+/// Largest accepted relative difference from a measured speed: 5 %, because the paper's Table 2
+/// itself has an error of 5 % (it prints 1.03 m/s for 10 m in 9.26 s, which is 1.080 m/s).
 constexpr double kMeasuredTolerance = 0.05;
 /// Criterion for "a circle": largest distance of the last full turn from the circle fitted to it,
 /// divided by the radius.
@@ -53,7 +53,7 @@ const TrialPoint* fastest_trial(const Model& model) {
 struct Turn {
   YawMode mode{};
   std::optional<Circle> circle;  ///< fitted to the last full turn; absent without two full turns
-  double speed_mps = 0.0;        ///< at the end of the run
+  double speed_mps = 0.0;        ///< speed at the end of the run
 };
 
 /// Points of the last full turn of the run. Empty if the run has fewer than two full turns, because
@@ -91,8 +91,8 @@ std::string figure_of(const Turn& turn) {
                      100.0 * turn.circle->deviation_m / turn.circle->radius_m, turn.speed_mps);
 }
 
-/// Text of the yaw moment that each mode delivers of the commanded tau_turn. The moments explain
-/// the different diameters.
+/// Text of the yaw moment that each mode delivers when tau_turn is commanded. Different moments
+/// explain different diameters of the circles.
 std::string delivered_moments(const Model& model, const Plant<double>& plant) {
   const AllocationLimits<double> limits = make_controller(plant, model.vehicle, kPaperGains).limits;
   std::string text;

@@ -5,7 +5,7 @@
 namespace awmr {
 namespace {
 
-constexpr double kPathSpeed_mps = 1.0;  ///< [paper 5.1]
+constexpr double kPathSpeed_mps = 1.0;  ///< commanded speed [paper 5.1]
 /// Acceptance radius, and Delta of line following. Both are chosen here, because the paper does not
 /// print them.
 constexpr double kAcceptance_m = 1.0;
@@ -21,9 +21,9 @@ State<double> pose(double x_m, double y_m, double psi_deg) {
 
 LineOfSight<double> lane(double width_m) { return {radians(kDelta_deg), width_m, true}; }
 
-/// Obstacle avoidance, chosen here because the paper's figure is lost. The minimum manoeuvring
-/// distance is the turning radius of the steering mode, 5 m at any speed, plus 1 m and the distance
-/// of 1 s at the present speed.
+/// Parameters of obstacle avoidance, chosen here because the paper's figure with them is missing.
+/// The minimum manoeuvring distance is the turning radius of the steering mode (5 m at any speed),
+/// plus 1 m, plus the distance driven in 1 s.
 Avoidance<double> avoidance() {
   return {.mmd_base_m = 6.0,
           .mmd_per_speed_s = 1.0,
@@ -39,7 +39,7 @@ Avoidance<double> avoidance() {
 
 Scenario waypoint_scenario() {
   WaypointPath path;
-  path.points_m = {{90, 20}, {80, 40}, {70, 20}, {80, 0}};  // E, F, G, H
+  path.points_m = {{90, 20}, {80, 40}, {70, 20}, {80, 0}};  // the paper's points E, F, G, H
   path.acceptance_m = kAcceptance_m;
   return {.name = "C8 waypoints by line of sight",
           .duration_s = 180.0,

@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Criterion for "without overshoot", "without steady error" and "constant": largest difference
-/// from u_d, as a fraction of u_d. It is not visible in a printed figure.
+/// Criterion for "without overshoot", "without steady error" and "constant": largest difference of
+/// the speed from u_d, as a fraction of u_d. It is not visible in a printed figure.
 constexpr double kNoSpeedError = 0.01;
 /// Criterion for a "slight" drop: largest drop, as a fraction of u_d.
 constexpr double kSlightDrop = 0.20;
@@ -29,9 +29,9 @@ Interval speed_range(const ModeRun& run, double from_s, double to_s) {
 
 }  // namespace
 
-/// Evaluates the overshoot from rest to the second heading, and the error at the end of the run.
-/// The drop of the speed at the heading step is evaluated in C5. The excess over u_d after the step
-/// is reported here, but does not count.
+/// Evaluates the overshoot of the speed from the start to the second heading step, and the speed
+/// error at the end of the run. The excess over u_d after the heading step is reported, but does
+/// not affect the verdict. (C5 evaluates the drop of the speed at the step.)
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
   const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };

@@ -13,7 +13,7 @@
 namespace awmr::tyre_fit {
 namespace {
 
-/// Minimum number of windows with each kind of turn (by wheel forces, by steering).
+/// Minimum number of windows with differential turns, and of windows with steered turns.
 constexpr std::size_t kMinTurns = 3;
 
 Estimate estimate_of(double log_value, double log_error, std::size_t windows) {
@@ -30,7 +30,8 @@ Finding finding(const DrivingLog& log, Severity severity, const char* code, std:
   return {log.file, 0, severity, code, std::move(message)};
 }
 
-/// Finding if there are too few windows, or too few with a kind of turn; empty if there are enough.
+/// Finding `tyres-need-turns` if there are too few windows, or too few with one kind of turn; empty
+/// if there are enough.
 std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
                                      const DrivingLog& log, const Vehicle& vehicle,
                                      const Plant<double>& plant) {
@@ -62,12 +63,12 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
 struct HeldOutSums {
   ErrorSums model;
   ErrorSums four_wheel;
-  std::vector<std::pair<ErrorSums, ErrorSums>> by_window;  ///< for each window: sums of the 3-DOF
-                                                           ///< model, sums of the four wheels
+  /// For each window: sums of the 3-DOF model, then sums of the four wheels.
+  std::vector<std::pair<ErrorSums, ErrorSums>> by_window;
 };
 
-/// Cross-validation: fits the tyres to one half of the windows (every other one) and predicts the
-/// other half, both ways. Empty if a fit does not converge or a window cannot be replayed.
+/// Cross-validation: fits the tyres to every other window and predicts the remaining windows, then
+/// exchanges the two halves. Empty if a fit does not converge or a window cannot be replayed.
 std::optional<HeldOutSums> held_out(const Windows& windows, const Plants& plants,
                                     const ShownFit& shown) {
   HeldOutSums sums;
@@ -158,11 +159,11 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
   return std::nullopt;
 }
 
-/// True if a log has longer time steps than the controller, so that it lacks the commands between
-/// its rows.
+/// True if a log has longer time steps than the controller, so that the commands between its rows
+/// are unknown.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
-  constexpr double kLonger = 1.2;  // ratio of time step to sample time above which rows are
-                                   // missing; jitter alone stays below it
+  // Ratio of time step to sample time above which rows are missing; jitter alone stays below it.
+  constexpr double kLonger = 1.2;
   return std::ranges::any_of(
       logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
 }
@@ -180,9 +181,10 @@ std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) 
   return logs;
 }
 
-/// Increases the standard errors by the error due to commands between the rows (tyre_fit.h). That
-/// error is half the change of the fit if every other logged command is dropped, so that a 95 %
-/// interval includes the change. Returns false if the fit without these commands does not converge.
+/// Increases the standard errors by the error due to unknown commands between the rows
+/// (tyre_fit.h): half the change of the fit when every other logged command is dropped, so that a
+/// 95 % interval includes this change. Returns false if the fit without these commands does not
+/// converge.
 bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant<double>& plant,
                                 double motor_lag_s, const Plants& plants, ShownFit& shown) {
   const std::vector<DrivingLog> halved = with_half_of_the_commands(logs);

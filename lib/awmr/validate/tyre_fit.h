@@ -3,31 +3,33 @@
 ///
 /// The tyre parameters are the friction mu and the cornering stiffness c_a; all other parameters
 /// stay as identified. The logs are divided into windows of 5 s, of which at most 60 are used,
-/// evenly chosen. Each window is replayed from its first measured state. Errors in the first second
-/// of a window do not count. From the errors of heading and position, their mean over the window is
-/// subtracted. With the errors e of a channel c and their number n_c,
+/// evenly chosen. Each window is simulated from its first measured state. Errors in the first
+/// second of a window do not count, because the unmeasured part of that state decays. The mean over
+/// the window is subtracted from the errors of heading and position. With the n_c errors e of
+/// channel c,
 ///
 ///     minimise over log mu, log c_a:    sum over c of n_c log(sum e^2 / n_c)
 ///
-/// by weighted least squares. The weights 1/(sum e^2 / n_c) are updated after each fit. Errors
-/// within a window are correlated, errors of different windows are not. The standard errors are
-/// therefore those of the jackknife over the W windows. J_w is the Jacobian of the weighted errors
+/// by weighted least squares. The weights 1/(sum e^2 / n_c) are updated after each fit. Because the
+/// errors within a window are correlated and those of different windows are not, standard errors
+/// are computed by the jackknife over the W windows. J_w is the Jacobian of the weighted errors
 /// e_w of window w, and H = sum J_w' J_w. The covariance of x = (log mu, log c_a) is
 ///
 ///     C = (W - 1)/W sum d_w d_w',    d_w = (H - J_w' J_w)^-1 J_w' e_w
 ///
-/// A log with fewer rows than the controller has samples lacks commands. If commands change fast,
-/// this changes the fitted friction by several per cent. For such logs the fit is repeated with
-/// every other command only, held over two rows. With the result x2 of that fit, the standard error
-/// of each parameter becomes sqrt(C_ii + ((x2 - x)_i/2)^2).
+/// A log with longer time steps than the controller lacks commands. If commands change fast, this
+/// changes the fitted friction by several per cent. For such logs the fit is repeated with only
+/// every other command, held over two rows. With the result x2 of that fit, the standard error of
+/// each parameter becomes sqrt(C_ii + ((x2 - x)_i/2)^2).
 ///
 /// The better plant is found by cross-validation: the tyres are fitted to every other window and
 /// predict the remaining windows, then the two halves are exchanged. For each held-out window w
 ///
 ///     D_w = sum over c of log(sum e^2 of the 3-DOF model / sum e^2 of the four wheels).
 ///
-/// The mean of D_w has a 95 % interval by Student's t over the windows; if it contains 0, neither
-/// plant is better. The comparison favours the 3-DOF model if that was fitted to the same logs.
+/// The mean of D_w has a 95 % interval by Student's t over the windows; if the interval contains 0,
+/// neither plant is better. The comparison favours the 3-DOF model if this was fitted to the same
+/// logs.
 #pragma once
 
 #include <filesystem>
@@ -45,19 +47,20 @@ namespace awmr {
 
 /// Prediction errors of both plants for one channel of windows that the tyres were not fitted to.
 struct HeldOutError {
-  std::string channel;          ///< "yaw_rate_radps"
+  std::string channel;          ///< name: "yaw_rate_radps"
   double model_rms = 0.0;       ///< RMS error of the 3-DOF plant in SI units, >= 0
   double four_wheel_rms = 0.0;  ///< RMS error of the four-wheel plant in SI units, >= 0
 };
 
 /// Result of fit_tyres().
 struct TyreFit {
-  Tyres<double> tyres;               ///< a parameter that the logs do not determine has its default
-  std::optional<Estimate> friction;  ///< mu; absent if the logs do not determine it
+  /// Tyres; parameters that the logs do not determine have defaults.
+  Tyres<double> tyres;
+  std::optional<Estimate> friction;  ///< friction mu; absent if the logs do not determine it
   /// c_a, 1/rad; absent if the logs do not determine it.
   std::optional<Estimate> cornering_per_rad;
   int windows = 0;                          ///< windows of 5 s in the fit, kMinTyreWindows ... 60
-  std::vector<HeldOutError> held_out = {};  ///< by channel
+  std::vector<HeldOutError> held_out = {};  ///< cross-validated errors by channel
   /// The plant with the smaller errors on held-out windows; absent if the interval of D_w contains
   /// 0.
   std::optional<PlantKind> better = {};
@@ -65,18 +68,18 @@ struct TyreFit {
 
 /// Minimum number of windows for a fit.
 inline constexpr std::size_t kMinTyreWindows = 12;
-/// Written in place of the name of the better plant if neither is better.
+/// Text in validation.json instead of the better plant if neither is better.
 inline constexpr std::string_view kUndecidedPlant = "undecided";
 
-/// Fits the tyres to the logs. The logs determine a parameter if it is inside its range and the
-/// standard error of its logarithm is at most 0.5. If they determine only one, the other keeps its
-/// default (warning `tyres-not-shown`). Returns nothing if the fit fails; an error among the
-/// findings has the reason: `tyres-need-turns` (too few windows, or too few with a kind of turn),
-/// `tyres-not-shown` (neither parameter is determined), `tyres-not-converged`. Other findings:
-/// `plants-compared` (note), `inertia-of-logs` (warning: I'z was fitted to logs on the 3-DOF plant
-/// and can include moments of the tyres). Errors (input): the model lacks a parameter or is too
-/// stiff for a replay; the vehicle does not drive all four wheels. Precondition: there is at least
-/// one log.
+/// Fits the tyres to the logs. A parameter is determined by the logs if it is inside its range and
+/// the standard error of its logarithm is at most 0.5. If only one is determined, the other keeps
+/// its default (warning `tyres-not-shown`). Returns nothing if the fit fails; a finding with the
+/// severity error has the reason: `tyres-need-turns` (too few windows, or too few with one kind of
+/// turn), `tyres-not-shown` (neither parameter is determined), `tyres-not-converged`. Other
+/// findings: `plants-compared` (note), `inertia-of-logs` (warning: I'z was fitted to logs with the
+/// 3-DOF model and can include moments of the tyres). Errors (input): the model lacks a parameter,
+/// or has a time constant too short for a simulation; the vehicle does not drive all four wheels.
+/// Precondition: there is at least one log.
 Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, const Model& model,
                                          std::vector<Finding>& findings);
 

@@ -15,7 +15,8 @@
 namespace awmr::tyre_fit {
 namespace {
 
-/// The windows do not determine a parameter if the standard error of its logarithm is larger.
+/// A parameter is not determined by the windows if the standard error of its logarithm exceeds
+/// this.
 constexpr double kLargestLogError = 0.5;
 
 Interval range_of(Eigen::Index parameter) {
@@ -30,8 +31,9 @@ Eigen::VectorXd weighted(const ReplayedWindow& window, const Weights& weights,
   return errors;
 }
 
-/// Step of the forward differences, in the logarithm of a parameter. A smaller step would show the
-/// jumps of the errors that occur where the replay halves or doubles its integration step.
+/// Step of the forward differences, in the logarithm of a parameter. With smaller steps,
+/// derivatives would be wrong where the errors jump because the simulation changes its integration
+/// step.
 constexpr double kStepOfDerivative = 1e-3;
 
 class TyreCost : public ceres::CostFunction {
@@ -80,9 +82,9 @@ ceres::Problem problem_of(const Windows& windows, const Plants& plants, const We
   return problem;
 }
 
-/// Returns the three best points of a coarse grid, best first; every third window is evaluated.
-/// Several starts are needed because the cost can have several minima: a sliding vehicle can spin
-/// to either side.
+/// Returns the three best points of a coarse grid as starts of the search, best first; only every
+/// third window is evaluated. Several starts are needed because the cost can have several minima: a
+/// sliding vehicle can spin to either side.
 std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   constexpr std::array kFrictions{0.25, 0.5, 0.75, 1.1};
   constexpr std::array kStiffnesses{3.0, 6.0, 12.0, 24.0};
@@ -104,8 +106,8 @@ std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   return starts;
 }
 
-/// Information J'J and score J'e of a window at the fit, with the Jacobian J of its weighted errors
-/// e. The entries of held parameters are 0.
+/// J'J and J'e of a window at the fit, with the Jacobian J of its weighted errors e. The entries of
+/// parameters that are not fitted are 0.
 struct WindowInformation {
   Eigen::Matrix2d information;
   Eigen::Vector2d score;
@@ -127,8 +129,8 @@ std::optional<WindowInformation> information_of(const ReplayedWindow& window, co
 }
 
 /// Standard errors of the logarithms, by the jackknife over windows. Empty for parameters that are
-/// held; empty for both if only one window determines a parameter, or if a window cannot be
-/// replayed.
+/// not fitted; empty for both if a parameter depends on a single window, or if a window cannot be
+/// simulated.
 std::array<std::optional<double>, 2> log_errors(const Windows& windows, const Plants& plants,
                                                 const IsFree& is_free, const Fit& fit) {
   std::vector<WindowInformation> each;
@@ -181,8 +183,8 @@ std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   return worst;
 }
 
-/// The best of the fits from these starts. Empty if the windows cannot be replayed from any of
-/// them.
+/// The fit with the smallest cost of those from all starts. Empty if the windows cannot be
+/// simulated from any start.
 std::optional<Fit> best_fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                             const std::vector<LogTyres>& starts) {
   std::optional<Fit> best;
@@ -202,7 +204,7 @@ LogTyres default_tyres() {
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from) {
   constexpr int kMaxRounds = 8;
-  constexpr double kSameCost = 1e-5;  // converged: largest change of the cost divided by the errors
+  constexpr double kSameCost = 1e-5;  // converged below this change of the cost per error
   const auto first = sums_on_tyres(windows, plants, from);
   if (!first) return std::nullopt;
   Fit best{.at = from, .weights = first->weights(), .cost = first->cost()};

@@ -28,18 +28,19 @@ struct Fit {
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from);
 
-/// Fit of the parameters that the windows determine; the others are held at their defaults.
+/// Fit of the parameters that the windows determine; the others keep their defaults.
 struct ShownFit {
   Fit fit;
-  IsFree is_free{true, true};                   ///< true: the windows determine the parameter
-  std::array<std::optional<double>, 2> errors;  ///< standard errors of the logarithms
+  IsFree is_free{true, true};  ///< by parameter: true if the windows determine it
+  /// Standard errors of the logarithms of the parameters.
+  std::array<std::optional<double>, 2> errors;
 };
 
 LogTyres default_tyres();
 
-/// Fits both parameters from several starts. Then holds a parameter that the windows do not
-/// determine at its default and fits again. If a fit does not converge, it is returned at once
-/// (Fit::converged is false). Empty if the windows cannot be replayed from any start.
+/// Fits both parameters from several starts. If the windows do not determine one of them, sets it
+/// to its default and fits the other again. A fit that does not converge is returned at once
+/// (Fit::converged is false). Empty if the windows cannot be simulated from any start.
 std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& plants);
 
 }  // namespace awmr::tyre_fit

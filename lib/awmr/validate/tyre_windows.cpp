@@ -52,8 +52,8 @@ struct ErrorsByRow {
   Eigen::Index count = 0;
 };
 
-/// Subtracts from the errors of heading and position their mean, because their initial values in
-/// the window are not exactly known.
+/// Subtracts the mean over the window from the errors of heading and position, because the initial
+/// heading and position are known only with the error of one measurement.
 Eigen::VectorXd about_their_mean(const ReplayedWindow& window, Eigen::VectorXd errors) {
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     double sum = 0.0;

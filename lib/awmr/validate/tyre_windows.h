@@ -55,13 +55,13 @@ using Windows = std::vector<const ReplayedWindow*>;
 std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
                                        const std::vector<ReplayedLog>& replayed);
 
-/// All windows or, if there are more than 60, 60 evenly chosen ones, because more make the fit slow
-/// and hardly better.
+/// All windows or, if there are more than 60, 60 evenly chosen ones. More would make the fit
+/// slower, but hardly better.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
 /// Cause of the turns in a window: the difference of left and right wheel forces, or the steering.
-/// At most one is true: its commands are not near 0, and the sum of squares of its yaw moments is
-/// at least 3 times that of the other cause.
+/// At most one is true. Its commands are not near 0, and the sum of squares of its yaw moments over
+/// the window is at least 3 times that of the other cause.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;
@@ -77,8 +77,8 @@ struct Plants {
         four_wheel_step_s(replay_step_s(on_tyres(plant))),
         body(resolved_at_rest_on_tyres(on_tyres(plant), four_wheel_step_s)) {}
 
-  /// Returns the plant with negligible g2 and g3. The tyres replace them, and g3 would require
-  /// short steps.
+  /// Returns the plant with negligible sway resistance g2 and yaw resistance g3, because the tyres
+  /// replace them and g3 would require short integration steps.
   static Plant<double> on_tyres(Plant<double> plant) {
     plant.sway_alpha = 0.0;
     plant.yaw = {.alpha = 1e-9, .beta = 1.0};
@@ -90,11 +90,11 @@ struct Plants {
   Plant<double> body;        ///< vehicle of the four-wheel plant, without its tyres
 };
 
-/// Errors (predicted minus measured) of the 3-DOF model in a window; not finite if the replay
+/// Errors (predicted minus measured) of the 3-DOF model in a window; not finite if the simulation
 /// diverges.
 Eigen::VectorXd errors_of_model(const ReplayedWindow& window, const Plants& plants);
 /// Errors of the four-wheel plant with these tyres in a window. Empty if no integration step is
-/// short enough, or if the replay diverges.
+/// short enough, or if the simulation diverges.
 std::optional<Eigen::VectorXd> errors_on_tyres(const ReplayedWindow& window, const Plants& plants,
                                                const LogTyres& tyres);
 
@@ -133,7 +133,8 @@ struct ErrorSums {
   }
 };
 
-/// Sums over all windows for the four-wheel plant with these tyres. Empty as errors_on_tyres().
+/// Sums over all windows for the four-wheel plant with these tyres. Empty if errors_on_tyres() is
+/// empty for a window.
 std::optional<ErrorSums> sums_on_tyres(const Windows& windows, const Plants& plants,
                                        const LogTyres& tyres);
 

@@ -50,8 +50,8 @@ TrialResidual residual_of(const Plant<double>& plant, const TrialPoint& trial) {
   return residual;
 }
 
-/// RMS of the relative errors of a kind of trial. Absent if there is no trial of the kind, or one
-/// of them has no prediction.
+/// RMS of the relative errors of the trials of one kind. Absent if there is no such trial, or if
+/// one of them has no prediction.
 std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trials, TrialKind kind) {
   double sum = 0.0;
   int count = 0;
@@ -102,9 +102,10 @@ void set_verdict(Validation& validation, double tolerance) {
   }
 }
 
-/// Checks the claims that are possible with vehicle and model. C1 needs a model of straight motion,
-/// C14 nothing. All others compare the three modes and need every parameter, four driven wheels and
-/// steering. Errors (input): with gains, the model lacks a parameter; as batch_arithmetic().
+/// Checks the claims that can be checked with this vehicle and model. C1 needs the parameters of
+/// straight motion, C14 needs none. All others compare the three modes and need every parameter,
+/// four driven wheels and steering. Errors (input): with gains, the model lacks a parameter; as
+/// batch_arithmetic().
 Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
                   const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();

@@ -48,14 +48,14 @@ struct ClaimInMode {
 
 /// A claim of the paper, with the verdict from simulation.
 struct Claim {
-  std::string id;         ///< "C1"
+  std::string id;         ///< number of the claim: "C1"
   std::string statement;  ///< statement of the paper
   bool reproduced = false;
-  std::string figure;                   ///< simulated numbers
-  std::string tolerance;                ///< criterion for "reproduced"
-  std::string why;                      ///< reason for the verdict
-  std::vector<ClaimInMode> modes = {};  ///< verdict for each mode; empty if the claim has no
-                                        ///< verdict for a single mode
+  std::string figure;     ///< simulated numbers, as text
+  std::string tolerance;  ///< criterion for "reproduced"
+  std::string why;        ///< reason for the verdict, as text
+  /// Verdict for each mode; empty if the claim has no verdict for a single mode.
+  std::vector<ClaimInMode> modes = {};
   /// Verdict by combination of open settings, if requested (ValidateOptions::open_cases).
   std::vector<ClaimCase> cases = {};
   std::string decided_by = {};  ///< settings that decide the verdict (decisive_settings())
@@ -76,15 +76,15 @@ struct Validation {
   /// True if every kind of trial and every log is predicted within its tolerance, and every drive
   /// of a scenario agrees with the prediction. False if there are neither trials, logs nor drives.
   bool passed = false;
-  std::string verdict;  ///< one sentence
+  std::string verdict;  ///< `passed` and its reasons in one sentence
 };
 
 struct ValidateOptions {
   double tolerance = 0.15;  ///< largest accepted RMS relative error of a trial kind, > 0
-  /// Also evaluates every claim over the settings that the paper leaves open (open_cases.h), which
-  /// takes some seconds.
+  /// True: also evaluates every claim over the settings that the paper leaves open (open_cases.h),
+  /// which takes some seconds.
   bool open_cases = false;
-  Progress progress = {};  ///< counts these cases; called on the thread of validate()
+  Progress progress = {};  ///< called for each finished case, on the thread of validate()
 };
 
 /// Measurement of a trial as predicted by the model:
@@ -97,12 +97,12 @@ struct ValidateOptions {
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
 
 /// Predicts the model's trials and checks the paper's claims. Claims do not affect `passed`,
-/// because a claim that is not reproduced is a result about the paper. Without gains, only C1, C2
-/// and C14 are checked. The verdict names the claims that are left out because the model lacks
-/// parameters, or because the vehicle does not have four driven wheels and steering. Errors
-/// (input): the model lacks a parameter that its trials measure or, with gains, any parameter;
-/// input or measurement of a trial is not above 0; the tolerance is not above 0; as
-/// batch_arithmetic().
+/// because a claim that is not reproduced is a result about the paper, not about the model. Without
+/// gains, only C1, C2 and C14 are checked. The verdict names the claims that are left out because
+/// the model lacks parameters, or because the vehicle does not have four driven wheels and
+/// steering. Errors (input): the model lacks a parameter that its trials measure or, with gains,
+/// any parameter; the input or the measurement of a trial is not above 0; the tolerance is not
+/// above 0; as batch_arithmetic().
 Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 
@@ -122,9 +122,9 @@ std::string logs_table(const Validation& validation);
 /// and claims.
 std::string validation_table(const Validation& validation);
 
-/// Every claim with verdict, simulated numbers, criterion and reason, for a terminal.
+/// Text for a terminal: every claim with verdict, simulated numbers, criterion and reason.
 std::string claims_table(const std::vector<Claim>& claims);
-/// The same as a Markdown table for the documentation. `made_by`: the command that made it.
+/// The claims as a Markdown table for the documentation. `made_by`: the command that made it.
 std::string claims_markdown(const std::vector<Claim>& claims, std::string_view made_by);
 
 /// The JSON Schema of validation.json.

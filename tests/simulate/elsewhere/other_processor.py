@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs the kernels of batches on emulated processors and compares every bit of the metrics with this
-machine's (lane_bits.cpp).
+"""Runs the vectorised kernels of batch simulations on an emulated processor and checks that every bit of the metrics
+equals that of this machine (lane_bits.cpp).
 usage: other_processor.py neon|avx512
   neon    a 64-bit ARM emulated by qemu-user, compared with the AVX2 kernel
   avx512  a Skylake-X emulated by Bochs with a Linux kernel of Debian, compared with the AVX2 kernel; also tests every operation of
           lanes (lane_operations_test.cpp)
-Ends with 77 if the emulator or a processor with AVX2 is missing (scripts/setup all)."""
+The exit code is 77 if the emulator (scripts/setup all installs it) or AVX2 on this machine is missing."""
 import gzip
 import os
 import pathlib
@@ -21,8 +21,8 @@ SKIPPED = 77
 LONGEST_S = 900
 OPTIONS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-DFMT_HEADER_ONLY", f"-I{ROOT / 'lib'}",
            "-isystem", "/usr/include/eigen3"]
-# Flags as in lib/awmr/simulate/CMakeLists.txt; the order of instructions does not affect the
-# numbers.
+# Instruction-set flags as in lib/awmr/simulate/CMakeLists.txt. Other optimisation flags may differ, because the order of
+# instructions does not affect the results.
 KERNELS = {"avx2": ["-mavx2", "-mfma"], "avx512": ["-mavx512f", "-mfma"], "neon": []}
 KERNEL_OPTIONS = ["-fno-tree-slp-vectorize"]
 # Sources that batches need, without file readers and their libraries.
@@ -46,8 +46,8 @@ panic: action=fatal
 plugin_ctrl: speaker=0, sb16=0, es1370=0
 sound: waveoutdrv=dummy, waveindrv=dummy, midioutdrv=dummy
 """
-# The emulated processor reports the size of one register layout but has another: the kernel uses
-# the plain one.
+# Without xsavec and xsaves Linux saves registers in the standard layout: the emulated processor reports a wrong size for the
+# compacted layout.
 BOOT = """\
 DEFAULT linux
 LABEL linux
@@ -76,7 +76,7 @@ def output_of(words, **more):
 
 
 def built(folder, compiler, kernels):
-    """lane_bits for the compiler's processor, with these kernels."""
+    """Builds lane_bits with these kernels for the processor of the compiler; returns the path of the program."""
     folder.mkdir()
     jobs = [(LIB / f"{part}.cpp", []) for part in PARTS] + [(HERE / "lane_bits.cpp", [])]
     jobs += [(LIB / "simulate/lanes/kernels.cpp", [f"-DAWMR_HAS_{kernel.upper()}" for kernel in kernels])]
@@ -132,7 +132,7 @@ def on_skylake(folder, bits):
                        stdout=told, stderr=told, timeout=LONGEST_S, check=False)
     serial = (folder / "serial.txt").read_text(errors="replace").replace("\r", "")
     if "END 0" not in serial:
-        sys.exit(f"the emulated processor did not come to its end:\n{serial[-2000:]}")
+        sys.exit(f"the programs on the emulated processor did not end with exit code 0:\n{serial[-2000:]}")
     print(serial.split("BEGIN\n")[1].split("\nheading")[0])
     return "heading" + serial.split("\nheading", 1)[1].split("END 0")[0]
 
@@ -142,7 +142,7 @@ def main():
     needed = {"neon": ["aarch64-linux-gnu-g++", "qemu-aarch64"], "avx512": ["bochs", "busybox", "xorriso", "apt-get"]}[asked]
     lacking = [program for program in needed if not shutil.which(program)]
     if lacking or "avx2" not in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8"):
-        print("skipped: there is no", ", ".join(lacking) or "AVX2")
+        print("skipped: this machine does not have", ", ".join(lacking) or "AVX2")
         return SKIPPED
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -150,7 +150,7 @@ def main():
         here = output_of([bits, "avx2"]).splitlines()
         there = (on_arm if asked == "neon" else on_skylake)(folder, bits).splitlines()
     different = [pair for pair in zip(here, there) if pair[0] != pair[1]]
-    print(f"{asked}: {len(there)} lines of {len(here)}, {len(different)} with other bits than AVX2's")
+    print(f"{asked}: {len(there)} of {len(here)} lines, {len(different)} of them different from this machine's AVX2 kernel")
     for one, other in different[:3]:
         print(f"  here:  {one}\n  there: {other}")
     return 0 if len(here) == len(there) and here and not different else 1

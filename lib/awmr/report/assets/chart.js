@@ -1,10 +1,10 @@
-// Charts: converts a short description to a specification for Vega, which draws SVG. Colours
-// are the page's variables, so that a chart follows light, dark and print style automatically.
+// Charts: converts a short description of a chart to a specification for Vega, which draws SVG. Colours
+// are CSS variables of the page, so that charts follow its light, dark and print styles.
 
 const allCharts = [];
 
-/// Margins around every plot, pixels. They are the same for all charts, so that the axes of charts
-/// below each other align.
+/// Margins around every plot, pixels. All charts have the same margins, so that the axes of charts one
+/// below the other are aligned.
 const margin = {left: 62, right: 14, top: 8, bottom: 40};
 
 const font = "system-ui, sans-serif";
@@ -54,7 +54,7 @@ const valuesOf = (s) => (s.kind === "shade" ? [[s.limit, 1e12], [-1e12, -s.limit
 
 /// Entry of the signal `hidden` that hides all circles of a chart.
 const circlesKey = "circles";
-/// Value of the signal `hidden`: indices of the hidden series, and circlesKey if the circles are hidden.
+/// Value of the Vega signal `hidden`: indices of the hidden series, and circlesKey if the circles are hidden.
 const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])),
   ...(chart.circlesHidden ? [circlesKey] : [])];
 
@@ -79,7 +79,7 @@ const pointedRule = {type: "rule", interactive: false, aria: false, encode: {upd
 /// Vega specification of a chart: {title, x, y, series: [{name, kind: "line" | "points" | "band" | "shade",
 /// points: [[x, y, ...]], colour, ...}], equal, circles}. x, y: titles of the axes; equal: same scale on both.
 function specification(chart) {
-  // With equal axes, x and y have the same scale, and the axis with space left gets a longer range.
+  // With equal axes, x and y have the same scale, so the axis with more pixels gets a longer range.
   const domain = (axis, length) => (chart.equal
     ? `[mid_${axis} - unit * ${length} / 2, mid_${axis} + unit * ${length} / 2]` : `view_${axis}`);
   const signals = [
@@ -170,9 +170,9 @@ function framed(parent, chart) {
   return chart;
 }
 
-/// Adds a chart to `parent`. It is drawn when it is near the visible area, or before printing.
-/// Charts of one `group` share the x range, the cursor and the hidden series. `legend` false: the chart gets no
-/// legend, because the group has one.
+/// Adds a chart to `parent`. It is drawn when it comes near the visible area, or before printing. Charts of the
+/// same `group` share the x range, the cursor and the hidden series. With `legend` false, the chart has no legend of
+/// its own, because the group has one.
 function plot(parent, options) {
   const series = options.series.filter((s) => s.kind === "shade" || s.points.length);
   if (!series.some((s) => s.kind !== "shade")) return undefined;

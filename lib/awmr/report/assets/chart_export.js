@@ -40,8 +40,8 @@ function exportedLegend(spec, shown) {
   };
 }
 
-/// Value of a colour variable on paper: from the first rule of the style sheet (the rule for dark screens
-/// comes later), or from an element around the chart.
+/// Value of a colour variable in the light style, for paper: from the first rule of the style sheet (the rule
+/// for dark screens comes later), or from an element that contains the chart.
 function lightColour(chart, name) {
   const own = document.styleSheets[0].cssRules[0].style.getPropertyValue(name).trim();
   if (own) return own;

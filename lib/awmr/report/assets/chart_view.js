@@ -4,7 +4,7 @@ const onScreen = new IntersectionObserver((entries) => {
   for (const entry of entries) if (entry.isIntersecting) draw(entry.target.chart);
 }, {rootMargin: "300px"});
 const resized = new ResizeObserver((entries) => {
-  // Not inside the callback of the observer, because a changed height would trigger it again.
+  // Deferred to the next frame: changing a height in the observer's callback would trigger it again.
   requestAnimationFrame(() => entries.forEach(({target}) => fit(target.chart, target.clientWidth)));
 });
 

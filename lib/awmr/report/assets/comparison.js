@@ -1,8 +1,8 @@
 // Section that compares the yaw-control modes: distribution of each metric over the samples, differences,
 // ranking.
 
-/// Charts of the distribution of each metric by mode. Metrics that no run has are left out, except the
-/// settling time in scenarios with heading steps, where it means that no run settled.
+/// Charts of the distribution of each metric by mode. Metrics that no run has are left out. Exception: a
+/// missing settling time in scenarios with heading steps is shown, because it means that no run settled.
 function spreadCharts(parent, scenario, samples, count) {
   const byMode = Object.entries(scenario.modes);
   const names = distinct(byMode.flatMap(([, m]) => Object.keys(m.metrics)));

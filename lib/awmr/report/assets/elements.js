@@ -23,8 +23,8 @@ function drawIn(parent, tag, attributes, text) {
 }
 
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
-/// Text of a number with n significant digits, or more if it has more before the point. A dash for a missing
-/// value.
+/// Text of a number with n significant digits, or with all digits before the decimal point if these are more.
+/// A dash for a missing value.
 function digits(x, n = 3) {
   if (!isNumber(x)) return "–";
   const size = Math.abs(x);
@@ -49,8 +49,8 @@ function metricValue(name, x) {
 /// "settling_time_s" as "settling time, s"
 const metricWords = (name) => report.metric_words[name] || name.replaceAll("_", " ");
 
-/// Readable name of a scenario. The names of tuning scenarios contain the headings and, as "led", the
-/// heading-rate limit: heading_30_-30_led.
+/// Readable name of a scenario. Names of tuning scenarios contain the headings, and "led" if the heading rate is
+/// limited: heading_30_-30_led.
 function scenarioWords(name) {
   const own = (report.scenarios[name] || {}).name;
   const parts = /^heading((?:_-?\d+(?:\.\d+)?)+)(_[a-z_]+)?$/.exec(name);

@@ -18,8 +18,8 @@ function rowNote(model) {
 const findingsOfRow = (model, t) => model.findings.filter((f) => f.file === t.file
   && f.line === t.line);
 
-/// Steady runs with the fitted curve and its band. Curve, band and residuals are part of the data
-/// (drawn_fit.h), which are also used for the print figures.
+/// Chart of the steady runs with the fitted curve and its confidence band. Curve, band and residuals are computed
+/// by the program (drawn_fit.h), as for the print figures.
 function fitChart(parent, model, fit, kind, height = 300) {
   if (!fit) return undefined;
   const rows = model.trials.filter((t) => t.kind === kind && isNumber(t.measured));
@@ -45,8 +45,8 @@ function fitChart(parent, model, fit, kind, height = 300) {
   return plot(parent, {title: `${kind} trials`, x, y, series, byPoint: true, zero: "xy", height});
 }
 
-/// Chart of the residuals in percent of the prediction, with the limits that contain 99 of 100 rows if
-/// errors are normal.
+/// Chart of the residuals in percent of the prediction, with the limits that contain 99 % of normally distributed
+/// residuals.
 function residualChart(parent, model, fit, kind) {
   if (!fit) return;
   const note = rowNote(model);
@@ -125,7 +125,7 @@ function estimatorsTable(parent, estimates) {
     digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason.split(". ")[0]]));
 }
 
-/// Table of the change of the main values, in percent, if one row of the trials is left out, for each row.
+/// Table with a row for each row of the trials: the change of the main values, in percent, if it is left out.
 function influenceTable(parent, estimates) {
   const left = estimates.filter((e) => Array.isArray(e.leave_one_out) && e.leave_one_out.length);
   if (!left.length) return;
@@ -143,8 +143,8 @@ function influenceTable(parent, estimates) {
   }
 }
 
-/// Result of the validation in a sentence, with a note if it used only data of the fit, which do not show how
-/// well another drive is predicted.
+/// Result of the validation in a sentence. If it used only data of the fit, a note says that these do not show
+/// how well another drive is predicted.
 function validationWords(data) {
   const {validation} = data;
   if (!validation || !validation.verdict) return;

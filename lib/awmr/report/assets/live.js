@@ -23,7 +23,7 @@ async function liveModule(packed, numbers) {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
   const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   const wasm = await new Response(unpacked).arrayBuffer();
-  // The C library imports system functions, which this program does not need: every call returns 52, the
+  // The C library imports system functions that the simulation does not need. Every call returns 52, the
   // error code for "not available" (ENOSYS).
   const system = new Proxy({}, {get: () => () => 52});
   const {exports} = (await WebAssembly.instantiate(wasm,
@@ -81,7 +81,7 @@ function liveSlider(parent, slider, settings, changed) {
 
 const degreesOf = (list) => list.map((x) => x * 180 / Math.PI);
 const pairs = (x, y) => x.map((v, i) => [v, y[i]]);
-/// Reduces a long run to about 2 `most` points, with the minimum and the maximum of each interval.
+/// Reduces a long run to about 2 `most` points: the minimum and the maximum of each of `most` intervals.
 function thinned(points, most = 500) {
   const stretch = Math.ceil(points.length / most);
   if (stretch < 3) return points;

@@ -41,7 +41,7 @@ OBSTACLE = "#c8c8c8"
 
 
 def math_text(text):
-    """Matplotlib text: "u_{max}" with a subscript, "10^{3}" with an exponent; a dollar sign is printed."""
+    """Matplotlib text of a label: "u_{max}" gets a subscript, "10^{3}" an exponent; a dollar sign stays a dollar sign."""
     return re.sub(r"([_^])\{([^}]*)\}", r"$\1{\\mathrm{\2}}$", text.replace("$", r"\$"))
 
 
@@ -83,7 +83,7 @@ def draw(axes, series, data):
 
 
 def legend(panels):
-    """Adds a legend above the plots, where it covers no data. A single entry gets none: the axes say as much."""
+    """Adds a legend above the plots, where it covers no data. A single entry gets no legend, because the axes name it."""
     entries = {}
     for axes in panels:
         for handle, name in zip(*axes.get_legend_handles_labels()):

@@ -21,8 +21,8 @@ function unseenLogs({model, validation}) {
   return (validation.logs || []).filter((log) => !names.includes(base(log.file)));
 }
 
-/// Tile of the model's largest prediction error: on logs that were not used for the fit, else on logs of the
-/// fit, else on the trials; without these, of the drives compared with predicted ones.
+/// Tile of the model's largest prediction error: on logs that were not used for the fit; if there are none, on
+/// logs of the fit, else on the trials, else the result for drives compared with predicted drives.
 function modelTile(list, data) {
   const {validation} = data;
   if (!validation) return tile(list, "doubt", "Model error", "not validated",

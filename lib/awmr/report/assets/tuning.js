@@ -25,7 +25,7 @@ function constraintState({margin, required, limit}) {
   return [margin < 0.01 * Math.abs(limit) ? "at its limit" : "met", "good"];
 }
 
-/// Sense of a constraint, "at-most" or "at-least". Results of the interactive part do not have it; it follows
+/// Sense of a constraint, "at-most" or "at-least". Results of the interactive part lack it; it is then derived
 /// from value, limit and margin.
 const senseOf = ({sense, value, limit, margin}) => sense ||
   (Math.abs(limit - value - margin) <= Math.abs(value - limit - margin) ? "at-most" : "at-least");

@@ -16,8 +16,9 @@ std::optional<double> number_in(const Json& json, const char* key) {
   return json.at(key).get<double>();
 }
 
-/// Returns the name of a scenario for file names: SCENARIO of the scenario_SCENARIO.json whose
-/// `name` is `name`, as for the figures of its runs. Without such a file, `name` itself.
+/// Returns the name of a scenario for file names: SCENARIO of the file scenario_SCENARIO.json that
+/// has the key `name` with this value, so that figures of runs and comparisons have the same name.
+/// Without such a file, `name` itself.
 std::string stem_of(const Json& data, const std::string& name) {
   for (const auto& [stem, scenario] : data.at("scenarios").items()) {
     if (scenario.value("name", "") == name) return stem;
@@ -25,8 +26,8 @@ std::string stem_of(const Json& data, const std::string& name) {
   return name;
 }
 
-/// Difference of a metric between two modes with its 95 % interval, both in percent of the larger
-/// of the two means. There is no row if both means are 0.
+/// Difference of a metric between two modes with its 95 % interval, in percent of the larger of the
+/// two means. Metrics whose means are both 0 have no row.
 struct DifferenceRow {
   std::string metric;
   double mean = 0.0;

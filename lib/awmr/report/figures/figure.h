@@ -9,8 +9,8 @@
 
 namespace awmr {
 
-/// Role of a series, which determines its style in plot.py. Series with a later role are drawn over
-/// those with an earlier one.
+/// Role of a series, which determines its style in plot.py. Series are drawn in the order of the
+/// roles, so later roles are on top.
 enum class Role {
   kMeasured,
   kDoubtful,  ///< measured rows with a warning
@@ -37,9 +37,9 @@ struct Series {
   SeriesShape shape = SeriesShape::kLine;
   Role role = Role::kMeasured;
   std::vector<double> x = {};
-  std::vector<double> y = {};     ///< empty for kBand
-  std::vector<double> low = {};   ///< for kBand and kRanges
-  std::vector<double> high = {};  ///< for kBand and kRanges
+  std::vector<double> y = {};     ///< y of each point; empty for kBand
+  std::vector<double> low = {};   ///< lower ends, for kBand and kRanges
+  std::vector<double> high = {};  ///< upper ends, for kBand and kRanges
 };
 
 /// An axis: its quantity and unit, or row names. In `quantity`, `_{...}` is an index, `^{...}` an
@@ -48,7 +48,7 @@ struct Axis {
   std::string quantity = {};
   std::string unit = {};               ///< empty if dimensionless
   bool zero = false;                   ///< true: the range includes 0 and has a line there
-  std::vector<std::string> rows = {};  ///< row names from the top, at y = 0, 1, ...; else empty
+  std::vector<std::string> rows = {};  ///< names of rows at y = 0, 1, ... from the top; else empty
 };
 
 struct FigureCircle {
@@ -64,7 +64,7 @@ struct Panel {
 };
 
 struct Figure {
-  std::string name = {};     ///< name of its file, without extension
+  std::string name = {};     ///< name of the figure's file, without extension
   std::string meaning = {};  ///< one sentence for figures.json; it is not drawn
   Axis x;
   std::vector<Panel> panels = {};

@@ -13,7 +13,7 @@ namespace {
 struct KindWords {
   TrialKind kind;
   const char* name;        ///< name of the kind in file names
-  const char* resistance;  ///< in text
+  const char* resistance;  ///< name of the resistance in text
   Axis rate;
   Axis input;
 };

@@ -1,5 +1,5 @@
-/// Input of the page's interactive part (live.cpp, WebAssembly) as a list of numbers. The program
-/// writes the list from model.json and gains.json, and the interactive part reads it with the same
+/// Input of the page's interactive part (live.cpp, WebAssembly) as a list of numbers. `awmr report`
+/// writes the list from model.json and gains.json. The interactive part reads it with the same
 /// code. Private to report/.
 #pragma once
 
@@ -13,8 +13,8 @@ namespace awmr {
 /// Input of the interactive part: the inputs of the tuning constraints (with plant and force limits
 /// of the vehicle) and a heading scenario.
 struct LiveSetup {
-  ConstraintContext context;     ///< inputs of the constraints; `plant` is the identified plant of
-                                 ///< the model
+  /// Inputs of the tuning constraints; `plant` is the identified plant of the model.
+  ConstraintContext context;
   double allocation_form = 0.0;  ///< the AllocationForm of the vehicle, as a number
   /// Largest yaw moment, m, and surge force, both over F_max, that the tuned observer compensates;
   /// 0 without an observer.
@@ -70,7 +70,8 @@ void visit_numbers(LiveSetup& setup, Visit&& visit) {
   visit(c.margin);
   visit_plant(c.plant, visit);
   visit_as_number(c.has_steering, visit);
-  double mode = c.mode ? static_cast<double>(static_cast<int>(*c.mode)) : -1.0;  // -1: all
+  // -1: gains for all modes.
+  double mode = c.mode ? static_cast<double>(static_cast<int>(*c.mode)) : -1.0;
   visit(mode);
   if (mode >= 0.0) c.mode = static_cast<YawMode>(static_cast<int>(mode));
   for (double* x :
