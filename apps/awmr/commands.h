@@ -109,7 +109,6 @@ struct TuneCommand {
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
   std::optional<int> draws = {};          ///< replaces `draws` of tune.json
-  std::optional<int> sensitivity = {};    ///< replaces `sensitivity` of tune.json
   HeadingRateChoice heading_rate_limit = {};
   ShardChoice shard = {};  ///< shard of the validation draws; `output` is then a directory
   bool resume = false;

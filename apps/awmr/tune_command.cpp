@@ -53,7 +53,6 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
         "nominal");
   }
   if (command.draws) options.draws = *command.draws;
-  if (command.sensitivity) options.sensitivity = *command.sensitivity;
   options.shard = command.shard;
   if (command.baseline) {
     AWMR_ASSIGN_OR_RETURN(options.baseline, baseline_named(*command.baseline));
@@ -81,9 +80,6 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
   if (command.baseline) options.emplace_back("baseline", command.baseline->string());
   if (command.mode) options.emplace_back("mode", std::string(name_of(*command.mode)));
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
-  if (command.sensitivity) {
-    options.emplace_back("sensitivity", std::to_string(*command.sensitivity));
-  }
   for (auto& option : options_of_rate(command.heading_rate_limit)) {
     options.push_back(std::move(option));
   }
@@ -135,11 +131,6 @@ void add_draws(CLI::App& sub, TuneCommand& command, CLI::Option* nominal) {
   sub.add_option("--draws", command.draws,
                  "Number of vehicles drawn from the model's covariance to tune for (default 32)")
       ->check(within(static_cast<int>(kDraws.min), static_cast<int>(kDraws.max)))
-      ->excludes(nominal);
-  sub.add_option("--sensitivity", command.sensitivity,
-                 "Samples for a global sensitivity analysis (Sobol indices) of the tuned loop to "
-                 "parameters, noise, latency and lag (default none; 256 take some seconds)")
-      ->check(within(kMinSobolSamples, kMaxSobolSamples))
       ->excludes(nominal);
 }
 

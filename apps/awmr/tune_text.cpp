@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string_view>
 
 namespace awmr::cli {
@@ -16,33 +15,6 @@ std::string gains_line(const char* name, const Gains<double>& gains, double obje
       gains.heading.lambda, gains.heading.mu, gains.heading.epsilon, gains.speed.mu,
       gains.speed.epsilon, gains.heading.sliding_time_constant_s(),
       gains.heading.reaching_time_constant_s(), objective);
-}
-
-/// Lists for each metric the inputs with the largest effect on it.
-std::string sensitivity_text(const RobustTuning& robust) {
-  if (!robust.sensitivity) return {};
-  constexpr std::size_t kMaxInputs = 3;
-  std::string text = fmt::format(
-      "  sensitivity of the tuned loop: total Sobol indices (95 % interval), {} samples of the "
-      "assumed values\n",
-      robust.sensitivity->samples);
-  for (const SensitiveFigure& figure : robust.sensitivity->figures) {
-    std::vector<std::size_t> order(figure.by_input.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-      return figure.by_input[a].total > figure.by_input[b].total;
-    });
-    text += fmt::format("  {:<13} {:<17} {:.3g} +- {:.2g}:", name_of(figure.mode), figure.name,
-                        figure.mean, figure.deviation);
-    for (std::size_t i = 0; i < std::min(kMaxInputs, order.size()); ++i) {
-      const SobolIndex& index = figure.by_input[order[i]];
-      text += fmt::format("{} {} {:.2f} ({:.2f} to {:.2f})", i == 0 ? "" : ";",
-                          robust.sensitivity->inputs[order[i]], index.total, index.total_ci95.lo,
-                          index.total_ci95.hi);
-    }
-    text += '\n';
-  }
-  return text;
 }
 
 /// Describes the constraints whose limits keep the objective from improving (active constraints),
@@ -158,7 +130,7 @@ std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
                      certificate_text(*tuning.certificate) + open_text(options.open);
   if (tuning.robust) {
     text += evaluation_table(tuning.robust->evaluated, tuning.robust->evaluated_by_scenario) +
-            goals_text(tuning.robust->goals) + sensitivity_text(*tuning.robust);
+            goals_text(tuning.robust->goals);
   }
   return text;
 }

@@ -76,7 +76,7 @@ def pipeline(folder):
     c3 = "configs/paper/scenarios/c3_heading_steps.json"
     loop = "--model out/model.json --gains out/gains.json"
     short = {"global_evaluations": 20, "local_evaluations": 5, "draws": 2, "judged_draws": 4, "scenarios": [c3]}
-    goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}], **short, "sensitivity": 16,
+    goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}], **short,
              "observer": {"bandwidth_radps": [0.5, 5]},
              "open": {"mass_factors": [1, 1.2], "wheel_forces": [{"min": -1, "max": 1}]}}
     Path(folder, "striving.json").write_text(json.dumps({"schema": "awmr.tune/1", **goals}))

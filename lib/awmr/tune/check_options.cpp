@@ -14,7 +14,6 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/model/observer_rate.h"
-#include "awmr/tune/global_sensitivity.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
 
@@ -163,20 +162,6 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
   }
 }
 
-void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
-  if (options.sensitivity == 0) return;
-  if (options.sensitivity < kMinSobolSamples || options.sensitivity > kMaxSobolSamples) {
-    faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("sensitivity: {} is neither 0 nor in {} ... {}",
-                                  options.sensitivity, kMinSobolSamples, kMaxSobolSamples)});
-  }
-  if (options.nominal) {
-    faults.push_back({ErrorCode::kConflict, "",
-                      "sensitivity needs randomly drawn vehicles, which nominal disables; remove "
-                      "one of the two"});
-  }
-}
-
 /// A nominal search has neither latency nor motor lag.
 void check_late_limits(const TuneOptions& options, std::vector<Fault>& faults) {
   const TuningLimits unchanged;
@@ -243,7 +228,6 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
   std::vector<Fault> faults;
   check_mode(options, vehicle, faults);
   check_goals(options, vehicle, faults);
-  check_sensitivity(options, faults);
   search_options(options, CheckOption{faults});
   limit_options(options.limits, CheckOption{faults, "limits: "});
   check_late_limits(options, faults);

@@ -11,7 +11,6 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "awmr/tune/objective.h"
@@ -24,9 +23,6 @@ RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
 /// outcome_of() for many runs. `scores` are by draw, then mode, then scenario.
 std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
                                     std::span<const Scenario> scenarios);
-
-/// Value of a metric for a run. Precondition: the metric exists.
-double figure_of_run(std::string_view name, const RunOutcome& outcome);
 
 /// Describes a goal: "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of draws".
 std::string in_words(const TuningGoal& goal);

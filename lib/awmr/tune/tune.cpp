@@ -22,7 +22,6 @@
 #include "awmr/tune/certificate.h"
 #include "awmr/tune/check_options.h"
 #include "awmr/tune/constraints.h"
-#include "awmr/tune/global_sensitivity.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/pole_placement.h"
@@ -78,8 +77,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   if (!options.nominal) {
     steps *= 1.0 + options.draws;
     // The evaluation runs about three sets of gains (candidates_of()) on each draw.
-    evaluations += (3.0 * options.evaluation_draws + sensitivity_runs(model, options.sensitivity)) /
-                   (1.0 + options.draws);
+    evaluations += 3.0 * options.evaluation_draws / (1.0 + options.draws);
   }
   if (evaluations * steps <= kMaxSearchSteps) {
     const std::size_t modes = tuned_modes(model.vehicle, options.mode).size();
@@ -406,10 +404,8 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                       .evaluated = {},
                       .evaluated_by_scenario = {},
                       .goals = {},
-                      .runs = {},
-                      .sensitivity = {}};
+                      .runs = {}};
   const LoopConditions& c = robust.conditions;
-  const ObjectiveSetting without_noise = setting;
   AWMR_ASSIGN_OR_RETURN(setting.vehicles,
                         vehicles_of(model, options.draws, options.seed, options.open));
   for (Scenario& scenario : setting.scenarios) scenario = under(c, std::move(scenario));
@@ -425,11 +421,6 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
   AWMR_RETURN_IF_ERROR(evaluate_candidates(model, setting, options, candidates_of(tuning), robust));
-  if (options.sensitivity > 0) {
-    AWMR_ASSIGN_OR_RETURN(robust.sensitivity,
-                          global_sensitivity(model, without_noise, robust.conditions, tuning.gains,
-                                             options.sensitivity));
-  }
   tuning.robust = std::move(robust);
   if (!options.shard) tuning.unsettled = unsettled_runs(tuning, setting, context);
   return tuning;

@@ -149,7 +149,6 @@ inline constexpr double kMinGoalShare = 0.5, kMaxGoalShare = 0.999;
 inline constexpr std::size_t kMaxGoals = 20;
 /// Default of evaluation_draws in a tune.json with goals.
 inline constexpr int kGoalDraws = 500;
-inline constexpr int kMinSobolSamples = 16, kMaxSobolSamples = 100'000;
 inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
@@ -192,17 +191,13 @@ struct TuneOptions {
   int global_evaluations = 80;  ///< >= 1
   /// >= 0: budget of all local searches together; 0: no local search.
   int local_evaluations = 80;
-  /// Seed of the draws, their noise, the global search and the sensitivity samples. Tune with other
-  /// seeds to see how much the gains depend on chance.
+  /// Seed of the draws, their noise and the global search. Tune with other seeds to see how much the gains depend on chance.
   std::uint64_t seed = 1;
   /// Each needs heading guidance and a unique name. Empty: default_tuning_scenarios().
   std::vector<Scenario> scenarios;
   GainBounds bounds;
   std::optional<ObserverSearch> observer = {};  ///< absent: no observer is tuned
   std::vector<TuningGoal> goals = {};           ///< robust search only
-  /// Number of samples of the sensitivity analysis of the tuned loop (GlobalSensitivity): 0 (none)
-  /// or kMinSobolSamples to kMaxSobolSamples. Robust search only.
-  int sensitivity = 0;
   /// Called with the number of evaluated sets of gains, and with the budget global_evaluations +
   /// local_evaluations. The last stage of the search, on all draws, is not counted.
   Progress progress = {};
@@ -298,27 +293,6 @@ struct EvaluatedGains {
   std::string scenario = {};  ///< empty: all scenarios together
 };
 
-/// Fraction of a metric's variance that is due to one input (tune/sobol.h).
-struct SobolIndex {
-  double first = 0.0;               ///< first order: in [0, 1], apart from the sampling error
-  double total = 0.0;               ///< total, >= 0: including interactions with other inputs
-  Interval first_ci95, total_ci95;  ///< 95 % intervals of `first` and `total`, by bootstrap
-};
-/// Mean, spread and Sobol indices of a metric of the runs in one mode.
-struct SensitiveFigure {
-  YawMode mode{};
-  std::string name;                  ///< name of the metric, such as "settling_time_s"
-  double mean = 0.0;                 ///< in the unit of the metric
-  double deviation = 0.0;            ///< standard deviation, >= 0
-  std::vector<SobolIndex> by_input;  ///< in the order of GlobalSensitivity::inputs
-};
-/// Sensitivity of the tuned loop to the assumptions of the search (global_sensitivity.h).
-struct GlobalSensitivity {
-  int samples = 0;  ///< N; the loop is simulated for N (2 + number of inputs) samples
-  std::vector<std::string> inputs;
-  std::vector<SensitiveFigure> figures;  ///< by mode, then metric
-};
-
 /// Verdict on a goal from the share of the new draws that meet it (EvaluatedGoal::ci95).
 enum class GoalVerdict {
   kMet,     ///< the whole 95 % interval of the share is at or above the required share
@@ -353,7 +327,6 @@ struct RobustTuning {
   std::vector<EvaluatedGains> evaluated_by_scenario;
   std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode; empty for a part
   std::vector<EvaluatedRuns> runs;   ///< only for a part: the runs of its draws, by gains
-  std::optional<GlobalSensitivity> sensitivity;  ///< absent if the analysis was not requested
 };
 
 /// Settling time and control variation of one set of gains, each as the mean over the modes,
@@ -491,8 +464,7 @@ Result<Scenario> held_out_scenario(const Model& model);
 /// Errors (refused): no gains within the bounds meet the constraints, the activity limit and the
 /// goals that are not soft (the message names the most violated one); in every mode, the largest
 /// yaw moment is below the yaw resistance at 1 deg/s (turning.h); runs diverge with all gains; no
-/// run of the nominal vehicle settles with the tuned gains; runs of the sensitivity analysis
-/// diverge.
+/// run of the nominal vehicle settles with the tuned gains.
 /// Errors (input): the model lacks a parameter; an option is invalid (check_options.h); the latency
 /// exceeds 20 samples; no wheel force is left for an observer; runs with the baseline break off;
 /// the evaluations would take more than 1e11 RK4 steps (some hours).

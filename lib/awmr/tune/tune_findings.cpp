@@ -57,26 +57,6 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
            advice_for(scenario, mode, unsettled))});
 }
 
-/// Adds a note if the 95 % interval of a total Sobol index is wider than kWide.
-void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
-  if (!tuning.robust || !tuning.robust->sensitivity) return;
-  constexpr double kWide = 0.5;  // an index with a 95 % interval of 0.2 to 0.7 is uninformative
-  const auto width = [](const SobolIndex& index) {
-    return index.total_ci95.hi - index.total_ci95.lo;
-  };
-  const std::vector<SensitiveFigure>& figures = tuning.robust->sensitivity->figures;
-  const auto open = std::ranges::count_if(figures, [&](const SensitiveFigure& figure) {
-    return width(*std::ranges::max_element(figure.by_input, {}, width)) > kWide;
-  });
-  if (open == 0) return;
-  findings.push_back(
-      {"", 0, Severity::kNote, "sensitivity-open",
-       fmt::format("{} samples are too few to show which uncertain input has the largest effect "
-                   "on {} of {} metrics; increase {}",
-                   tuning.robust->sensitivity->samples, open, figures.size(),
-                   option_text("sensitivity"))});
-}
-
 /// Adds a warning if some parameters of the confidence set make the heading loop unstable.
 void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& findings) {
   if (certificate.damping.value > 0.0) return;
@@ -158,7 +138,6 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
             : nominal_findings(tuning);
   }
   if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
-  note_sensitivity(tuning, findings);
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
   note_observer(options, findings);
   if (const auto plant = model.plant()) {
