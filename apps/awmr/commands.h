@@ -110,8 +110,6 @@ struct TuneCommand {
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
   std::optional<int> draws = {};          ///< replaces `draws` of tune.json
   HeadingRateChoice heading_rate_limit = {};
-  ShardChoice shard = {};  ///< shard of the validation draws; `output` is then a directory
-  bool resume = false;
   InputNames names = {};
 };
 Result<Outcome> execute(const TuneCommand& command);

@@ -1,4 +1,4 @@
-/// Result of `tune`, and of `merge` for its parts, as text for a terminal.
+/// Result of `tune` as text for a terminal.
 #pragma once
 
 #include <string>

@@ -123,18 +123,6 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   }
 }
 
-void check_part(const TuneOptions& options, std::vector<Fault>& faults) {
-  if (!options.shard) return;
-  if (options.nominal) {
-    faults.push_back({ErrorCode::kConflict, option_text("shard"),
-                      "nominal disables the draws that a shard divides; remove one of the two"});
-  }
-  if (auto fault =
-          shard_fault(*options.shard, options.evaluation_draws, "fresh draws (judged_draws)")) {
-    faults.push_back(std::move(*fault));
-  }
-}
-
 void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
   std::set<std::string> figures;
   for (const auto& [figure, most] : goal.at_most) {
@@ -245,7 +233,6 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
     faults.push_back({ErrorCode::kOutOfRange, "", "weights: at least one has to be above 0"});
   }
   check_open(options, faults);
-  check_part(options, faults);
   check_scenarios(options.scenarios, options.observer.has_value(), faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};

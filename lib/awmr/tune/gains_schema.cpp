@@ -3,6 +3,7 @@
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/model/parameters.h"
+#include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/tune.h"

@@ -9,14 +9,35 @@
 /// is by the 95 % interval of the share of new draws that meet the goal.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
+
+inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
+bool is_run_figure(std::string_view name);
+std::vector<std::string> run_figure_names();
+
+/// Metrics of a run for goals and evaluation. The objective uses other ones (kObjectiveTerms).
+struct RunOutcome {
+  YawMode mode{};
+  bool completed = false;  ///< true if the run settles after every heading step
+  bool broke_off = false;  ///< the run broke off; the metrics are those up to that time
+  /// In the order of run_figure_names(). The settling time of a run that does not settle is the
+  /// scenario's duration.
+  std::array<double, kRunFigures> figures{};
+};
+/// The runs of one set of gains, by draw, then mode, then scenario.
+struct EvaluatedRuns {
+  std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
+  std::vector<RunOutcome> outcomes;
+};
 
 /// Returns the metrics of a run that goals and evaluation need.
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);

@@ -298,7 +298,6 @@ std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveS
     if (settled_share >= kSettledShare) return;
     ObjectiveSetting runs = setting;
     runs.mode = mode;
-    runs.numbers.clear();
     runs.goals.clear();
     if (runs.vehicles.size() > kVehicles) runs.vehicles.resize(kVehicles);
     if (!scenario.empty()) {
@@ -344,14 +343,6 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
 /// Number that is XORed with the seed, so that the evaluation uses other draws than the search.
 constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 
-/// Numbers of the new draws, from 1: those of the part `options.shard`, or all.
-std::vector<int> evaluation_draws_of(const TuneOptions& options) {
-  const Shard shard = options.shard.value_or(Shard{});
-  std::vector<int> draws(at(shard.share_of(options.evaluation_draws)));
-  for (int i = 0; int& draw : draws) draw = shard.item(i++) + 1;
-  return draws;
-}
-
 /// Sets of gains to evaluate: tuned, baseline, the paper's, and the tuned ones without their
 /// observer.
 std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
@@ -366,21 +357,14 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Runs the candidates on new draws and adds the statistics to `robust`. For a shard, adds the runs
-/// themselves instead, for merge_tune_shards().
+/// Runs the candidates on new draws and adds the statistics to `robust`.
 Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
                            const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};
   setting.seed ^= kEvaluationSeeds;
-  const std::vector<int> draws = evaluation_draws_of(options);
-  AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, draws, setting.seed, options.open));
-  setting.numbers = {0};
-  setting.numbers.insert(setting.numbers.end(), draws.begin(), draws.end());
-  std::vector<EvaluatedRuns> runs = run_candidates(setting, candidates);
-  if (options.shard) {
-    robust.runs = std::move(runs);
-    return {};
-  }
+  AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, options.evaluation_draws, setting.seed,
+                                                      options.open, Spread::kRandom));
+  const std::vector<EvaluatedRuns> runs = run_candidates(setting, candidates);
   const std::span<const YawMode> modes = setting.modes();
   std::vector<std::string> names;
   for (const Scenario& scenario : setting.scenarios) names.push_back(scenario.name);
@@ -403,11 +387,10 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                       .from_covariance = !model.covariance.parameters.empty(),
                       .evaluated = {},
                       .evaluated_by_scenario = {},
-                      .goals = {},
-                      .runs = {}};
+                      .goals = {}};
   const LoopConditions& c = robust.conditions;
-  AWMR_ASSIGN_OR_RETURN(setting.vehicles,
-                        vehicles_of(model, options.draws, options.seed, options.open));
+  AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, options.draws, options.seed,
+                                                      options.open, Spread::kEven));
   for (Scenario& scenario : setting.scenarios) scenario = under(c, std::move(scenario));
   setting.goals = options.goals;
   context.draws.assign(setting.vehicles.begin() + 1, setting.vehicles.end());
@@ -422,7 +405,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
   AWMR_RETURN_IF_ERROR(evaluate_candidates(model, setting, options, candidates_of(tuning), robust));
   tuning.robust = std::move(robust);
-  if (!options.shard) tuning.unsettled = unsettled_runs(tuning, setting, context);
+  tuning.unsettled = unsettled_runs(tuning, setting, context);
   return tuning;
 }
 

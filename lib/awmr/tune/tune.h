@@ -15,7 +15,6 @@
 #include "awmr/core/progress.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
-#include "awmr/core/shard.h"
 #include "awmr/core/units.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
@@ -130,7 +129,7 @@ struct UnmodelledVariation {
 inline constexpr double kMinMassFactor = 0.1, kMaxMassFactor = 10.0;
 inline constexpr std::size_t kMaxOpenValues = 20;  ///< largest number of entries in each list
 
-/// Upper limit, 1e-9 to 1e9, of a run's metric (run_figure_names()), in the metric's unit.
+/// Upper limit, 1e-9 to 1e9, of a run's metric (tune/goals.h), in the metric's unit.
 struct GoalLimit {
   std::string figure;
   double most = 0.0;
@@ -149,9 +148,6 @@ inline constexpr double kMinGoalShare = 0.5, kMaxGoalShare = 0.999;
 inline constexpr std::size_t kMaxGoals = 20;
 /// Default of evaluation_draws in a tune.json with goals.
 inline constexpr int kGoalDraws = 500;
-inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
-bool is_run_figure(std::string_view name);
-std::vector<std::string> run_figure_names();
 
 struct TuneOptions {
   std::string file = "tune.json";  ///< name of the options' file in error messages: the path that
@@ -164,9 +160,6 @@ struct TuneOptions {
   int draws = 32;                 ///< drawn plants of the search, 0 ... 1000
   int evaluation_draws = 50;      ///< new draws for the evaluation of the gains, 0 ... 100000
   UnmodelledVariation open = {};  ///< robust search only
-  /// This machine's part of an evaluation on several machines. Each machine runs the whole search,
-  /// but evaluates the gains only on the new draws of its part (tune_shard.h).
-  std::optional<Shard> shard = {};
   /// Share of the draws that counts as the tail, (0, 1]: the worst ones. The objective averages the
   /// mean over all draws and the mean over the tail (CVaR).
   double tail_share = 0.2;
@@ -256,24 +249,9 @@ struct SearchHistory {
 /// A longer history is thinned to evenly spaced steps, including the first and the last.
 inline constexpr std::size_t kMaxHistorySteps = 200;
 
-/// Metrics of a run for goals and evaluation. The objective uses other ones (kObjectiveTerms).
-struct RunOutcome {
-  YawMode mode{};
-  bool completed = false;  ///< true if the run settles after every heading step
-  bool broke_off = false;  ///< the run broke off; the metrics are those up to that time
-  /// In the order of run_figure_names(). The settling time of a run that does not settle is the
-  /// scenario's duration.
-  std::array<double, kRunFigures> figures{};
-};
-/// The runs of one set of gains, by draw, then mode, then scenario.
-struct EvaluatedRuns {
-  std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
-  std::vector<RunOutcome> outcomes;
-};
-
 /// A metric of the runs of one set of gains in one mode, over the evaluation draws.
 struct EvaluatedFigure {
-  std::string name;  ///< one of run_figure_names(), such as "heading_iae_degs"
+  std::string name;  ///< such as "heading_iae_degs"
   double median = 0.0;
   double q95 = 0.0;        ///< 95 % quantile
   double tail_mean = 0.0;  ///< mean over the worst tail_share of the draws (CVaR)
@@ -319,14 +297,12 @@ struct RobustTuning {
   /// false: the model has no covariance, so the draws differ by noise and unmodelled variation
   /// only.
   bool from_covariance = false;
-  /// Statistics over the new draws, by gains, then mode. Empty if only a part of the draws was
-  /// evaluated (TuneOptions::shard).
+  /// Statistics over the new draws, by gains, then mode. Empty without new draws.
   std::vector<EvaluatedGains> evaluated;
   /// `evaluated` for each scenario: by scenario, then gains, then mode; empty with a single
   /// scenario.
   std::vector<EvaluatedGains> evaluated_by_scenario;
-  std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode; empty for a part
-  std::vector<EvaluatedRuns> runs;   ///< only for a part: the runs of its draws, by gains
+  std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode
 };
 
 /// Settling time and control variation of one set of gains, each as the mean over the modes,
@@ -422,8 +398,8 @@ struct Tuning {
   double held_out_objective = 0.0;
   std::optional<Certificate> certificate;  ///< always present in the result of tune()
   TradeOff trade_off;
-  std::vector<UnsettledRuns> unsettled;  ///< empty for a part (TuneOptions::shard)
-  std::optional<RobustTuning> robust;    ///< absent for nominal gains
+  std::vector<UnsettledRuns> unsettled;
+  std::optional<RobustTuning> robust;  ///< absent for nominal gains
 };
 
 /// Default tuning scenario: from rest, a heading and then its opposite. Speed, angle and time are

@@ -216,8 +216,6 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   }
   if (options.open.any()) json["open"] = open_json(options.open);
   if (options.activity_max) json["activity_max"] = *options.activity_max;
-  // Must be the last key: merge_tune_shards() appends it there, and the merged file must be
-  // byte-identical with this one.
   if (!robust.evaluated_by_scenario.empty()) {
     json["by_scenario"] = by_scenario_json(robust.evaluated_by_scenario);
   }

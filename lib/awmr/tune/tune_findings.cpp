@@ -32,13 +32,12 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
 }
 
 /// End of a message about runs that do not settle: the cause or the changes with which they settle.
-/// Without them (for example in `merge`) it names the key with the settling times.
+/// Precondition: `unsettled` has these runs.
 std::string advice_for(const std::string& scenario, YawMode mode,
                        std::span<const UnsettledRuns> unsettled) {
   const auto found = std::ranges::find_if(unsettled, [&](const UnsettledRuns& runs) {
     return runs.scenario == scenario && runs.mode == mode;
   });
-  if (found == unsettled.end()) return ". The settling times are in /robust/quantiles";
   if (!found->why.empty()) return ": " + found->why;
   const std::string share = fmt::format("{:g} %", 100.0 * kSettledShare);
   return ". " +
@@ -108,18 +107,18 @@ std::vector<Finding> nominal_findings(const Tuning& tuning) {
   return findings;
 }
 
-}  // namespace
-
-std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& evaluated,
-                                         const std::vector<EvaluatedGains>& evaluated_by_scenario,
-                                         const std::vector<EvaluatedGoal>& goals,
+/// Findings of the tuned gains on fresh draws, which are drawn vehicles that the search did not
+/// use: a warning for each goal that these draws do not confirm (`goal-missed`, `goal-open`), and
+/// one for each mode in which fewer than 95 % of the runs settle after every step (`unsettled`),
+/// per scenario if there are several.
+std::vector<Finding> evaluation_findings(const RobustTuning& robust,
                                          std::span<const UnsettledRuns> unsettled) {
   std::vector<Finding> findings;
-  for (const EvaluatedGoal& goal : goals) {
+  for (const EvaluatedGoal& goal : robust.goals) {
     if (goal.gains == kRobustGains) note_goal(goal, findings);
   }
   for (const EvaluatedGains& one :
-       evaluated_by_scenario.empty() ? evaluated : evaluated_by_scenario) {
+       robust.evaluated_by_scenario.empty() ? robust.evaluated : robust.evaluated_by_scenario) {
     if (one.gains == kRobustGains) {
       note_unsettled(one.scenario, one.mode, one.completed_share, unsettled, findings);
     }
@@ -127,16 +126,13 @@ std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& eval
   return findings;
 }
 
+}  // namespace
+
 std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
                                    const Tuning& tuning) {
-  std::vector<Finding> findings;
-  if (!options.shard) {
-    findings =
-        tuning.robust && !tuning.robust->evaluated.empty()
-            ? evaluation_findings(tuning.robust->evaluated, tuning.robust->evaluated_by_scenario,
-                                  tuning.robust->goals, tuning.unsettled)
-            : nominal_findings(tuning);
-  }
+  std::vector<Finding> findings = tuning.robust && !tuning.robust->evaluated.empty()
+                                      ? evaluation_findings(*tuning.robust, tuning.unsettled)
+                                      : nominal_findings(tuning);
   if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
   note_observer(options, findings);

@@ -9,6 +9,7 @@
 
 #include "awmr/model/model_json.h"
 #include "awmr/model/wheel_force_json.h"
+#include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
 
 namespace awmr {

@@ -1,5 +1,4 @@
-/// Conversions to and from JSON that tune.json, gains.json and the shards of an evaluation
-/// (tune_shard.h) share. Private to tune/.
+/// Conversions to and from JSON that tune.json and gains.json share. Private to tune/.
 #pragma once
 
 #include <vector>
