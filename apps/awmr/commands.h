@@ -80,7 +80,6 @@ struct RecoverCommand {
   fs::path model;
   RecoverOptions recover;
   ShardChoice shard = {};
-  bool resume = false;                  ///< skip a shard that is already finished
   std::optional<fs::path> output = {};  ///< recover.json; with a shard, the shard's directory
 };
 Result<Outcome> execute(const RecoverCommand& command);
@@ -158,7 +157,6 @@ struct CompareCommand {
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
   PlantChoice plant = {.checks_other = true};
-  bool resume = false;     ///< continue the comparison in the output directory
   ShardChoice shard = {};  ///< set if `--shard` was given; then equal to `compare.shard`
   InputNames names = {};
 };

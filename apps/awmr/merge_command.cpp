@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "awmr/compare/resume.h"
+#include "awmr/compare/comparison_directory.h"
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
 #include "awmr/identify/planning/recover_shard.h"

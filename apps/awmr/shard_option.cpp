@@ -5,8 +5,6 @@
 #include <charconv>
 #include <utility>
 
-#include "awmr/core/file.h"
-
 namespace awmr::cli {
 
 Result<ShardChoice> shard_of(const std::optional<std::string>& text) {
@@ -21,14 +19,6 @@ Result<ShardChoice> shard_of(const std::optional<std::string>& text) {
   return input_error(
       ErrorCode::kWrongType, "--shard",
       fmt::format("'{}' is not of the form I/N (part I of N): give for example 1/4", *text));
-}
-
-Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory) {
-  const std::filesystem::path file = directory / kShardFile;
-  AWMR_ASSIGN_OR_RETURN(std::string document, read_file(file));
-  return Outcome{.summary = fmt::format("part {} of {} is finished already: {}\n", shard.index,
-                                        shard.count, file.string()),
-                 .document = std::move(document)};
 }
 
 Result<Outcome> written_part(const ShardKind& kind, const Shard& shard,

@@ -1,4 +1,4 @@
-/// Shards of compare and recover on the command line: merged, mixed, resumed.
+/// Shards of compare and recover on the command line: merged, mixed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -96,21 +96,6 @@ TEST_F(ShardsOfCommands, OfAProcessorThatRoundsDifferentlyAreNotMixed) {
   if (merged.exit_code == 0) GTEST_SKIP() << "this processor has no fused multiply-add";
   EXPECT_EQ(merged.exit_code, 2);
   EXPECT_THAT(merged.err, HasSubstr("their numbers are rounded differently"));
-}
-
-TEST_F(ShardsOfCommands, AFinishedPartIsLeftAsItIsAndNoOtherIs) {
-  for (const auto& [command, table] :
-       {std::pair(recover("--shard 1/2 --resume -o " + path("r")), path("r/recovery.csv")),
-        std::pair(compare("--shard 1/2 --resume -o " + path("c")), path("c/comparison.csv"))}) {
-    EXPECT_THAT(awmr(command).out, HasSubstr("wrote "));
-    const std::string whole = read_all(table);
-    EXPECT_THAT(awmr(command).out, HasSubstr("part 1 of 2 is finished already"));
-    write_all(table, whole.substr(0, whole.size() / 2));
-    EXPECT_THAT(awmr(command).out, HasSubstr("wrote "));
-    EXPECT_EQ(read_all(table), whole);
-    EXPECT_THAT(awmr(command + " --seed 7").out, HasSubstr("wrote "));
-    EXPECT_THAT(awmr(command).out, HasSubstr("wrote ")) << "it is of another seed";
-  }
 }
 
 TEST_F(ShardsOfCommands, MergeRefusesParametersThatNoRunGives) {

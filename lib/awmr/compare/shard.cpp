@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "awmr/compare/compare_findings.h"
-#include "awmr/compare/resume.h"
+#include "awmr/compare/comparison_directory.h"
 #include "awmr/core/index.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/model/findings_json.h"
-#include "awmr/simulate/batch.h"
 
 namespace awmr {
 namespace {
@@ -136,7 +135,6 @@ const ShardKind& comparison_shards() {
                  }}},
       .own_keys = {"changes", "findings"},  // keys that differ between parts: only part 1 has
                                             // `changes`
-      .arithmetic = batch_rounding,
       .arithmetic_advice = "run all parts on processors with AVX2 or NEON",
       .read = [](JsonObject& json) { read_payload(json); }};
   return kind;

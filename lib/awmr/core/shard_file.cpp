@@ -87,6 +87,49 @@ Json shared_keys(const ShardKind& kind, Json json) {
   return json;
 }
 
+/// Names of the (name, value) pairs that are in only one of the two lists.
+std::set<std::string> differing(const std::vector<std::pair<std::string, std::string>>& a,
+                                const std::vector<std::pair<std::string, std::string>>& b) {
+  std::set<std::string> names;
+  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const auto& one : *own) {
+      if (std::ranges::find(*other, one) == other->end()) names.insert(one.first);
+    }
+  }
+  return names;
+}
+
+/// The inputs as (name, hash).
+std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& provenance) {
+  std::vector<std::pair<std::string, std::string>> inputs;
+  for (const InputFile& input : provenance.inputs) inputs.emplace_back(input.name, input.sha256);
+  return inputs;
+}
+
+/// Text that says how the origin of a part (`found`) differs from that of the part called `name`
+/// (`expected`): by program version (`found_version`, compared with that of this program), options
+/// or inputs. Empty if they agree.
+std::string origin_difference(const Provenance& found, const std::string& found_version,
+                              const Provenance& expected, const std::string& name) {
+  if (found_version != version()) {
+    return fmt::format("was written by version {} of the program, but this is {}", found_version,
+                       version());
+  }
+  std::set<std::string> options;
+  for (const std::string& option : differing(found.options, expected.options)) {
+    options.insert(option_text(option));
+  }
+  if (!options.empty()) {
+    return fmt::format("was made with other options ({}) than {}", fmt::join(options, ", "), name);
+  }
+  const auto inputs = inputs_of(found), expected_inputs = inputs_of(expected);
+  if (inputs == expected_inputs) return {};
+  const std::set<std::string> files = differing(inputs, expected_inputs);
+  return files.empty()
+             ? fmt::format("was made from the same inputs as {} in another order", name)
+             : fmt::format("was made from other inputs ({}) than {}", fmt::join(files, ", "), name);
+}
+
 /// Text that says why `part` cannot be combined with the first part; empty if it can.
 std::string difference(const ShardKind& kind, const Part& first, const Part& part) {
   const std::string name = first.directory.string();
@@ -152,25 +195,6 @@ Status check_parts(const ShardKind& kind, const std::vector<Part>& parts) {
   return {};
 }
 
-/// Names of the (name, value) pairs that are in only one of the two lists.
-std::set<std::string> differing(const std::vector<std::pair<std::string, std::string>>& a,
-                                const std::vector<std::pair<std::string, std::string>>& b) {
-  std::set<std::string> names;
-  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-    for (const auto& one : *own) {
-      if (std::ranges::find(*other, one) == other->end()) names.insert(one.first);
-    }
-  }
-  return names;
-}
-
-/// The inputs as (name, hash).
-std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& provenance) {
-  std::vector<std::pair<std::string, std::string>> inputs;
-  for (const InputFile& input : provenance.inputs) inputs.emplace_back(input.name, input.sha256);
-  return inputs;
-}
-
 }  // namespace
 
 PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::vector<std::string> files,
@@ -203,27 +227,6 @@ Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                    }});
   AWMR_RETURN_IF_ERROR(make_directory(directory));
   return write_files(files);
-}
-
-bool is_finished_part(const ShardKind& kind, const std::filesystem::path& directory,
-                      const Shard& shard, const Provenance& provenance) {
-  const auto found = read_shard_json(directory);
-  if (!found || !found->is_object()) return false;
-  std::vector<std::string> files;
-  for (const ShardFile& file : kind.files) {
-    auto text = check_regular_file(directory / file.name).and_then([&] {
-      return read_file(directory / file.name);
-    });
-    if (!text) return false;
-    files.push_back(*std::move(text));
-  }
-  const Json expected = common_keys(
-      kind, {.provenance = provenance, .shard = shard, .arithmetic = kind.arithmetic()}, files);
-  for (const auto& [key, value] : expected.items()) {
-    const auto there = found->find(key);
-    if (there == found->end() || *there != value) return false;
-  }
-  return true;
 }
 
 Result<std::string> schema_of_part(const std::filesystem::path& directory) {
@@ -289,27 +292,6 @@ Status check_items(const Part& part, const ShardFile& file, std::string_view nam
       fmt::format("the table has {} rows, not a multiple of the {} {}s of part {} of {}: rows "
                   "are missing or repeated; run the part again",
                   rows, share, name, shard.index, shard.count));
-}
-
-std::string origin_difference(const Provenance& found, const std::string& found_version,
-                              const Provenance& expected, const std::string& name) {
-  if (found_version != version()) {
-    return fmt::format("was written by version {} of the program, but this is {}", found_version,
-                       version());
-  }
-  std::set<std::string> options;
-  for (const std::string& option : differing(found.options, expected.options)) {
-    options.insert(option_text(option));
-  }
-  if (!options.empty()) {
-    return fmt::format("was made with other options ({}) than {}", fmt::join(options, ", "), name);
-  }
-  const auto inputs = inputs_of(found), expected_inputs = inputs_of(expected);
-  if (inputs == expected_inputs) return {};
-  const std::set<std::string> files = differing(inputs, expected_inputs);
-  return files.empty()
-             ? fmt::format("was made from the same inputs as {} in another order", name)
-             : fmt::format("was made from other inputs ({}) than {}", fmt::join(files, ", "), name);
 }
 
 }  // namespace awmr

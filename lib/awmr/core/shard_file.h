@@ -22,7 +22,8 @@ namespace awmr {
 struct PartOrigin {
   Provenance provenance;
   Shard shard;
-  std::string arithmetic;    ///< ShardKind::arithmetic; "scalar" in files of earlier versions
+  std::string arithmetic;    ///< how numbers were rounded; all parts of a job must agree.
+                             ///< "scalar" in files of earlier versions
   bool stopped = false;      ///< true: stopped before all items were done; must be run again
   std::string version = {};  ///< version of the program that wrote it
 };
@@ -93,11 +94,5 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
   }
   return all;
 }
-
-/// Text for messages: how the origin of a result (`found`) differs from that of the result called
-/// `name` (`expected`), with which it is to be combined. Compared are the program version
-/// (`found_version` with that of this program), the options and the inputs. Empty if they agree.
-std::string origin_difference(const Provenance& found, const std::string& found_version,
-                              const Provenance& expected, const std::string& name);
 
 }  // namespace awmr

@@ -35,8 +35,6 @@ struct ShardKind {
   std::vector<ShardFile> files;  ///< files of a part; at least one
   /// Keys of the payload (see `read`) that may differ between the parts of one job.
   std::vector<const char*> own_keys;
-  /// Identifies how numbers are rounded on this machine; all parts of a job must agree.
-  std::string (*arithmetic)();
   const char* arithmetic_advice;  ///< for messages: how to get parts with the same arithmetic
   /// Reads and checks the payload: the keys of shard.json that only this kind of job has.
   void (*read)(JsonObject& json);
@@ -55,12 +53,6 @@ std::vector<std::string> part_files(const ShardKind& kind);
 /// write_files().
 Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                   const PartText& part);
-
-/// True if the directory has the complete part for this shard: its shard.json has this shard, this
-/// provenance, this program's version and this machine's arithmetic, and its files have the hashes
-/// in shard.json. Such a part need not be computed again.
-bool is_finished_part(const ShardKind& kind, const std::filesystem::path& directory,
-                      const Shard& shard, const Provenance& provenance);
 
 /// The value of the key `schema` in the directory's shard.json, which identifies the kind of the
 /// part; empty if shard.json has no such key. Errors: as read_json_file().

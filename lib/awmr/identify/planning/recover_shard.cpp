@@ -137,7 +137,6 @@ const ShardKind& recover_shards() {
       .title = "A part of a recovery",
       .files = {{"recovery.csv", "csv_sha256", check_runs}},
       .own_keys = {"refusal", "error"},
-      .arithmetic = rounding_of_functions,
       .arithmetic_advice = "run all parts on processors of one kind, with the same C library",
       .read = [](JsonObject& json) { read_payload(json); }};
   return kind;
