@@ -135,14 +135,10 @@ Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, Compa
   return compare(inputs.model, inputs.gains, inputs.scenarios, options);
 }
 
-/// Prints what was written (not with --json), then ends the program by SIGINT, so that the caller
-/// sees the usual exit status.
-void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
-  print_notice(command.shard
-                   ? "stopped: a part (--shard) cannot be continued; run this part again from "
-                     "its beginning"
-                   : fmt::format("stopped: {} finished runs are in {}", comparison.rows.size(),
-                                 (command.output / kComparisonTable).string()));
+/// Prints the notice (not with --json), then ends the program by SIGINT, so that the caller sees the
+/// usual exit status.
+void end_interrupted(const std::string& notice) {
+  print_notice(notice);
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
 }
@@ -272,11 +268,17 @@ Result<Outcome> execute(const CompareCommand& command) {
   options.tyres = inputs.tyres;
   AWMR_ASSIGN_OR_RETURN(const Comparison comparison,
                         compare_until_interrupted(inputs, std::move(options)));
+  if (command.shard && comparison.stopped) {
+    end_interrupted("stopped: nothing is written; run this part again");
+  }
   AWMR_ASSIGN_OR_RETURN(std::vector<Finding> findings, findings_of(command, inputs, comparison));
   Result<Outcome> outcome = command.shard
                                 ? part_outcome(command, comparison, provenance, std::move(findings))
                                 : whole_outcome(command, inputs, comparison, provenance, findings);
-  if (outcome && comparison.stopped) end_interrupted(command, comparison);
+  if (outcome && comparison.stopped) {
+    end_interrupted(fmt::format("stopped: {} finished runs are in {}", comparison.rows.size(),
+                                (command.output / kComparisonTable).string()));
+  }
   return outcome;
 }
 

@@ -26,15 +26,9 @@ Result<Outcome> written_part(const ShardKind& kind, const Shard& shard,
                              const std::string& content, std::vector<Finding> findings) {
   AWMR_RETURN_IF_ERROR(write_part(kind, directory, part));
   Outcome outcome{.findings = std::move(findings), .document = part.shard_json};
-  std::string names;
-  const std::vector<std::string> files = part_files(kind);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    outcome.written.push_back(directory / files[i]);
-    names +=
-        i == 0 ? outcome.written[i].string() : (i + 1 < files.size() ? ", " : " and ") + files[i];
-  }
-  outcome.summary =
-      fmt::format("part {} of {}: {}\nwrote {}\n", shard.index, shard.count, content, names);
+  outcome.written = {directory / kShardFile, directory / kind.table};
+  outcome.summary = fmt::format("part {} of {}: {}\nwrote {} and {}\n", shard.index, shard.count,
+                                content, outcome.written.front().string(), kind.table);
   return outcome;
 }
 

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "support/process.h"
 
 namespace awmr::testing {
@@ -42,6 +44,12 @@ TEST(Interrupt, LeavesTheFilesOfASmallerComparison) {
   const auto json = in_source("timeout --signal=INT 1 " + compare("200000", "as_json") + " --json");
   EXPECT_NE(json.exit_code, 0);
   EXPECT_EQ(json.out + json.err, "");
+  // A part is not written, because it must be run again.
+  const auto part =
+      in_source("timeout --signal=INT 1 " + compare("200000", "shard") + " --shard 1/2");
+  EXPECT_NE(part.exit_code, 0);
+  EXPECT_NE(part.err.find("nothing is written"), std::string::npos) << part.err;
+  EXPECT_FALSE(std::filesystem::exists(directory.path() / "shard"));
   // The first rows equal those of a comparison with fewer samples.
   EXPECT_EQ(in_source(compare("12", "whole")).exit_code, 0);
   const std::string whole = read_all(directory.path() / "whole/comparison.csv");
