@@ -83,13 +83,6 @@ TuningGoal read_goal(JsonObject json) {
   return goal;
 }
 
-Json goal_json(const TuningGoal& goal) {
-  Json json = {{"at_most", Json::object()}, {"share", goal.share}, {"soft", goal.is_soft}};
-  for (const GoalLimit& limit : goal.at_most) json["at_most"][limit.figure] = limit.most;
-  if (goal.mode) json["mode"] = name_of(*goal.mode);
-  return json;
-}
-
 UnmodelledVariation read_open(JsonObject json) {
   UnmodelledVariation open;
   if (json.has("mass_factors")) {

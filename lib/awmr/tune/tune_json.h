@@ -27,9 +27,8 @@ TuningLimits read_limits(JsonObject json);
 /// Reads `/examined` of gains.json.
 ExaminedRange read_examined(JsonObject json);
 
-/// Reads and writes a goal, as in tune.json.
+/// Reads a goal, as in tune.json.
 TuningGoal read_goal(JsonObject json);
-Json goal_json(const TuningGoal& goal);
 
 /// Reads and writes the unmodelled variation, as in tune.json.
 UnmodelledVariation read_open(JsonObject json);
