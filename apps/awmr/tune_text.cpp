@@ -63,24 +63,8 @@ std::string certificate_text(const Certificate& certificate) {
       certificate.latency_s, by_mode);
 }
 
-}  // namespace
-
-std::string gains_table(const Tuning& tuning) {
-  std::string text =
-      fmt::format("  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
-                  "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
-  const bool is_known =
-      tuning.baseline.source == kPolePlacement || tuning.baseline.source == kPaperSource;
-  text += gains_line(is_known ? tuning.baseline.source.c_str() : "baseline", tuning.baseline.gains,
-                     tuning.baseline_objective);
-  text += gains_line("tuned", tuning.gains, tuning.objective);
-  if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
-    text += fmt::format("  observer       {:.4g} rad/s, at most {:.4g} m and {:.4g} of F_max\n",
-                        observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
-  }
-  return text;
-}
-
+/// Metrics of the gains on fresh draws (newly drawn vehicles that were not used for tuning), also
+/// by scenario if there are several. Empty if no fresh draws were made.
 std::string evaluation_table(const std::vector<EvaluatedGains>& all,
                              const std::vector<EvaluatedGains>& by_scenario) {
   if (all.empty()) return {};
@@ -107,6 +91,7 @@ std::string evaluation_table(const std::vector<EvaluatedGains>& all,
   return text;
 }
 
+/// Results of the goals with the tuned gains on the fresh draws; empty without goals.
 std::string goals_text(const std::vector<EvaluatedGoal>& all) {
   std::string text;
   for (const EvaluatedGoal& evaluated : all) {
@@ -123,6 +108,24 @@ std::string goals_text(const std::vector<EvaluatedGoal>& all) {
                     100.0 * evaluated.goal.share);
   }
   return text.empty() ? text : "  goals, on fresh draws\n" + text;
+}
+
+}  // namespace
+
+std::string gains_table(const Tuning& tuning) {
+  std::string text =
+      fmt::format("  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
+                  "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
+  const bool is_known =
+      tuning.baseline.source == kPolePlacement || tuning.baseline.source == kPaperSource;
+  text += gains_line(is_known ? tuning.baseline.source.c_str() : "baseline", tuning.baseline.gains,
+                     tuning.baseline_objective);
+  text += gains_line("tuned", tuning.gains, tuning.objective);
+  if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
+    text += fmt::format("  observer       {:.4g} rad/s, at most {:.4g} m and {:.4g} of F_max\n",
+                        observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
+  }
+  return text;
 }
 
 std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
