@@ -92,7 +92,6 @@ struct SuggestCommand {
   std::optional<fs::path> scenario;
   YawMode mode = YawMode::kCombined;
   int repeats = 3;  ///< runs of each suggested trial
-  int most = 8;     ///< largest number of trials in the printed list; the file lists all
   std::optional<fs::path> output;
 };
 Result<Outcome> execute(const SuggestCommand& command);
