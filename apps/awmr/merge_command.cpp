@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <utility>
 
 #include "awmr/compare/comparison_directory.h"
 #include "awmr/compare/shard.h"

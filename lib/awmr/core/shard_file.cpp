@@ -20,17 +20,7 @@ constexpr long kMaxShards = 1'000'000;
 /// Key of the table's SHA-256 in shard.json.
 constexpr const char* kHashKey = "csv_sha256";
 
-/// The keys of shard.json that all kinds of job have. They precede the payload (ShardKind::read).
-Json common_keys(const ShardKind& kind, const PartOrigin& origin, const std::string& table) {
-  Json json = output_document(kind.schema, origin.provenance);
-  json["shard_index"] = origin.shard.index;
-  json["shard_count"] = origin.shard.count;
-  json["arithmetic"] = origin.arithmetic;
-  json[kHashKey] = sha256_hex(table);
-  return json;
-}
-
-/// Reads shard.json: the keys written by common_keys(), then the payload.
+/// Reads shard.json: the keys that all kinds of job have, then the payload.
 PartOrigin read_part(const ShardKind& kind, JsonObject& json) {
   json.schema(kind.schema);
   PartOrigin origin{
@@ -195,7 +185,11 @@ Status check_parts(const ShardKind& kind, const std::vector<Part>& parts) {
 
 PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::string table,
                    const Json& payload) {
-  Json json = common_keys(kind, origin, table);
+  Json json = output_document(kind.schema, origin.provenance);
+  json["shard_index"] = origin.shard.index;
+  json["shard_count"] = origin.shard.count;
+  json["arithmetic"] = origin.arithmetic;
+  json[kHashKey] = sha256_hex(table);
   json.update(payload);
   return {.shard_json = to_text(json), .table = std::move(table)};
 }

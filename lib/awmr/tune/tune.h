@@ -1,7 +1,6 @@
 /// Tuning of the gains of heading and speed law: options, constraints, goals and result of tune().
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
