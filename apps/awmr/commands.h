@@ -80,7 +80,6 @@ struct RecoverCommand {
   fs::path model;
   RecoverOptions recover;
   ShardChoice shard = {};
-  bool resume = false;                  ///< skip a shard that is already finished
   std::optional<fs::path> output = {};  ///< recover.json; with a shard, the shard's directory
 };
 Result<Outcome> execute(const RecoverCommand& command);
@@ -93,7 +92,6 @@ struct SuggestCommand {
   std::optional<fs::path> scenario;
   YawMode mode = YawMode::kCombined;
   int repeats = 3;  ///< runs of each suggested trial
-  int most = 8;     ///< largest number of trials in the printed list; the file lists all
   std::optional<fs::path> output;
 };
 Result<Outcome> execute(const SuggestCommand& command);
@@ -109,10 +107,7 @@ struct TuneCommand {
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
   std::optional<int> draws = {};          ///< replaces `draws` of tune.json
-  std::optional<int> sensitivity = {};    ///< replaces `sensitivity` of tune.json
   HeadingRateChoice heading_rate_limit = {};
-  ShardChoice shard = {};  ///< shard of the validation draws; `output` is then a directory
-  bool resume = false;
   InputNames names = {};
 };
 Result<Outcome> execute(const TuneCommand& command);
@@ -161,7 +156,6 @@ struct CompareCommand {
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
   PlantChoice plant = {.checks_other = true};
-  bool resume = false;     ///< continue the comparison in the output directory
   ShardChoice shard = {};  ///< set if `--shard` was given; then equal to `compare.shard`
   InputNames names = {};
 };

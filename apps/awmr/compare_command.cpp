@@ -11,10 +11,9 @@
 #include <set>
 
 #include "awmr/compare/compare_findings.h"
-#include "awmr/compare/resume.h"
+#include "awmr/compare/comparison_directory.h"
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
-#include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/scenario_file.h"
@@ -136,16 +135,10 @@ Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, Compa
   return compare(inputs.model, inputs.gains, inputs.scenarios, options);
 }
 
-/// Prints how to resume (not with --json), then ends the program by SIGINT, so that the caller sees
-/// the usual exit status.
-void end_interrupted(const CompareCommand& command, const Comparison& comparison) {
-  const std::string file = (command.output / kComparisonTable).string();
-  const std::string text =
-      command.shard ? "stopped: a part (--shard) cannot be continued; run this part again from "
-                      "its beginning"
-                    : fmt::format("stopped: {} finished runs are in {}; continue with {}",
-                                  comparison.rows.size(), file, option_text("resume"));
-  print_notice(text);
+/// Prints the notice (not with --json), then ends the program by SIGINT, so that the caller sees the
+/// usual exit status.
+void end_interrupted(const std::string& notice) {
+  print_notice(notice);
   std::signal(SIGINT, SIG_DFL);
   std::raise(SIGINT);
 }
@@ -273,20 +266,19 @@ Result<Outcome> execute(const CompareCommand& command) {
   CompareOptions options = command.compare;
   options.other_settings = command.plant.runs_other();
   options.tyres = inputs.tyres;
-  if (command.resume && command.shard) {
-    if (is_finished_part(comparison_shards(), command.output, *command.shard, provenance)) {
-      return finished_part(*command.shard, command.output);
-    }
-  } else if (command.resume) {
-    AWMR_ASSIGN_OR_RETURN(options.finished, read_finished(command.output, provenance));
-  }
   AWMR_ASSIGN_OR_RETURN(const Comparison comparison,
                         compare_until_interrupted(inputs, std::move(options)));
+  if (command.shard && comparison.stopped) {
+    end_interrupted("stopped: nothing is written; run this part again");
+  }
   AWMR_ASSIGN_OR_RETURN(std::vector<Finding> findings, findings_of(command, inputs, comparison));
   Result<Outcome> outcome = command.shard
                                 ? part_outcome(command, comparison, provenance, std::move(findings))
                                 : whole_outcome(command, inputs, comparison, provenance, findings);
-  if (outcome && comparison.stopped) end_interrupted(command, comparison);
+  if (outcome && comparison.stopped) {
+    end_interrupted(fmt::format("stopped: {} finished runs are in {}", comparison.rows.size(),
+                                (command.output / kComparisonTable).string()));
+  }
   return outcome;
 }
 
@@ -308,9 +300,6 @@ void add_compare(CLI::App& app, Session& session) {
       ->required();
   add_file(*sub, "--scenario", command->scenarios, "scenario.json, one or more")->required();
   add_samples(*sub, command->compare);
-  sub->add_flag("--resume", command->resume,
-                "Continue from the results in the directory, after Ctrl-C or with more samples; "
-                "with --shard, skip a finished part");
   add_preferences(*sub, *texts);
   sub->add_flag(
       "--break-even", command->compare.break_even,

@@ -169,12 +169,10 @@ void put_findings_into_document(Outcome& outcome) {
   outcome.document = with_findings(outcome.document, outcome.findings);
 }
 
-Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome,
-                      const ReadBack& read_back) {
+Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome) {
   put_findings_into_document(outcome);
   if (!path) return {};
-  AWMR_RETURN_IF_ERROR(
-      write_file(*path, outcome.document, read_back ? read_back : ReadBack(check_json_text)));
+  AWMR_RETURN_IF_ERROR(write_file(*path, outcome.document, check_json_text));
   outcome.summary += fmt::format("wrote {}\n", path->string());
   outcome.written = {*path};
   return {};

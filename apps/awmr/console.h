@@ -56,9 +56,8 @@ CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path
 void put_findings_into_document(Outcome& outcome);
 
 /// Adds the findings to the outcome's JSON document. With a path, also writes the document and adds
-/// the file to the summary. `read_back` verifies the written file; by default it is parsed as JSON.
-Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome,
-                      const ReadBack& read_back = {});
+/// the file to the summary.
+Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome);
 
 /// Applies check_output() to each of `names` in a directory that may not exist yet. Creates
 /// nothing.

@@ -80,8 +80,6 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
                  "refused; without the comparison of families the intervals are withdrawn. The "
                  "result then depends on the machine")
       ->check(within(0.1, 1e6));
-  sub.add_flag("--cross-validate", command.identify.cross_validate,
-               "Leave each log out once and predict it from the others");
   sub.add_option("--seed", command.identify.seed,
                  "Random seed of the starts and of the bootstrap (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed));

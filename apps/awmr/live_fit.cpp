@@ -45,7 +45,6 @@ LiveFit::LiveFit(const LiveCommand& command, Vehicle vehicle)
   // Diagnostics that do not change the estimates are computed only by the final fit.
   options_.time_limit_s = command.budget_s;
   options_.bootstrap = 0;
-  options_.cross_validate = false;
   options_.side_by_side = false;
 }
 

@@ -2,18 +2,14 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <utility>
 
-#include "awmr/compare/resume.h"
+#include "awmr/compare/comparison_directory.h"
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
 #include "awmr/identify/planning/recover_shard.h"
 #include "awmr/model/findings_json.h"
-#include "awmr/model/gains_file.h"
-#include "awmr/tune/tune_shard.h"
 #include "commands.h"
 #include "paths.h"
-#include "tune_text.h"
 
 namespace awmr::cli {
 namespace {
@@ -61,31 +57,17 @@ Result<Outcome> merge_recovery(const MergeCommand& command) {
   return outcome;
 }
 
-Result<Outcome> merge_tuning(const MergeCommand& command) {
-  AWMR_ASSIGN_OR_RETURN(const MergedTuning merged, merge_tune_shards(command.parts));
-  AWMR_RETURN_IF_ERROR(check_outputs_of(command, tune_shards(), {"gains.json"}));
-  AWMR_RETURN_IF_ERROR(make_directory(command.output));
-  Outcome outcome{.summary = evaluation_table(merged.evaluated, merged.evaluated_by_scenario) +
-                             goals_text(merged.goals),
-                  .findings = merged.findings,
-                  .document = merged.gains_text};
-  AWMR_RETURN_IF_ERROR(write_document(command.output / "gains.json", outcome, check_gains_text));
-  return outcome;
-}
-
 }  // namespace
 
 Result<Outcome> execute(const MergeCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::string schema, schema_of_part(command.parts.front()));
-  if (schema == recover_shards().schema) return merge_recovery(command);
-  return schema == tune_shards().schema ? merge_tuning(command) : merge_comparison(command);
+  return schema == recover_shards().schema ? merge_recovery(command) : merge_comparison(command);
 }
 
 void add_merge(CLI::App& app, Session& session) {
   auto command = std::make_shared<MergeCommand>();
   CLI::App* sub = add_command(
-      app, session, "merge", "Combine the parts of compare, recover or tune (--shard I/N)",
-
+      app, session, "merge", "Combine the parts of compare or recover (--shard I/N)",
       "awmr compare --model model.json --gains gains.json --scenario "
       "configs/paper/scenarios/c3_heading_steps.json --samples 20 --shard 1/2 -o part1\n"
       "  awmr compare --model model.json --gains gains.json --scenario "
@@ -94,8 +76,8 @@ void add_merge(CLI::App& app, Session& session) {
       [command] { return execute(*command); });
   add_directory(*sub, "DIR", command->parts, "Directories of all parts, in any order")->required();
   add_output_directory(*sub, command->output,
-                       "Directory for comparison.csv and comparison.json, recover.json or "
-                       "gains.json, with the same bytes as a single run");
+                       "Directory for comparison.csv and comparison.json, or recover.json, with "
+                       "the same bytes as a single run");
 }
 
 }  // namespace awmr::cli

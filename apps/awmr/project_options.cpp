@@ -38,7 +38,6 @@ constexpr ProjectKey kKeys[] = {
     {"tune", "mode", "mode"},
     {"tune", "nominal", "nominal"},
     {"tune", "observer", "observer"},
-    {"tune", "sensitivity", "sensitivity"},
     {"validate", "column", "columns"},
     {"validate", "log", "trials/logs"},
     {"emit", "as-is", "identify/as_is"},

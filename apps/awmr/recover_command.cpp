@@ -141,9 +141,6 @@ Result<Outcome> execute(const RecoverCommand& command) {
   options.identify.yaw_family.family = model.yaw_family;
   const Shard shard = command.shard.value_or(Shard{});
   const Provenance provenance = provenance_of(options, inputs);
-  if (command.resume && is_finished_part(recover_shards(), *command.output, shard, provenance)) {
-    return finished_part(shard, *command.output);
-  }
   AWMR_ASSIGN_OR_RETURN(const RecoverPart part, recovered(model, options, shard));
   if (!command.shard) return whole_outcome(command, part, provenance);
   return written_part(recover_shards(), shard, *command.output,
@@ -166,9 +163,7 @@ void add_recover(CLI::App& app, Session& session) {
   auto* output = add_file(*sub, "-o,--output", words->command.output,
                           "recover.json to write; with --shard, the directory of the part")
                      ->check(not_standard_output());
-  auto* shard = add_shard(*sub, words->shard)->needs(output);
-  sub->add_flag("--resume", words->command.resume, "Skip a part that is already finished")
-      ->needs(shard);
+  add_shard(*sub, words->shard)->needs(output);
 }
 
 }  // namespace awmr::cli

@@ -16,7 +16,6 @@
 #include "awmr/simulate/run_side.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/tune_file.h"
-#include "awmr/tune/tune_shard.h"
 #include "choices.h"
 #include "commands.h"
 #include "json_output.h"
@@ -66,7 +65,6 @@ const std::vector<Schema>& schemas() {
       {"recover_shard", [] { return shard_schema(recover_shards()); }},
       {"tune", tune_schema},
       {"gains", gains_schema},
-      {"tune_shard", [] { return shard_schema(tune_shards()); }},
       {"scenario", scenario_schema},
       {"run", run_schema},
       {"emit", emit_schema},

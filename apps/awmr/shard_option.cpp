@@ -5,8 +5,6 @@
 #include <charconv>
 #include <utility>
 
-#include "awmr/core/file.h"
-
 namespace awmr::cli {
 
 Result<ShardChoice> shard_of(const std::optional<std::string>& text) {
@@ -23,28 +21,14 @@ Result<ShardChoice> shard_of(const std::optional<std::string>& text) {
       fmt::format("'{}' is not of the form I/N (part I of N): give for example 1/4", *text));
 }
 
-Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory) {
-  const std::filesystem::path file = directory / kShardFile;
-  AWMR_ASSIGN_OR_RETURN(std::string document, read_file(file));
-  return Outcome{.summary = fmt::format("part {} of {} is finished already: {}\n", shard.index,
-                                        shard.count, file.string()),
-                 .document = std::move(document)};
-}
-
 Result<Outcome> written_part(const ShardKind& kind, const Shard& shard,
                              const std::filesystem::path& directory, const PartText& part,
                              const std::string& content, std::vector<Finding> findings) {
   AWMR_RETURN_IF_ERROR(write_part(kind, directory, part));
   Outcome outcome{.findings = std::move(findings), .document = part.shard_json};
-  std::string names;
-  const std::vector<std::string> files = part_files(kind);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    outcome.written.push_back(directory / files[i]);
-    names +=
-        i == 0 ? outcome.written[i].string() : (i + 1 < files.size() ? ", " : " and ") + files[i];
-  }
-  outcome.summary =
-      fmt::format("part {} of {}: {}\nwrote {}\n", shard.index, shard.count, content, names);
+  outcome.written = {directory / kShardFile, directory / kind.table};
+  outcome.summary = fmt::format("part {} of {}: {}\nwrote {} and {}\n", shard.index, shard.count,
+                                content, outcome.written.front().string(), kind.table);
   return outcome;
 }
 

@@ -24,10 +24,6 @@ inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& tex
 /// Parses I/N. Errors (input): the text is not of this form.
 Result<ShardChoice> shard_of(const std::optional<std::string>& text);
 
-/// Returns the outcome for a part that `--resume` finds finished; its files remain unchanged.
-/// Errors: as read_file().
-Result<Outcome> finished_part(const Shard& shard, const std::filesystem::path& directory);
-
 /// Writes a part into the directory. `content` describes the part: "5 runs". Errors: as
 /// write_part().
 Result<Outcome> written_part(const ShardKind& kind, const Shard& shard,

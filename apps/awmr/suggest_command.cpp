@@ -20,6 +20,9 @@
 namespace awmr::cli {
 namespace {
 
+/// Largest number of trials on the printed sheet; the file has all.
+constexpr std::size_t kSheetTrials = 8;
+
 /// Metric of a simulated closed loop. Its change with the plant's parameters is computed with the
 /// controller fixed.
 struct LoopMetric {
@@ -100,7 +103,7 @@ Result<Outcome> execute(const SuggestCommand& command) {
   options.repeats = command.repeats;
   AWMR_RETURN_IF_ERROR(add_metrics(command, model, options));
   AWMR_ASSIGN_OR_RETURN(const Suggestion suggestion, suggest_with_progress(model, options));
-  Outcome outcome{.summary = field_sheet(suggestion, static_cast<std::size_t>(command.most))};
+  Outcome outcome{.summary = field_sheet(suggestion, kSheetTrials)};
   AWMR_ASSIGN_OR_RETURN(outcome.document, document_of(command, suggestion));
   AWMR_RETURN_IF_ERROR(write_document(command.output, outcome));
   return outcome;
@@ -126,10 +129,6 @@ void add_suggest(CLI::App& app, Session& session) {
   sub->add_option("--repeats", command.repeats,
                   "Number of runs planned for each suggested surge, turning or coast-down trial "
                   "(default 3); a suggested log is planned once")
-      ->check(within(1, 1000));
-  sub->add_option("--most", command.most,
-                  "Number of trials on the sheet (default 8; the file has "
-                  "all)")
       ->check(within(1, 1000));
   add_file(*sub, "-o,--output", command.output, "suggest.json to write")
       ->check(not_standard_output());

@@ -9,7 +9,6 @@
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/tune_file.h"
 #include "awmr/tune/tune_findings.h"
-#include "awmr/tune/tune_shard.h"
 #include "choices.h"
 #include "commands.h"
 #include "gains_origin.h"
@@ -53,8 +52,6 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
         "nominal");
   }
   if (command.draws) options.draws = *command.draws;
-  if (command.sensitivity) options.sensitivity = *command.sensitivity;
-  options.shard = command.shard;
   if (command.baseline) {
     AWMR_ASSIGN_OR_RETURN(options.baseline, baseline_named(*command.baseline));
     config.baseline_file.reset();
@@ -81,33 +78,10 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
   if (command.baseline) options.emplace_back("baseline", command.baseline->string());
   if (command.mode) options.emplace_back("mode", std::string(name_of(*command.mode)));
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
-  if (command.sensitivity) {
-    options.emplace_back("sensitivity", std::to_string(*command.sensitivity));
-  }
   for (auto& option : options_of_rate(command.heading_rate_limit)) {
     options.push_back(std::move(option));
   }
   return Provenance{"tune", std::move(options), std::move(inputs)};
-}
-
-/// Checks the outputs before the work begins. Errors (input): an output cannot be written, or is an
-/// input.
-Status check_output_of(const TuneCommand& command, const std::vector<fs::path>& inputs) {
-  return command.shard ? check_outputs(command.output, part_files(tune_shards()), inputs)
-                       : check_output(command.output, inputs);
-}
-
-Result<Outcome> part_outcome(const TuneCommand& command, const Tuning& tuning,
-                             const TuneOptions& options, const Provenance& provenance,
-                             std::vector<Finding> findings) {
-  const PartText part = tune_part(tuning, options, provenance, findings);
-  const std::string content =
-      fmt::format("{} of {} fresh draws", options.shard->share_of(options.evaluation_draws),
-                  options.evaluation_draws);
-  AWMR_ASSIGN_OR_RETURN(Outcome outcome, written_part(tune_shards(), *options.shard, command.output,
-                                                      part, content, std::move(findings)));
-  outcome.summary = gains_table(tuning) + outcome.summary;
-  return outcome;
 }
 
 /// Adds the options of the search; returns `--nominal`.
@@ -136,11 +110,6 @@ void add_draws(CLI::App& sub, TuneCommand& command, CLI::Option* nominal) {
                  "Number of vehicles drawn from the model's covariance to tune for (default 32)")
       ->check(within(static_cast<int>(kDraws.min), static_cast<int>(kDraws.max)))
       ->excludes(nominal);
-  sub.add_option("--sensitivity", command.sensitivity,
-                 "Samples for a global sensitivity analysis (Sobol indices) of the tuned loop to "
-                 "parameters, noise, latency and lag (default none; 256 take some seconds)")
-      ->check(within(kMinSobolSamples, kMaxSobolSamples))
-      ->excludes(nominal);
 }
 
 }  // namespace
@@ -149,20 +118,13 @@ Result<Outcome> execute(const TuneCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
   AWMR_ASSIGN_OR_RETURN(const TuneConfig config, config_of(command, model));
   const std::vector<fs::path> inputs = inputs_of(command, config);
-  AWMR_RETURN_IF_ERROR(check_output_of(command, inputs));
+  AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, inputs));
-  if (command.resume &&
-      is_finished_part(tune_shards(), command.output, *command.shard, provenance)) {
-    return finished_part(*command.shard, command.output);
-  }
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
   std::vector<Finding> findings = tune_findings(model, config.options, tuning);
   if (config.baseline_file) {
     AWMR_RETURN_IF_ERROR(
         note_other_model(*config.baseline_file, command.model, findings, config.options.mode));
-  }
-  if (command.shard) {
-    return part_outcome(command, tuning, config.options, provenance, std::move(findings));
   }
   Outcome outcome{.summary = tuning_summary(tuning, config.options),
                   .details = tuning_details(tuning),
@@ -178,14 +140,10 @@ Result<Outcome> execute(const TuneCommand& command) {
 
 void add_tune(CLI::App& app, Session& session) {
   auto command = std::make_shared<TuneCommand>();
-  auto shard_text = std::make_shared<std::optional<std::string>>();
   CLI::App* sub = add_command(
       app, session, "tune",
       "Tune the gains of the heading and speed laws, under the reaching condition T2 < T1",
-      "awmr tune --model model.json -o gains.json", [command, shard_text]() -> Result<Outcome> {
-        AWMR_ASSIGN_OR_RETURN(command->shard, shard_of(*shard_text));
-        return execute(*command);
-      });
+      "awmr tune --model model.json -o gains.json", [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
            "tune.json: mode, form, margin, limits, baseline, weights, goals, open, observer, "
@@ -196,9 +154,7 @@ void add_tune(CLI::App& app, Session& session) {
   add_heading_rate_limit(*sub, command->heading_rate_limit,
                          "none for --config scenarios; of the two default scenarios one is limited "
                          "to the measured rate");
-  add_output(*sub, command->output, "gains.json to write; with --shard, the directory of the part");
-  auto* shard = add_shard(*sub, *shard_text)->excludes(nominal);
-  sub->add_flag("--resume", command->resume, "Skip a part that is already finished")->needs(shard);
+  add_output(*sub, command->output, "gains.json to write");
 }
 
 }  // namespace awmr::cli

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string_view>
 
 namespace awmr::cli {
@@ -16,33 +15,6 @@ std::string gains_line(const char* name, const Gains<double>& gains, double obje
       gains.heading.lambda, gains.heading.mu, gains.heading.epsilon, gains.speed.mu,
       gains.speed.epsilon, gains.heading.sliding_time_constant_s(),
       gains.heading.reaching_time_constant_s(), objective);
-}
-
-/// Lists for each metric the inputs with the largest effect on it.
-std::string sensitivity_text(const RobustTuning& robust) {
-  if (!robust.sensitivity) return {};
-  constexpr std::size_t kMaxInputs = 3;
-  std::string text = fmt::format(
-      "  sensitivity of the tuned loop: total Sobol indices (95 % interval), {} samples of the "
-      "assumed values\n",
-      robust.sensitivity->samples);
-  for (const SensitiveFigure& figure : robust.sensitivity->figures) {
-    std::vector<std::size_t> order(figure.by_input.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-      return figure.by_input[a].total > figure.by_input[b].total;
-    });
-    text += fmt::format("  {:<13} {:<17} {:.3g} +- {:.2g}:", name_of(figure.mode), figure.name,
-                        figure.mean, figure.deviation);
-    for (std::size_t i = 0; i < std::min(kMaxInputs, order.size()); ++i) {
-      const SobolIndex& index = figure.by_input[order[i]];
-      text += fmt::format("{} {} {:.2f} ({:.2f} to {:.2f})", i == 0 ? "" : ";",
-                          robust.sensitivity->inputs[order[i]], index.total, index.total_ci95.lo,
-                          index.total_ci95.hi);
-    }
-    text += '\n';
-  }
-  return text;
 }
 
 /// Describes the constraints whose limits keep the objective from improving (active constraints),
@@ -91,24 +63,8 @@ std::string certificate_text(const Certificate& certificate) {
       certificate.latency_s, by_mode);
 }
 
-}  // namespace
-
-std::string gains_table(const Tuning& tuning) {
-  std::string text =
-      fmt::format("  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
-                  "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
-  const bool is_known =
-      tuning.baseline.source == kPolePlacement || tuning.baseline.source == kPaperSource;
-  text += gains_line(is_known ? tuning.baseline.source.c_str() : "baseline", tuning.baseline.gains,
-                     tuning.baseline_objective);
-  text += gains_line("tuned", tuning.gains, tuning.objective);
-  if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
-    text += fmt::format("  observer       {:.4g} rad/s, at most {:.4g} m and {:.4g} of F_max\n",
-                        observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
-  }
-  return text;
-}
-
+/// Metrics of the gains on fresh draws (newly drawn vehicles that were not used for tuning), also
+/// by scenario if there are several. Empty if no fresh draws were made.
 std::string evaluation_table(const std::vector<EvaluatedGains>& all,
                              const std::vector<EvaluatedGains>& by_scenario) {
   if (all.empty()) return {};
@@ -135,6 +91,7 @@ std::string evaluation_table(const std::vector<EvaluatedGains>& all,
   return text;
 }
 
+/// Results of the goals with the tuned gains on the fresh draws; empty without goals.
 std::string goals_text(const std::vector<EvaluatedGoal>& all) {
   std::string text;
   for (const EvaluatedGoal& evaluated : all) {
@@ -153,12 +110,30 @@ std::string goals_text(const std::vector<EvaluatedGoal>& all) {
   return text.empty() ? text : "  goals, on fresh draws\n" + text;
 }
 
+}  // namespace
+
+std::string gains_table(const Tuning& tuning) {
+  std::string text =
+      fmt::format("  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
+                  "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
+  const bool is_known =
+      tuning.baseline.source == kPolePlacement || tuning.baseline.source == kPaperSource;
+  text += gains_line(is_known ? tuning.baseline.source.c_str() : "baseline", tuning.baseline.gains,
+                     tuning.baseline_objective);
+  text += gains_line("tuned", tuning.gains, tuning.objective);
+  if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
+    text += fmt::format("  observer       {:.4g} rad/s, at most {:.4g} m and {:.4g} of F_max\n",
+                        observer.bandwidth_radps, observer.yaw_max_m, observer.surge_max);
+  }
+  return text;
+}
+
 std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
   std::string text = gains_table(tuning) + active_text(tuning) +
                      certificate_text(*tuning.certificate) + open_text(options.open);
   if (tuning.robust) {
     text += evaluation_table(tuning.robust->evaluated, tuning.robust->evaluated_by_scenario) +
-            goals_text(tuning.robust->goals) + sensitivity_text(*tuning.robust);
+            goals_text(tuning.robust->goals);
   }
   return text;
 }

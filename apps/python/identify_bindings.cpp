@@ -22,8 +22,7 @@ void check_within(const char* name, double value, double least, double most) {
 Identification fit(const TrialsOfFiles& trials, const std::optional<std::string>& method,
                    const std::optional<std::string>& noise, const Words& family,
                    const std::string& loss, bool joint, const Words& requested, std::uint64_t seed,
-                   int starts, int bootstrap, double time_limit_s, bool cross_validate,
-                   int threads) {
+                   int starts, int bootstrap, double time_limit_s, int threads) {
   IdentifyOptions options;
   if (method) options.method = value_of(kMethodNames, *method, "method");
   if (noise) options.noise = value_of(kErrorModelNames, *noise, "noise");
@@ -35,7 +34,6 @@ Identification fit(const TrialsOfFiles& trials, const std::optional<std::string>
   options.starts = starts;
   options.bootstrap = bootstrap;
   options.time_limit_s = time_limit_s;
-  options.cross_validate = cross_validate;
   options.threads = threads;
   options.keeps_outliers = trials.as_is;
   check_within("starts", starts, 0, 1000);
@@ -97,7 +95,7 @@ void bind_identify(py::module_& module) {
       py::arg("noise") = py::none(), py::arg("family") = Words{}, py::arg("loss") = "squares",
       py::arg("joint") = false, py::arg("fit") = Words{}, py::arg("seed") = 1,
       py::arg("starts") = 6, py::arg("bootstrap") = 0, py::arg("time_limit_s") = 0.0,
-      py::arg("cross_validate") = false, py::arg("threads") = 0,
+      py::arg("threads") = 0,
       "Fits the parameters of a vehicle to its trials. The arguments are the options of the same "
       "names of `awmr identify`, whose results these equal. `method`: \"log-linear\", "
       "\"nonlinear\" or \"trajectory\" (None: chosen by the data); `noise`: the quantity that has "

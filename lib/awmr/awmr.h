@@ -9,7 +9,7 @@
 ///     search gains                       tune/tune.h, tune/tune_file.h
 ///     simulate the closed loop, metrics  simulate/simulate.h, simulate/metrics.h
 ///     validate a model on its trials     validate/validate.h
-///     compare the yaw-control modes      compare/compare.h, compare/resume.h
+///     compare the yaw-control modes      compare/compare.h, compare/comparison_directory.h
 ///     write firmware                     emit/emit.h
 ///     write other programs' parameters   emit/export.h
 ///     make the report                    report/report.h
@@ -18,7 +18,7 @@
 #pragma once
 
 #include "awmr/compare/compare.h"
-#include "awmr/compare/resume.h"
+#include "awmr/compare/comparison_directory.h"
 #include "awmr/core/result.h"
 #include "awmr/emit/emit.h"
 #include "awmr/emit/export.h"

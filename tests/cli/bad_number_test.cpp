@@ -31,7 +31,6 @@ constexpr NumericOption kOptions[] = {
     {"recover", "--duration", false},
     {"recover", "--rate", false},
     {"suggest", "--repeats", true},
-    {"suggest", "--most", true},
     {"validate", "--tolerance", false},
     {"validate", "--horizon", false},
     {"validate", "--log-tolerance", false},

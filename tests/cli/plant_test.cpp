@@ -154,8 +154,6 @@ TEST_F(PlantOption, OfCompareIsNamedInItsFilesAndByMerge) {
               HasSubstr("headings 30 then -30 deg: model; changed: four-wheel, friction 0.3"));
   ASSERT_EQ(compare("-o " + path("plain"), kC3).exit_code, 0);
   EXPECT_FALSE(options("plain").contains("plant"));
-  // --resume refuses rows that were simulated with another plant.
-  EXPECT_EQ(compare("--plant model --samples 2 --resume -o " + path("whole"), kC3).exit_code, 2);
 }
 
 TEST_F(PlantOption, OfCompareIsBothByDefaultAlsoInParts) {

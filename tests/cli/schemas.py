@@ -78,7 +78,7 @@ def pipeline(folder):
     c3 = "configs/paper/scenarios/c3_heading_steps.json"
     loop = "--model out/model.json --gains out/gains.json"
     short = {"global_evaluations": 20, "local_evaluations": 5, "draws": 2, "judged_draws": 4, "scenarios": [c3]}
-    goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}], **short, "sensitivity": 16,
+    goals = {"goals": [{"at_most": {"settling_time_s": 6}}, {"at_most": {"overshoot_deg": 1}, "soft": True}], **short,
              "observer": {"bandwidth_radps": [0.5, 5]},
              "open": {"mass_factors": [1, 1.2], "wheel_forces": [{"min": -1, "max": 1}]}}
     Path(folder, "striving.json").write_text(json.dumps({"schema": "awmr.tune/1", **goals}))
@@ -106,9 +106,6 @@ def pipeline(folder):
         awmr("recover --model out/model.json --runs 5 --shard 1/2 -o recovered1 --json", folder),
         awmr("recover --model out/model.json --runs 5 --shard 2/2 -o recovered2 --json", folder),
         awmr("merge recovered1 recovered2 -o recovered --json", folder),
-        awmr("tune --model out/model.json --mode combined --config short.json --shard 1/2 -o tuned1 --json", folder),
-        awmr("tune --model out/model.json --mode combined --config short.json --shard 2/2 -o tuned2 --json", folder),
-        awmr("merge tuned1 tuned2 -o tuned --json", folder),
         awmr(f"emit {loop} -o firmware --json", folder),
         awmr("init rover --json", folder),
         awmr("check rover --json", folder, (1,)),

@@ -1,4 +1,4 @@
-/// Shards of compare, recover and tune on the command line: merged, mixed, resumed.
+/// Shards of compare and recover on the command line: merged, mixed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -64,30 +64,6 @@ TEST_F(ShardsOfCommands, OfARecoveryAreMergedToTheBytesOfASingleRun) {
   EXPECT_EQ(read_all(path("merged_only/recover.json")), read_all(path("whole.json")));
 }
 
-TEST_F(ShardsOfCommands, OfATuningAreMergedToTheBytesOfASingleRun) {
-  write_all(path("tune.json"), R"({"global_evaluations": 60, "local_evaluations": 20, "draws": 1,
-      "judged_draws": 9, "mode": "combined",
-      "goals": [{"at_most": {"settling_time_s": 9}, "share": 0.6}]})");
-  const auto tune = [&](const std::string& words) {
-    return fmt::format("tune --model {} --config {} {}", model_, path("tune.json"), words);
-  };
-  expect_done(awmr(tune("-o " + path("whole.json"))));
-  const std::string parts = parts_of("part", tune("--shard 1/2"), tune("--shard 2/2"));
-  const ProcessResult merged = awmr(fmt::format("merge {} -o {}", parts, path("merged")));
-  expect_done(merged);
-  EXPECT_THAT(merged.out, HasSubstr("of 9 draws"));
-  EXPECT_EQ(read_all(path("merged/gains.json")), read_all(path("whole.json")));
-  EXPECT_THAT(awmr(tune("--shard 2/2 --resume -o " + path("part2"))).out,
-              HasSubstr("finished already"));
-  // The gains of a shard are usable as gains.
-  expect_done(awmr(fmt::format("emit --model {} --gains {} -o {}", model_, path("part1/gains.json"),
-                               path("firmware"))));
-  const std::string mixed = path("part1") + " " + path("other");
-  expect_done(awmr(recover("--shard 2/2 -o " + path("other"))));
-  EXPECT_THAT(awmr(fmt::format("merge {} -o {}", mixed, path("mixed"))).err,
-              HasSubstr("another kind of job"));
-}
-
 TEST_F(ShardsOfCommands, OfTheLargestSeedAreMergedWithTheHeadingRateLimit) {
   const std::string seed = "--seed 18446744073709551615 ";
   const std::string parts =
@@ -120,21 +96,6 @@ TEST_F(ShardsOfCommands, OfAProcessorThatRoundsDifferentlyAreNotMixed) {
   if (merged.exit_code == 0) GTEST_SKIP() << "this processor has no fused multiply-add";
   EXPECT_EQ(merged.exit_code, 2);
   EXPECT_THAT(merged.err, HasSubstr("their numbers are rounded differently"));
-}
-
-TEST_F(ShardsOfCommands, AFinishedPartIsLeftAsItIsAndNoOtherIs) {
-  for (const auto& [command, table] :
-       {std::pair(recover("--shard 1/2 --resume -o " + path("r")), path("r/recovery.csv")),
-        std::pair(compare("--shard 1/2 --resume -o " + path("c")), path("c/comparison.csv"))}) {
-    EXPECT_THAT(awmr(command).out, HasSubstr("wrote "));
-    const std::string whole = read_all(table);
-    EXPECT_THAT(awmr(command).out, HasSubstr("part 1 of 2 is finished already"));
-    write_all(table, whole.substr(0, whole.size() / 2));
-    EXPECT_THAT(awmr(command).out, HasSubstr("wrote "));
-    EXPECT_EQ(read_all(table), whole);
-    EXPECT_THAT(awmr(command + " --seed 7").out, HasSubstr("wrote "));
-    EXPECT_THAT(awmr(command).out, HasSubstr("wrote ")) << "it is of another seed";
-  }
 }
 
 TEST_F(ShardsOfCommands, MergeRefusesParametersThatNoRunGives) {

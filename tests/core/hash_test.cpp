@@ -19,12 +19,6 @@ TEST(Sha256, GivesThePublishedDigests) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST(Sha256, OfAFileIsThatOfItsBytes) {
-  const ScratchFile file("a.bin", std::string_view("a\0b", 3));
-  EXPECT_EQ(sha256_of_file(file.path()).value(), sha256_hex(std::string_view("a\0b", 3)));
-  EXPECT_FALSE(sha256_of_file("/no/such/file"));
-}
-
 TEST(InputFile, HasTheNameWithoutItsDirectoryAndTheDigest) {
   const ScratchFile file("a.txt", "abc");
   const auto input = input_file(file.path());

@@ -135,6 +135,32 @@ struct ByJets {
   std::vector<State<Jet>> earlier;
 };
 
+/// State at the time delay_s >= 0 before the last of `states`, the states at the rows from `begin`
+/// on. The state is computed by Runge-Kutta steps from the row before that time; their length
+/// carries the derivative with respect to the delay. For a time before the row `begin`, the state
+/// there is extrapolated linearly with its rates. `input_delay_s`: `delay_s` of replay().
+template <class T>
+State<T> earlier_state(const LogSignals& signals, std::size_t begin,
+                       const std::vector<State<T>>& states, const Plant<T>& plant, const T& delay_s,
+                       const T* input_delay_s, double longest_step_s) {
+  const DrivingLog& log = *signals.log;
+  const double now_s = log.t_s[begin + states.size() - 1];
+  const double then_s = now_s - value_of(delay_s);
+  std::size_t row = begin + states.size() - 1;
+  while (row > begin && log.t_s[row] > then_s) --row;
+  const ModelStep<T> step(plant, log);
+  const State<T>& state = states[row - begin];
+  const T to_s = T(now_s) - delay_s;
+  if (value_of(to_s) < log.t_s[row]) {
+    const double at_s = log.t_s[row] - (input_delay_s ? value_of(*input_delay_s) : 0.0);
+    const SideForces<T> force{T(signals.left.at(at_s)), T(signals.right.at(at_s))};
+    const T steering = log.steering_command_rad ? T(signals.steering.at(at_s)) : state.steering_rad;
+    return moved(state, step.rates(state, force, steering), T(to_s - log.t_s[row]));
+  }
+  return advance_after_row(signals, row, T(log.t_s[row]), to_s, step.plant(), input_delay_s,
+                           longest_step_s, state, nullptr, step);
+}
+
 ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourWheel,
                Friction friction = Friction::kNone) {
   const LogSignals signals(log);

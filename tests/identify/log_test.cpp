@@ -293,24 +293,6 @@ TEST(Log, CorrelatedErrorsAreFoundAndWidenTheIntervals) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
 }
 
-TEST(Log, CrossValidationIsReportedWithTheFamilyThatWasChosen) {
-  TrialData data;
-  data.logs = {drive(kTruths[0], 3, {.duration_s = 10.0}),
-               drive(kTruths[0], 4, {.duration_s = 10.0})};
-  IdentifyOptions options;
-  options.surge_family = {std::nullopt};
-  options.cross_validate = true;
-  options.starts = 3;
-  const auto result = identify(robot(), data, options, {});
-  ASSERT_TRUE(result);
-  const auto& reports = result->model.record.reports;
-  ASSERT_GT(reports.size(), 1u);
-  for (const EstimatorReport& report : reports) {
-    const bool chosen = report.family == name_of(result->model.surge_family);
-    EXPECT_EQ(report.leave_one_out.size(), chosen ? 2u : 0u) << report.family;
-  }
-}
-
 TEST(Log, FindsAndCompensatesALatencyOfTheSpeed) {
   const Truth& t = kTruths[0];
   constexpr std::size_t kLate = 10;  // rows of 10 ms

@@ -226,22 +226,5 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
   EXPECT_TRUE(merge_recover_shards({first, second}));
 }
 
-TEST_F(RecoverShards, RecognisesAFinishedPartByItsBytesAndInputs) {
-  const Shard shard{1, 2};
-  const auto first = write(shard);
-  EXPECT_TRUE(is_finished_part(recover_shards(), first, shard, kProvenance));
-  EXPECT_FALSE(is_finished_part(recover_shards(), first, {2, 2}, kProvenance));
-  EXPECT_FALSE(is_finished_part(recover_shards(), first, {1, 3}, kProvenance));
-  EXPECT_FALSE(is_finished_part(recover_shards(), directory_.path(), shard, kProvenance));
-  Provenance other = kProvenance;
-  other.inputs[0].sha256 = "cd";
-  EXPECT_FALSE(is_finished_part(recover_shards(), first, shard, other));
-  other = kProvenance;
-  other.options.pop_back();
-  EXPECT_FALSE(is_finished_part(recover_shards(), first, shard, other));
-  write_all(first / kRecoverTable, read_all(first / kRecoverTable) + "\n");
-  EXPECT_FALSE(is_finished_part(recover_shards(), first, shard, kProvenance));
-}
-
 }  // namespace
 }  // namespace awmr::testing

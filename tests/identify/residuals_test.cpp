@@ -76,15 +76,14 @@ TEST_P(TermDerivatives, AgreeWithDifferencesOfTheCost) {
 
 INSTANTIATE_TEST_SUITE_P(
     OfEachKind, TermDerivatives,
-    ::testing::Values(
-        TermCase{"DelayAndLag", {{input_delay(), 0.031}, {motor_lag(), 0.047}}},
-        TermCase{"SensorDelay", {{sensor_delay_of(LogChannel::kYawRate), 0.013}}},
-        TermCase{"SensorLag", {{sensor_lag_of(LogChannel::kSpeed), 0.08}}},
-        TermCase{"WideSmoothing", {{smoothing_of(LogChannel::kSpeed), 0.0031}}},
-        TermCase{"NarrowSmoothing", {{smoothing_of(LogChannel::kYawRate), 2e-6}}},
-        TermCase{"DelayAndSmoothing",
-                 {{sensor_delay_of(LogChannel::kSpeed), 0.023},
-                  {smoothing_of(LogChannel::kSpeed), 0.0017}}}),
+    ::testing::Values(TermCase{"DelayAndLag", {{input_delay(), 0.031}, {motor_lag(), 0.047}}},
+                      TermCase{"SensorDelay", {{sensor_delay_of(LogChannel::kYawRate), 0.013}}},
+                      TermCase{"SensorLag", {{sensor_lag_of(LogChannel::kSpeed), 0.08}}},
+                      TermCase{"WideSmoothing", {{smoothing_of(LogChannel::kSpeed), 0.0031}}},
+                      TermCase{"NarrowSmoothing", {{smoothing_of(LogChannel::kYawRate), 2e-6}}},
+                      TermCase{"DelayAndSmoothing",
+                               {{sensor_delay_of(LogChannel::kSpeed), 0.023},
+                                {smoothing_of(LogChannel::kSpeed), 0.0017}}}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -34,9 +34,13 @@ Model whole_model() {
   return model;
 }
 
+Result<std::string> html_of(const std::filesystem::path& directory) {
+  return report_page(directory).map([](const ReportPage& page) { return page.html; });
+}
+
 Result<std::string> report_of(const std::string& model_json) {
   const ScratchFile file("model.json", model_json);
-  return report_html(file.path().parent_path());
+  return html_of(file.path().parent_path());
 }
 
 TEST(Report, IsTheSameBytesFromTheSameFiles) {
@@ -78,10 +82,10 @@ TEST(Report, NamesThePlaceOfAFault) {
 
 TEST(Report, NeedsAModelAndRefusesABrokenCompanion) {
   const ScratchFile other("notes.txt", "no model here");
-  EXPECT_FALSE(report_html(other.path().parent_path()));
+  EXPECT_FALSE(html_of(other.path().parent_path()));
   const ScratchFile model("model.json", model_text(some_model("robot")));
   std::ofstream(model.path().parent_path() / "gains.json") << "{";
-  const auto broken = report_html(model.path().parent_path());
+  const auto broken = html_of(model.path().parent_path());
   ASSERT_FALSE(broken);
   EXPECT_THAT(broken.error().faults.front().place, HasSubstr("gains.json"));
 }
@@ -93,7 +97,7 @@ TEST(Report, NamesThePlaceWhereGainsDoNotSayHowTheyWereTuned) {
     "heading": {"lambda": 3, "mu": 50, "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2})";
   const auto report_with = [&](const std::string& more) {
     std::ofstream(model.path().parent_path() / "gains.json") << gains << more << "}";
-    return report_html(model.path().parent_path());
+    return html_of(model.path().parent_path());
   };
   ASSERT_TRUE(report_with(""));
   if (report_with("")->find("id=\"wasm\"></script>") != std::string::npos) GTEST_SKIP();

@@ -27,7 +27,7 @@ UnmodelledVariation paper_grid() {
 TEST(Open, IsTakenByTheDrawsInTurnAndNotByTheModelsOwn) {
   const Model model = paper_model();
   const Plant<double> own = model.plant().value();
-  const auto vehicles = vehicles_of(model, 7, 1, paper_grid());
+  const auto vehicles = vehicles_of(model, 7, 1, paper_grid(), Spread::kRandom);
   ASSERT_TRUE(vehicles);
   ASSERT_EQ(vehicles->size(), 8U);
   const std::pair<double, Interval> expected[] = {{1.0, model.vehicle.wheel_force},
@@ -46,19 +46,6 @@ TEST(Open, IsTakenByTheDrawsInTurnAndNotByTheModelsOwn) {
     EXPECT_EQ(vehicle.plant.surge.alpha, own.surge.alpha) << i;
     EXPECT_EQ(vehicle.wheel_force.lo, force.lo) << i;
     EXPECT_EQ(vehicle.wheel_force.hi, force.hi) << i;
-  }
-}
-
-TEST(Open, DependsOnTheDrawNumberAndNotOnThePart) {
-  const Model model = paper_model();
-  const auto all = vehicles_of(model, 6, 1, paper_grid());
-  const int numbers[] = {2, 5};
-  const auto part = vehicles_of(model, numbers, 1, paper_grid());
-  ASSERT_TRUE(all && part);
-  for (std::size_t i = 0; i < std::size(numbers); ++i) {
-    const DrawnVehicle& whole = (*all)[static_cast<std::size_t>(numbers[i])];
-    EXPECT_EQ((*part)[i + 1].plant.mass_norm, whole.plant.mass_norm);
-    EXPECT_EQ((*part)[i + 1].wheel_force.hi, whole.wheel_force.hi);
   }
 }
 

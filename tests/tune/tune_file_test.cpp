@@ -120,6 +120,14 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
   EXPECT_EQ(config->scenario_files.front(), directory_ / "turn.json");
 }
 
+TEST_F(TuneFile, IgnoresTheSensitivityOfOlderFiles) {
+  EXPECT_TRUE(read(R"({"sensitivity": 64})"));
+  EXPECT_TRUE(read_gains(
+      write("gains.json", R"({"schema": "awmr.gains/1", "heading": {"lambda": 3, "mu": 50,
+                              "epsilon": 12}, "speed": {"mu": 5, "epsilon": 1.2},
+                              "sensitivity": {"samples": 64, "figures": []}})")));
+}
+
 TEST_F(TuneFile, ReadsLimits) {
   const TuningLimits defaults;
   EXPECT_FALSE(read("{}")->options.limits.steering_rate_rms_degps);

@@ -117,40 +117,6 @@ struct Layout {
 /// One entry per row of the output, empty until its run is finished.
 using Slots = std::vector<std::optional<ComparisonRow>>;
 
-template <class Items, class Same>
-std::optional<std::size_t> position_of(const Items& items, const Same& same) {
-  const auto found = std::find_if(std::begin(items), std::end(items), same);
-  if (found == std::end(items)) return std::nullopt;
-  return at(found - std::begin(items));
-}
-
-Status take_finished(const std::vector<Scenario>& scenarios, const std::vector<NamedGains>& gains,
-                     const CompareOptions& options, const Layout& layout, Slots& slots) {
-  for (const ComparisonRow& row : options.finished) {
-    const auto scenario =
-        position_of(scenarios, [&](const Scenario& other) { return other.name == row.scenario; });
-    const auto set =
-        position_of(gains, [&](const NamedGains& other) { return other.name == row.gains; });
-    const auto mode = position_of(kYawModes, [&](YawMode other) { return other == row.mode; });
-    if (!scenario || !set || !mode || *mode >= layout.modes || row.sample < 0) {
-      return input_error(ErrorCode::kStaleResult, option_text("resume"),
-                         fmt::format("the finished run of '{}' in sample {} does not belong to "
-                                     "this comparison; compare into another directory",
-                                     row.scenario, row.sample));
-    }
-    if (at(row.sample) >= layout.samples) {
-      return input_error(
-          ErrorCode::kConflict, option_text("samples"),
-          fmt::format("the finished comparison has sample {}, which {} samples would "
-                      "remove; give at least as many samples, or compare into "
-                      "another directory",
-                      row.sample, layout.samples - 1));
-    }
-    slots[layout.row({*scenario, *set, *mode, at(row.sample)})] = row;
-  }
-  return {};
-}
-
 /// Longest run, in samples, whose noise is drawn in advance and shared. The noise takes 24 bytes
 /// per sample and run, up to 38 MB for a batch.
 constexpr double kMaxSharedNoise = 1e5;
@@ -168,7 +134,7 @@ struct Block {
 /// Divides the samples of this part into blocks of kBatchRuns. The blocks of the same samples in
 /// all scenarios, gains and modes are consecutive, so that a stopped comparison has complete
 /// samples.
-std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slots& slots) {
+std::vector<Block> blocks_of(const Layout& layout, const Shard& shard) {
   std::vector<std::size_t> samples;
   for (std::size_t sample = 0; sample < layout.samples; ++sample) {
     if (shard.has(static_cast<int>(sample))) samples.push_back(sample);
@@ -176,23 +142,18 @@ std::vector<Block> blocks_of(const Layout& layout, const Shard& shard, const Slo
   std::vector<Block> blocks;
   const std::size_t apart = layout.scenarios * layout.gains * layout.modes;
   for (std::size_t first = 0; first < samples.size(); first += kBatchRuns) {
-    const std::size_t end = std::min(first + kBatchRuns, samples.size());
+    const std::size_t count = std::min(kBatchRuns, samples.size() - first);
+    const std::vector<std::size_t> of_block(samples.begin() + eigen_index(first),
+                                            samples.begin() + eigen_index(first + count));
     std::shared_ptr<SharedNoise> noise;
     for (std::size_t i = 0; i < apart; ++i) {
       if (i % (layout.gains * layout.modes) == 0) noise = std::make_shared<SharedNoise>();
-      Block block{.scenario = i / (layout.gains * layout.modes),
-                  .gains = i / layout.modes % layout.gains,
-                  .mode = i % layout.modes,
-                  .samples = {},
-                  .noise = noise};
-      for (std::size_t s = first; s < end; ++s) {
-        if (!slots[layout.row({block.scenario, block.gains, block.mode, samples[s]})]) {
-          block.samples.push_back(samples[s]);
-        }
-      }
-      if (block.samples.empty()) continue;
       noise->add_user();
-      blocks.push_back(std::move(block));
+      blocks.push_back({.scenario = i / (layout.gains * layout.modes),
+                        .gains = i / layout.modes % layout.gains,
+                        .mode = i % layout.modes,
+                        .samples = of_block,
+                        .noise = noise});
     }
   }
   return blocks;
@@ -258,11 +219,6 @@ void run_block(const Model& model, const std::vector<NamedGains>& gains,
   }
 }
 
-std::size_t finished_count(const Slots& slots) {
-  return at(
-      std::count_if(slots.begin(), slots.end(), [](const auto& slot) { return slot.has_value(); }));
-}
-
 Comparison gathered(const Layout& layout, const Shard& shard, Slots slots) {
   Comparison comparison;
   std::size_t whole = layout.samples;
@@ -294,11 +250,9 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   const Layout layout{scenarios.size(), gains.size(), yaw_modes(model.vehicle).size(),
                       at(options.samples) + 1};
   Slots slots(layout.count());
-  AWMR_RETURN_IF_ERROR(take_finished(scenarios, gains, options, layout, slots));
-
-  const std::vector<Block> blocks = blocks_of(layout, options.shard, slots);
+  const std::vector<Block> blocks = blocks_of(layout, options.shard);
   std::vector<Status> failures(layout.count());
-  std::atomic<std::size_t> done = finished_count(slots);
+  std::atomic<std::size_t> done = 0;
   LoopControl control;
   if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
   if (options.progress) control.progress = [&] { options.progress(done, layout.count()); };

@@ -81,8 +81,6 @@ struct CompareOptions {
   Shard shard = {};
   /// Number of threads, >= 0; 0: one per core. Results do not depend on it.
   int threads = 0;
-  /// Finished rows of a comparison with the same inputs and seed, to resume one that was stopped.
-  std::vector<ComparisonRow> finished = {};
   /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
   /// When *stop becomes true, runs in progress finish and no other run starts. Null: the comparison
@@ -185,7 +183,7 @@ struct Comparison {
 /// Errors (input): the model lacks a parameter, a covariance (with samples) or an interval that a
 /// scenario's corner needs; as check_scenario() and controller_for(); no scenario or gains, or two
 /// of the same name; a negative number of samples or threads; a part that does not exist; more than
-/// kMaxRuns runs; a finished row of another comparison; break-even with several sets of gains, in a
+/// kMaxRuns runs; break-even with several sets of gains, in a
 /// part, for a scenario on four wheels, or as break_even_of(). Also the error of a run that fails.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);

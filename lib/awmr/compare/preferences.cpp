@@ -25,6 +25,15 @@ Result<double> weight_in(std::string_view text, const std::string& place) {
       fmt::format("'{}' is not a weight; give a number from 0 to {}", text, kMaximumWeight));
 }
 
+/// Names of the metrics that can have a weight, in the order of comparison.csv.
+std::vector<std::string_view> weighable_metrics() {
+  std::vector<std::string_view> names;
+  for (const MetricColumn& metric : kMetricColumns) {
+    if (metric.can_rank()) names.push_back(metric.name);
+  }
+  return names;
+}
+
 Status check_metric(std::string_view name, const std::string& place) {
   const std::vector<std::string_view> known = weighable_metrics();
   if (std::find(known.begin(), known.end(), name) != known.end()) return {};
@@ -36,14 +45,6 @@ Status check_metric(std::string_view name, const std::string& place) {
 }
 
 }  // namespace
-
-std::vector<std::string_view> weighable_metrics() {
-  std::vector<std::string_view> names;
-  for (const MetricColumn& metric : kMetricColumns) {
-    if (metric.can_rank()) names.push_back(metric.name);
-  }
-  return names;
-}
 
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance) {
   const std::string place = option_text("weight");

@@ -28,7 +28,4 @@ struct Preferences {
 /// metric with two weights; no metric with a weight above 0; `relevance` outside [0, 1].
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance);
 
-/// Names of the metrics that can have a weight, in the order of comparison.csv.
-std::vector<std::string_view> weighable_metrics();
-
 }  // namespace awmr

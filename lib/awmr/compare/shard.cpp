@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "awmr/compare/compare_findings.h"
-#include "awmr/compare/resume.h"
+#include "awmr/compare/comparison_directory.h"
 #include "awmr/core/index.h"
 #include "awmr/core/shard_file.h"
 #include "awmr/model/findings_json.h"
-#include "awmr/simulate/batch.h"
 
 namespace awmr {
 namespace {
@@ -93,13 +92,13 @@ Payload read_payload(JsonObject& json) {
 
 /// The rows of all parts in the order of a single run: by scenario, gains, mode, sample.
 Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts, int items) {
-  const ShardFile& table = comparison_shards().files.front();
+  const ShardKind& kind = comparison_shards();
   std::vector<std::vector<ComparisonRow>> rows;
   for (const Part& part : parts) {
-    AWMR_ASSIGN_OR_RETURN(const std::string text, read_part_file(part, table));
+    AWMR_ASSIGN_OR_RETURN(const std::string text, read_table(kind, part));
     AWMR_ASSIGN_OR_RETURN(std::vector<ComparisonRow> more,
-                          comparison_rows(text, (part.directory / table.name).string()));
-    AWMR_RETURN_IF_ERROR(check_items(part, table, "sample", items, more.size(),
+                          comparison_rows(text, (part.directory / kind.table).string()));
+    AWMR_RETURN_IF_ERROR(check_items(kind, part, "sample", items, more.size(),
                                      [&](std::size_t i) { return more[i].sample; }));
     rows.push_back(std::move(more));
   }
@@ -130,13 +129,11 @@ const ShardKind& comparison_shards() {
   static const ShardKind kind{
       .schema = "awmr.shard/1",
       .title = "A part of a comparison",
-      .files = {{kComparisonTable, "csv_sha256",
-                 [](std::string_view text, const std::string& file, const std::string&) {
-                   return check_comparison_csv(text, file);
-                 }}},
+      .table = kComparisonTable,
+      .check = [](std::string_view text, const std::string& file,
+                  const std::string&) { return check_comparison_csv(text, file); },
       // Keys that may differ between parts: `changes` is only in part 1.
       .own_keys = {"changes", "findings"},
-      .arithmetic = batch_rounding,
       .arithmetic_advice = "run all parts on processors with AVX2 or NEON",
       .read = [](JsonObject& json) { read_payload(json); }};
   return kind;
@@ -152,12 +149,10 @@ PartText comparison_part(const Comparison& part, const CompareOptions& options,
     json["measured_yaw_rate_degps"] = *part.measured_yaw_rate_degps;
   }
   for (const Change& change : part.changes) json["changes"].push_back(change_to_json(change));
-  PartText text = part_text(comparison_shards(),
-                            {.provenance = provenance,
-                             .shard = options.shard,
-                             .arithmetic = part.arithmetic,
-                             .stopped = part.stopped},
-                            {comparison_csv(part)}, json);
+  PartText text =
+      part_text(comparison_shards(),
+                {.provenance = provenance, .shard = options.shard, .arithmetic = part.arithmetic},
+                comparison_csv(part), json);
   text.shard_json = with_findings(text.shard_json, findings);
   return text;
 }

@@ -15,8 +15,7 @@
 namespace awmr {
 namespace {
 
-constexpr std::string_view kForm = "expected NAME=SOURCE[*SCALE][+OFFSET]";
-constexpr std::string_view kExpressionForm =
+constexpr std::string_view kForm =
     "expected NAME=EXPRESSION, for example speed_mps=(left + right)/2*0.1";
 
 /// Removes a finite number from the front of `text` and returns it; empty if there is none.
@@ -55,32 +54,27 @@ std::optional<std::string> take_source(std::string_view& text) {
   return std::nullopt;
 }
 
-/// Parses `rest` as `[*SCALE][+OFFSET]`. Returns the text of an error, or nothing.
-std::optional<std::string> take_scale_and_offset(std::string_view rest, ColumnMapping& mapping) {
-  if (!rest.empty() && rest[0] == '*') {
+/// Parses `rest` as `[*SCALE][+OFFSET]`. Returns false if it is not of this form.
+bool take_scale_and_offset(std::string_view rest, ColumnMapping& mapping) {
+  if (rest.starts_with('*')) {
     rest.remove_prefix(1);
     const auto scale = take_number(rest);
-    if (!scale) return "the scale is not a finite number";
+    if (!scale) return false;
     mapping.scale = *scale;
-    if (*scale == 0.0) return "a scale of 0 would make all values the same";
   }
-  if (!rest.empty() && (rest[0] == '+' || rest[0] == '-')) {
+  if (rest.starts_with('+') || rest.starts_with('-')) {
     if (rest[0] == '+') rest.remove_prefix(1);
     const auto offset = take_number(rest);
-    if (!offset) return "the offset is not a finite number";
+    if (!offset) return false;
     mapping.offset = *offset;
   }
-  if (!rest.empty())
-    return fmt::format("unexpected \"{}\"; quote a SOURCE that contains * or +",
-                       shortened(rest, 100));
-  return std::nullopt;
+  return rest.empty();
 }
 
-/// Parses `SOURCE[*SCALE][+OFFSET]`. Returns the text of an error, or nothing.
-std::optional<std::string> take_body(std::string_view body, ColumnMapping& mapping) {
+/// Parses `SOURCE[*SCALE][+OFFSET]`. Returns false if `body` is not of this form.
+bool take_body(std::string_view body, ColumnMapping& mapping) {
   auto source = take_source(body);
-  if (!source) return "the quotation mark of the SOURCE is not closed";
-  if (source->empty()) return "the SOURCE is empty";
+  if (!source || source->empty()) return false;
   mapping.source = std::move(*source);
   return take_scale_and_offset(body, mapping);
 }
@@ -99,20 +93,13 @@ tl::expected<Halves, std::string> halves_of(std::string_view text) {
   return Halves{name, trimmed(text.substr(equals + 1))};
 }
 
-tl::unexpected<Error> wrong(std::string_view text, std::string_view why, std::string_view form) {
-  return input_error(ErrorCode::kBadFormula, "",
-                     fmt::format("column mapping \"{}\": {}; {}", shortened(text, 100), why, form));
+tl::unexpected<Error> wrong(std::string_view text, std::string_view why) {
+  return input_error(
+      ErrorCode::kBadFormula, "",
+      fmt::format("column mapping \"{}\": {}; {}", shortened(text, 100), why, kForm));
 }
 
 }  // namespace
-
-Result<ColumnMapping> parse_column_mapping(std::string_view text) {
-  const auto halves = halves_of(text);
-  if (!halves) return wrong(text, halves.error(), kForm);
-  ColumnMapping mapping{.name = std::string(halves->name), .source = {}};
-  if (const auto fault = take_body(halves->body, mapping)) return wrong(text, *fault, kForm);
-  return mapping;
-}
 
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression) {
   return parse_column(fmt::format("{}={}", name, expression));
@@ -120,23 +107,23 @@ Result<ColumnMapping> parse_column(std::string_view name, std::string_view expre
 
 Result<ColumnMapping> parse_column(std::string_view text) {
   const auto halves = halves_of(text);
-  if (!halves) return wrong(text, halves.error(), kExpressionForm);
+  if (!halves) return wrong(text, halves.error());
   const std::size_t colon = halves->name.rfind(':');
   const bool per_file = colon != std::string_view::npos;
   ColumnMapping mapping{.name = std::string(trimmed(halves->name.substr(per_file ? colon + 1 : 0))),
                         .source = {}};
   if (per_file) mapping.file = trimmed(halves->name.substr(0, colon));
-  if (mapping.name.empty()) return wrong(text, "the NAME is empty", kExpressionForm);
-  if (per_file && mapping.file.empty()) return wrong(text, "the FILE is empty", kExpressionForm);
-  if (halves->body.empty()) return wrong(text, "the EXPRESSION is empty", kExpressionForm);
+  if (mapping.name.empty()) return wrong(text, "the NAME is empty");
+  if (per_file && mapping.file.empty()) return wrong(text, "the FILE is empty");
+  if (halves->body.empty()) return wrong(text, "the EXPRESSION is empty");
   mapping.expression = halves->body;
-  const auto fault = take_body(halves->body, mapping);
-  if (!fault) return mapping;
-  if (mapping.scale == 0.0) return wrong(text, *fault, kExpressionForm);
+  const bool is_scaled = take_body(halves->body, mapping);
+  if (mapping.scale == 0.0) return wrong(text, "a scale of 0 would make all values the same");
+  if (is_scaled) return mapping;
   mapping = {
       .name = mapping.name, .source = {}, .expression = mapping.expression, .file = mapping.file};
   if (const auto expression = ColumnExpression::parse(mapping.expression); !expression) {
-    return wrong(text, expression.error(), kExpressionForm);
+    return wrong(text, expression.error());
   }
   return mapping;
 }

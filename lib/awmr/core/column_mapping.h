@@ -24,13 +24,10 @@ struct ColumnMapping {
                                 ///< priority and may be unused
 };
 
-/// Parses `NAME=SOURCE[*SCALE][+OFFSET]`. A SOURCE that contains '*' or '+' must be in double
-/// quotes. After a scale or a quoted SOURCE, `-OFFSET` is also accepted. Errors: not of that form;
-/// a scale or offset that is not a finite number; a scale of 0.
-Result<ColumnMapping> parse_column_mapping(std::string_view text);
-
 /// Parses `[FILE:]NAME=EXPRESSION`, where EXPRESSION is `SOURCE[*SCALE][+OFFSET]`, a formula
-/// (column_expression.h) or a constant. Errors: a text that is none of these; a scale of 0.
+/// (column_expression.h) or a constant. A SOURCE that contains '*' or '+' must be in double quotes.
+/// After a scale or a quoted SOURCE, `-OFFSET` is also accepted. Errors: a text that is none of
+/// these; a scale of 0.
 Result<ColumnMapping> parse_column(std::string_view text);
 /// The same, with `[FILE:]NAME` and EXPRESSION as separate texts, as in JSON.
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);

@@ -8,9 +8,6 @@ namespace awmr {
 double normal_cdf(double z);
 /// P(Z > z), accurate for large z too.
 double normal_tail(double z);
-/// 99.5 % quantile of the standard normal distribution: half width of a 99 % interval, in standard
-/// deviations.
-inline constexpr double kNormalQuantile995 = 2.576;
 
 /// P(T > t), T Student's t with degrees_of_freedom > 0.
 double students_t_tail(double t, double degrees_of_freedom);

@@ -5,8 +5,6 @@
 #include <array>
 #include <stdexcept>
 
-#include "awmr/core/file.h"
-
 namespace awmr {
 
 namespace {
@@ -46,11 +44,6 @@ std::string sha256_hex(std::string_view bytes) {
   Sha256 hash;
   hash.add(bytes);
   return hash.hex();
-}
-
-Result<std::string> sha256_of_file(const std::filesystem::path& path) {
-  AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(path));
-  return sha256_hex(bytes);
 }
 
 }  // namespace awmr

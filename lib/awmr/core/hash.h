@@ -1,12 +1,9 @@
 /// SHA-256 hashes, by which output files identify the input files that they were made from.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
-
-#include "awmr/core/result.h"
 
 namespace awmr {
 
@@ -24,7 +21,5 @@ class Sha256 {
 
 /// The hash of the bytes as 64 lower-case hexadecimal digits.
 std::string sha256_hex(std::string_view bytes);
-/// The same for the bytes of a file. Errors: as read_file().
-Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace awmr

@@ -17,22 +17,10 @@ namespace {
 
 constexpr long kMaxShards = 1'000'000;
 
-/// The keys of shard.json that all kinds of job have. They precede the payload (ShardKind::read).
-Json common_keys(const ShardKind& kind, const PartOrigin& origin,
-                 const std::vector<std::string>& files) {
-  Json json = output_document(kind.schema, origin.provenance);
-  json["shard_index"] = origin.shard.index;
-  json["shard_count"] = origin.shard.count;
-  json["arithmetic"] = origin.arithmetic;
-  json[kind.files.front().hash_key] = sha256_hex(files.front());
-  json["stopped"] = origin.stopped;
-  for (std::size_t i = 1; i < files.size(); ++i) {
-    json[kind.files[i].hash_key] = sha256_hex(files[i]);
-  }
-  return json;
-}
+/// Key of the table's SHA-256 in shard.json.
+constexpr const char* kHashKey = "csv_sha256";
 
-/// Reads shard.json: the keys written by common_keys(), then the payload.
+/// Reads shard.json: the keys that all kinds of job have, then the payload.
 PartOrigin read_part(const ShardKind& kind, JsonObject& json) {
   json.schema(kind.schema);
   PartOrigin origin{
@@ -40,10 +28,10 @@ PartOrigin read_part(const ShardKind& kind, JsonObject& json) {
       .shard = {.index = static_cast<int>(json.integer("shard_index", 1, kMaxShards)),
                 .count = static_cast<int>(json.integer("shard_count", 1, kMaxShards))},
       .arithmetic = json.optional_string("arithmetic").value_or("scalar"),
-      .stopped = json.boolean("stopped"),
       .version = json.string("version")};
-  for (const ShardFile& file : kind.files) json.string(file.hash_key);
+  json.string(kHashKey);
   json.ignore("command");
+  json.ignore("stopped");  // of older files
   kind.read(json);
   json.reject_unknown_keys();
   return origin;
@@ -81,10 +69,52 @@ Result<Part> read_part(const ShardKind& kind, const std::filesystem::path& direc
 
 /// shard.json without the keys that may differ between the parts of one job.
 Json shared_keys(const ShardKind& kind, Json json) {
-  for (const char* key : {"shard_index", "stopped", "arithmetic"}) json.erase(key);
-  json.erase(kind.files.front().hash_key);
+  for (const char* key : {"shard_index", "stopped", "arithmetic", kHashKey}) json.erase(key);
   for (const char* key : kind.own_keys) json.erase(key);
   return json;
+}
+
+/// Names of the (name, value) pairs that are in only one of the two lists.
+std::set<std::string> differing(const std::vector<std::pair<std::string, std::string>>& a,
+                                const std::vector<std::pair<std::string, std::string>>& b) {
+  std::set<std::string> names;
+  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const auto& one : *own) {
+      if (std::ranges::find(*other, one) == other->end()) names.insert(one.first);
+    }
+  }
+  return names;
+}
+
+/// The inputs as (name, hash).
+std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& provenance) {
+  std::vector<std::pair<std::string, std::string>> inputs;
+  for (const InputFile& input : provenance.inputs) inputs.emplace_back(input.name, input.sha256);
+  return inputs;
+}
+
+/// Text that says how the origin of a part (`found`) differs from that of the part called `name`
+/// (`expected`): by program version (`found_version`, compared with that of this program), options
+/// or inputs. Empty if they agree.
+std::string origin_difference(const Provenance& found, const std::string& found_version,
+                              const Provenance& expected, const std::string& name) {
+  if (found_version != version()) {
+    return fmt::format("was written by version {} of the program, but this is {}", found_version,
+                       version());
+  }
+  std::set<std::string> options;
+  for (const std::string& option : differing(found.options, expected.options)) {
+    options.insert(option_text(option));
+  }
+  if (!options.empty()) {
+    return fmt::format("was made with other options ({}) than {}", fmt::join(options, ", "), name);
+  }
+  const auto inputs = inputs_of(found), expected_inputs = inputs_of(expected);
+  if (inputs == expected_inputs) return {};
+  const std::set<std::string> files = differing(inputs, expected_inputs);
+  return files.empty()
+             ? fmt::format("was made from the same inputs as {} in another order", name)
+             : fmt::format("was made from other inputs ({}) than {}", fmt::join(files, ", "), name);
 }
 
 /// Text that says why `part` cannot be combined with the first part; empty if it can.
@@ -104,7 +134,6 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
   const std::string other =
       origin_difference(part.origin.provenance, part.origin.version, first.origin.provenance, name);
   if (!other.empty()) return other;
-  if (part.origin.stopped) return "this part was stopped before its end; run it again";
   if (part.origin.arithmetic != first.origin.arithmetic) {
     return fmt::format(
         "was computed in {} arithmetic, but {} in {}: their numbers are rounded differently; {}",
@@ -152,78 +181,35 @@ Status check_parts(const ShardKind& kind, const std::vector<Part>& parts) {
   return {};
 }
 
-/// Names of the (name, value) pairs that are in only one of the two lists.
-std::set<std::string> differing(const std::vector<std::pair<std::string, std::string>>& a,
-                                const std::vector<std::pair<std::string, std::string>>& b) {
-  std::set<std::string> names;
-  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
-    for (const auto& one : *own) {
-      if (std::ranges::find(*other, one) == other->end()) names.insert(one.first);
-    }
-  }
-  return names;
-}
-
-/// The inputs as (name, hash).
-std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& provenance) {
-  std::vector<std::pair<std::string, std::string>> inputs;
-  for (const InputFile& input : provenance.inputs) inputs.emplace_back(input.name, input.sha256);
-  return inputs;
-}
-
 }  // namespace
 
-PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::vector<std::string> files,
+PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::string table,
                    const Json& payload) {
-  Json json = common_keys(kind, origin, files);
+  Json json = output_document(kind.schema, origin.provenance);
+  json["shard_index"] = origin.shard.index;
+  json["shard_count"] = origin.shard.count;
+  json["arithmetic"] = origin.arithmetic;
+  json[kHashKey] = sha256_hex(table);
   json.update(payload);
-  return {.shard_json = to_text(json), .files = std::move(files)};
+  return {.shard_json = to_text(json), .table = std::move(table)};
 }
 
-std::vector<std::string> part_files(const ShardKind& kind) {
-  std::vector<std::string> names{kShardFile};
-  for (const ShardFile& file : kind.files) names.emplace_back(file.name);
-  return names;
-}
+std::vector<std::string> part_files(const ShardKind& kind) { return {kShardFile, kind.table}; }
 
 Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                   const PartText& part) {
-  std::vector<OutputFile> files;
-  for (std::size_t i = 0; i < part.files.size(); ++i) {
-    files.push_back({directory / kind.files[i].name, part.files[i],
-                     [&, i](std::string_view text, const std::string& file) {
-                       return kind.files[i].check(text, file, part.shard_json);
-                     }});
-  }
-  // shard.json is written last, because it has the hashes of the other files.
-  files.push_back({directory / kShardFile, part.shard_json,
-                   [&](std::string_view text, const std::string& file) {
-                     return check_json_object(text, file,
-                                              [&](JsonObject& json) { read_part(kind, json); });
-                   }});
+  // shard.json is written last, because it has the hash of the table.
+  const OutputFile files[] = {{directory / kind.table, part.table,
+                               [&](std::string_view text, const std::string& file) {
+                                 return kind.check(text, file, part.shard_json);
+                               }},
+                              {directory / kShardFile, part.shard_json,
+                               [&](std::string_view text, const std::string& file) {
+                                 return check_json_object(
+                                     text, file, [&](JsonObject& json) { read_part(kind, json); });
+                               }}};
   AWMR_RETURN_IF_ERROR(make_directory(directory));
   return write_files(files);
-}
-
-bool is_finished_part(const ShardKind& kind, const std::filesystem::path& directory,
-                      const Shard& shard, const Provenance& provenance) {
-  const auto found = read_shard_json(directory);
-  if (!found || !found->is_object()) return false;
-  std::vector<std::string> files;
-  for (const ShardFile& file : kind.files) {
-    auto text = check_regular_file(directory / file.name).and_then([&] {
-      return read_file(directory / file.name);
-    });
-    if (!text) return false;
-    files.push_back(*std::move(text));
-  }
-  const Json expected = common_keys(
-      kind, {.provenance = provenance, .shard = shard, .arithmetic = kind.arithmetic()}, files);
-  for (const auto& [key, value] : expected.items()) {
-    const auto there = found->find(key);
-    if (there == found->end() || *there != value) return false;
-  }
-  return true;
 }
 
 Result<std::string> schema_of_part(const std::filesystem::path& directory) {
@@ -252,11 +238,11 @@ Result<std::vector<Part>> read_parts(const ShardKind& kind,
   return parts;
 }
 
-Result<std::string> read_part_file(const Part& part, const ShardFile& file) {
-  const std::filesystem::path path = part.directory / file.name;
+Result<std::string> read_table(const ShardKind& kind, const Part& part) {
+  const std::filesystem::path path = part.directory / kind.table;
   AWMR_RETURN_IF_ERROR(check_regular_file(path));
   AWMR_ASSIGN_OR_RETURN(std::string text, read_file(path));
-  if (part.json.at(file.hash_key) != Json(sha256_hex(text))) {
+  if (part.json.at(kHashKey) != Json(sha256_hex(text))) {
     return input_error(ErrorCode::kStaleResult, path.string(),
                        fmt::format("is not as it was written with {}: it was changed "
                                    "or cut off; run the part again",
@@ -265,9 +251,9 @@ Result<std::string> read_part_file(const Part& part, const ShardFile& file) {
   return text;
 }
 
-Status check_items(const Part& part, const ShardFile& file, std::string_view name, int items,
+Status check_items(const ShardKind& kind, const Part& part, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of) {
-  const std::string place = (part.directory / file.name).string();
+  const std::string place = (part.directory / kind.table).string();
   const Shard& shard = part.origin.shard;
   if (const auto fault = shard_fault(shard, items, fmt::format("{}s", name))) {
     return input_error(ErrorCode::kStaleResult, (part.directory / kShardFile).string(),
@@ -289,27 +275,6 @@ Status check_items(const Part& part, const ShardFile& file, std::string_view nam
       fmt::format("the table has {} rows, not a multiple of the {} {}s of part {} of {}: rows "
                   "are missing or repeated; run the part again",
                   rows, share, name, shard.index, shard.count));
-}
-
-std::string origin_difference(const Provenance& found, const std::string& found_version,
-                              const Provenance& expected, const std::string& name) {
-  if (found_version != version()) {
-    return fmt::format("was written by version {} of the program, but this is {}", found_version,
-                       version());
-  }
-  std::set<std::string> options;
-  for (const std::string& option : differing(found.options, expected.options)) {
-    options.insert(option_text(option));
-  }
-  if (!options.empty()) {
-    return fmt::format("was made with other options ({}) than {}", fmt::join(options, ", "), name);
-  }
-  const auto inputs = inputs_of(found), expected_inputs = inputs_of(expected);
-  if (inputs == expected_inputs) return {};
-  const std::set<std::string> files = differing(inputs, expected_inputs);
-  return files.empty()
-             ? fmt::format("was made from the same inputs as {} in another order", name)
-             : fmt::format("was made from other inputs ({}) than {}", fmt::join(files, ", "), name);
 }
 
 }  // namespace awmr

@@ -18,18 +18,18 @@
 
 namespace awmr {
 
-/// The keys that every shard.json has, except the hashes of the part's files.
+/// The keys that every shard.json has, except the hash of the table.
 struct PartOrigin {
   Provenance provenance;
   Shard shard;
-  std::string arithmetic;    ///< ShardKind::arithmetic; "scalar" in files of earlier versions
-  bool stopped = false;      ///< true: stopped before all items were done; must be run again
+  std::string arithmetic;    ///< how numbers were rounded; all parts of a job must agree.
+                             ///< "scalar" in files of earlier versions
   std::string version = {};  ///< version of the program that wrote it
 };
 
-/// Returns the texts of a part's files, shard.json included. `files`: the texts of the others, in
-/// the order of ShardKind::files; `payload`: the keys of shard.json that ShardKind::read reads.
-PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::vector<std::string> files,
+/// Returns the texts of a part's files. `payload`: the keys of shard.json that ShardKind::read
+/// reads.
+PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::string table,
                    const Json& payload);
 
 /// A part that was read.
@@ -40,7 +40,7 @@ struct Part {
 };
 
 /// Reads the parts in the directories, checks that they are all parts of one job, and returns them
-/// by shard index. Errors (input): a part that was stopped, is missing or given twice; parts that
+/// by shard index. Errors (input): a part that is missing or given twice; parts that
 /// differ in kind, program version, number of parts, options, inputs, arithmetic or payload.
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories);
@@ -54,24 +54,23 @@ auto payload_of(const Json& shard_json, const Read& read) {
   return read(json);
 }
 
-/// Reads a file of a part. Errors: as read_file(); (input) the hash of the file differs from the
+/// Reads the table of a part. Errors: as read_file(); (input) the hash of the table differs from the
 /// one in shard.json.
-Result<std::string> read_part_file(const Part& part, const ShardFile& file);
+Result<std::string> read_table(const ShardKind& kind, const Part& part);
 
 /// Checks that the `rows` rows of a part's table belong to the part's items: the items in order,
 /// once or several times over. `items`: number of items of the whole job. `item_of(i)`: item of row
 /// i. `name`: kind of item, "run". Errors (input): the shard does not fit a job of `items` items;
 /// the table has no rows; a row belongs to another item; rows are missing or repeated.
-Status check_items(const Part& part, const ShardFile& file, std::string_view name, int items,
+Status check_items(const ShardKind& kind, const Part& part, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 
 /// Merges the rows of all parts into the order that a job without shards has. `parts`: the rows of
 /// each part, by shard index. The rows of a part are one or more blocks; each block has all items
-/// of the part in order, with `per_item` rows per item. `items`: number of items of the whole job.
+/// of the part in order. `items`: number of items of the whole job.
 /// Errors (input): the parts have different numbers of blocks.
 template <class Row>
-Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items,
-                                           std::size_t per_item = 1) {
+Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items) {
   std::size_t rows = 0;
   for (const std::vector<Row>& part : parts) rows += part.size();
   std::vector<Row> all;
@@ -79,25 +78,17 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
   while (all.size() < rows) {
     for (std::size_t item = 0; item < at(items); ++item) {
       const std::vector<Row>& part = parts[item % parts.size()];
-      std::size_t& begin = next[item % parts.size()];
-      if (part.size() - begin < per_item) {
+      std::size_t& row = next[item % parts.size()];
+      if (row == part.size()) {
         return input_error(ErrorCode::kStaleResult, "",
                            fmt::format("part {} of {} has fewer rows than another: it has lost "
                                        "rows, or the other repeats some; run both again",
                                        item % parts.size() + 1, parts.size()));
       }
-      all.insert(all.end(), part.begin() + eigen_index(begin),
-                 part.begin() + eigen_index(begin + per_item));
-      begin += per_item;
+      all.push_back(part[row++]);
     }
   }
   return all;
 }
-
-/// Text for messages: how the origin of a result (`found`) differs from that of the result called
-/// `name` (`expected`), with which it is to be combined. Compared are the program version
-/// (`found_version` with that of this program), the options and the inputs. Empty if they agree.
-std::string origin_difference(const Provenance& found, const std::string& found_version,
-                              const Provenance& expected, const std::string& name);
 
 }  // namespace awmr

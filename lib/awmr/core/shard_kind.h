@@ -1,6 +1,6 @@
 /// A part: the directory with the stored results of one shard (shard.h) of a job. The file
-/// shard.json in it identifies the shard and its origin (options, inputs, program version); the
-/// other files have the results.
+/// shard.json in it identifies the shard and its origin (options, inputs, program version); a table
+/// (CSV) has the results.
 #pragma once
 
 #include <filesystem>
@@ -19,33 +19,24 @@ class JsonObject;
 /// Name of the file that identifies a part.
 inline constexpr const char* kShardFile = "shard.json";
 
-/// One of the files with the results of a part.
-struct ShardFile {
-  const char* name;
-  const char* hash_key;  ///< key in shard.json with the file's SHA-256
-  /// Checks the text of the file before it is written (ReadBack in file.h). `shard_json`: the text
-  /// of the part's shard.json.
-  Status (*check)(std::string_view text, const std::string& file, const std::string& shard_json);
-};
-
 /// A kind of job that can be divided into shards.
 struct ShardKind {
-  const char* schema;            ///< value of the key `schema` in shard.json
-  const char* title;             ///< title of the JSON Schema of shard.json
-  std::vector<ShardFile> files;  ///< files of a part; at least one
+  const char* schema;  ///< value of the key `schema` in shard.json
+  const char* title;   ///< title of the JSON Schema of shard.json
+  const char* table;   ///< name of the file with the results
+  /// Checks the text of the table before it is written (ReadBack in file.h). `shard_json`: the text
+  /// of the part's shard.json.
+  Status (*check)(std::string_view text, const std::string& file, const std::string& shard_json);
   /// Keys of the payload (see `read`) that may differ between the parts of one job.
   std::vector<const char*> own_keys;
-  /// Identifies how numbers are rounded on this machine; all parts of a job must agree.
-  std::string (*arithmetic)();
   const char* arithmetic_advice;  ///< for messages: how to get parts with the same arithmetic
   /// Reads and checks the payload: the keys of shard.json that only this kind of job has.
   void (*read)(JsonObject& json);
 };
 
-/// Texts of a part: shard.json, and its files in the order of ShardKind::files.
+/// Texts of the files of a part.
 struct PartText {
-  std::string shard_json;
-  std::vector<std::string> files;
+  std::string shard_json, table;
 };
 
 /// Names of the files of a part, shard.json first.
@@ -55,12 +46,6 @@ std::vector<std::string> part_files(const ShardKind& kind);
 /// write_files().
 Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                   const PartText& part);
-
-/// True if the directory has the complete part for this shard: its shard.json has this shard, this
-/// provenance, this program's version and this machine's arithmetic, and its files have the hashes
-/// in shard.json. Such a part need not be computed again.
-bool is_finished_part(const ShardKind& kind, const std::filesystem::path& directory,
-                      const Shard& shard, const Provenance& provenance);
 
 /// The value of the key `schema` in the directory's shard.json, which identifies the kind of the
 /// part; empty if shard.json has no such key. Errors: as read_json_file().

@@ -101,8 +101,6 @@ struct IdentifyOptions {
   /// Logs: time limit of all searches together, s; 0: none. A fit that has not converged by then is
   /// refused. The amount of computation is always limited.
   double time_limit_s = 0.0;
-  /// Logs: predicts each log by a fit of the other logs; needs two logs.
-  bool cross_validate = false;
   int threads = 0;  ///< 0: one per core; the result does not depend on the number of threads
   /// Tables: false fits only with the requested estimator, without fits for comparison and without
   /// residual tests.

@@ -142,21 +142,6 @@ inline float sin(float x) { return detail::sin_from(x, 0); }
 /// cos x, |x| <= kAngleMax. Worst absolute error 7.9e-8.
 inline float cos(float x) { return detail::sin_from(x, 1); }
 
-/// sin x and cos x with one reduction of x to +-pi/4; errors as of sin() and cos().
-AWMR_CALLED inline void sin_cos(float x, float& sine, float& cosine) {
-  if (!(::fabsf(x) <= kAngleMax)) {
-    sine = cosine = not_a_number();
-    return;
-  }
-  const int k = nearest(x * 0.636619772F);
-  const float rest = detail::reduced(x, k);
-  // A loop, so that the polynomials are inlined only once.
-  float values[2];
-  for (int i = 0; i < 2; ++i) values[i] = detail::sin_of_reduced(rest, k + i);
-  sine = values[0];
-  cosine = values[1];
-}
-
 namespace detail {
 
 /// `eighths` times pi/4, for 0 to 4.

@@ -45,7 +45,7 @@ Gains<double> gains_from_file(JsonObject& root) {
   for (const std::string_view key :
        {"command", "version", "mode", "options", "inputs", "time_constants", "constraints",
         "limits", "certificate", "trade_off", "examined", "objective", "metrics", "robust", "goals",
-        "sensitivity", "search", "baseline", "findings"}) {
+        "search", "baseline", "findings", "sensitivity"}) {  // the last: of older files
     root.ignore(key);
   }
   root.reject_unknown_keys();

@@ -41,6 +41,21 @@ Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
   return model.plant_as_known();
 }
 
+/// The motion that a trial of this kind measures.
+Motion motion_of(TrialKind kind) {
+  switch (kind) {
+    case TrialKind::kSurge:
+      return Motion::kSteadySurge;
+    case TrialKind::kTurning:
+      return Motion::kSteadyTurn;
+    case TrialKind::kCoastdown:
+      return Motion::kStraight;
+    case TrialKind::kLog:
+      break;
+  }
+  return Motion::kPlanar;
+}
+
 }  // namespace
 
 bool is_absent_term(const Model& model, ParameterId id) {
@@ -89,20 +104,6 @@ bool takes(Motion motion, ParameterId id) {
       break;
   }
   return motion == Motion::kPlanar;
-}
-
-Motion motion_of(TrialKind kind) {
-  switch (kind) {
-    case TrialKind::kSurge:
-      return Motion::kSteadySurge;
-    case TrialKind::kTurning:
-      return Motion::kSteadyTurn;
-    case TrialKind::kCoastdown:
-      return Motion::kStraight;
-    case TrialKind::kLog:
-      break;
-  }
-  return Motion::kPlanar;
 }
 
 Result<Plant<double>> Model::plant(Motion motion) const {

@@ -94,8 +94,6 @@ enum class Motion {
 };
 /// True if the motion's equations contain the parameter.
 bool takes(Motion motion, ParameterId id);
-/// The motion that a trial of this kind measures.
-Motion motion_of(TrialKind kind);
 
 /// The identified vehicle: the data given before the trials (`vehicle`), the resistance families,
 /// and every identified quantity with its uncertainty.

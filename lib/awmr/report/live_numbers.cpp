@@ -104,7 +104,7 @@ Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
   setup.context.speed_mps = setup.speed_mps = scenario.speed_mps;
   AWMR_ASSIGN_OR_RETURN(const Draws draws, take_tuning(gains, setup));
   AWMR_ASSIGN_OR_RETURN(const std::vector<DrawnVehicle> vehicles,
-                        vehicles_of(model, draws.count, draws.seed, draws.open));
+                        vehicles_of(model, draws.count, draws.seed, draws.open, Spread::kEven));
   setup.context.draws.assign(vehicles.begin() + 1, vehicles.end());
   setup.allocation_form = static_cast<double>(model.vehicle.allocation);
   setup.duration_s = scenario.duration_s;

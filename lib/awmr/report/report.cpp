@@ -135,11 +135,6 @@ Status check_report_page(const fs::path& path) {
       "is not a page that awmr wrote, and the report would replace it. Move the file away");
 }
 
-Result<std::string> report_html(const fs::path& directory) {
-  AWMR_ASSIGN_OR_RETURN(ReportPage page, report_page(directory));
-  return std::move(page.html);
-}
-
 Result<FigureSet> report_figures(const fs::path& directory) {
   AWMR_ASSIGN_OR_RETURN(const ReportData data, read_report_data(directory));
   AWMR_ASSIGN_OR_RETURN(const FiguresOfResults figures, figures_of(data));

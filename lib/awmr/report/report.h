@@ -12,13 +12,6 @@
 
 namespace awmr {
 
-/// Returns the page for a directory of results. Reads model.json and, if present, gains.json,
-/// validation.json, comparison.json and .csv, pil.json, suggest.json, awmr_emit.json (also in
-/// `firmware`), the scenarios `scenario_<scenario>.json` and the runs
-/// `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files (.csv.json). Errors (input):
-/// there is no model.json, or a file is invalid.
-Result<std::string> report_html(const std::filesystem::path& directory);
-
 /// The page, and warnings about the results that it omits.
 struct ReportPage {
   std::string html;
@@ -26,7 +19,11 @@ struct ReportPage {
   /// gains, or because its inputs are unknown.
   std::vector<Finding> left_out;
 };
-/// Returns the page of report_html() and the warnings. Errors: as report_html().
+/// Returns the page for a directory of results. Reads model.json and, if present, gains.json,
+/// validation.json, comparison.json and .csv, pil.json, suggest.json, awmr_emit.json (also in
+/// `firmware`), the scenarios `scenario_<scenario>.json` and the runs
+/// `run_<scenario>_<mode>_<tuned|paper>.csv` with their side files (.csv.json). Errors (input):
+/// there is no model.json, or a file is invalid.
 Result<ReportPage> report_page(const std::filesystem::path& directory);
 
 /// Checks that the page may be written to `path`. Error (input): a file of this name exists and is
@@ -45,7 +42,7 @@ struct FigureSet {
 };
 
 /// Makes all figures for which the directory has results. The same results give the same bytes.
-/// Errors: as report_html(); a figure has a number that is not finite.
+/// Errors: as report_page(); a figure has a number that is not finite.
 Result<FigureSet> report_figures(const std::filesystem::path& directory);
 
 /// JSON Schema of figures.json.

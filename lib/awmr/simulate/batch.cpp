@@ -79,11 +79,6 @@ Result<BatchArithmetic> batch_arithmetic() {
                      fmt::format("unsupported instruction set '{}'; available: {}", name, known));
 }
 
-std::string batch_rounding() {
-  const auto arithmetic = batch_arithmetic();
-  return arithmetic ? std::string(arithmetic->rounding) : "";
-}
-
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic) {

@@ -56,8 +56,6 @@ inline constexpr std::size_t kBatchRuns = 16;
 /// The widest instruction set of this processor, or, for tests, the one in the environment variable
 /// AWMR_INSTRUCTIONS. Errors (input): the requested instruction set is not available.
 Result<BatchArithmetic> batch_arithmetic();
-/// `rounding` of batch_arithmetic(); empty on an error.
-std::string batch_rounding();
 
 /// Simulates the runs and returns the metrics of each, in order. Errors (input) of a run: those of
 /// failure_of(). Precondition: the controllers of all runs have the same driven wheels, combined

@@ -247,11 +247,7 @@ struct SideShares {
   double of_difference = 0.0;
   bool is_positive = true;  ///< true: y has the sign of F'R - F'L
 
-  bool follows_difference() const { return explains(of_difference, of_sum); }
-  bool follows_sum() const { return explains(of_sum, of_difference); }
-
- private:
-  static bool explains(double one, double other) { return one > 0.5 && one > 3.0 * other; }
+  bool follows_difference() const { return of_difference > 0.5 && of_difference > 3.0 * of_sum; }
 };
 
 template <class Y>

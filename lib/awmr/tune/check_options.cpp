@@ -14,7 +14,6 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/model/observer_rate.h"
-#include "awmr/tune/global_sensitivity.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
 
@@ -124,18 +123,6 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   }
 }
 
-void check_part(const TuneOptions& options, std::vector<Fault>& faults) {
-  if (!options.shard) return;
-  if (options.nominal) {
-    faults.push_back({ErrorCode::kConflict, option_text("shard"),
-                      "nominal disables the draws that a shard divides; remove one of the two"});
-  }
-  if (auto fault =
-          shard_fault(*options.shard, options.evaluation_draws, "fresh draws (judged_draws)")) {
-    faults.push_back(std::move(*fault));
-  }
-}
-
 void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
   std::set<std::string> figures;
   for (const auto& [figure, most] : goal.at_most) {
@@ -160,20 +147,6 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
     faults.push_back({ErrorCode::kOutOfRange, "",
                       fmt::format("goals: the share {} is out of range; give a number in {} ... {}",
                                   goal.share, kGoalShare.min, kGoalShare.max)});
-  }
-}
-
-void check_sensitivity(const TuneOptions& options, std::vector<Fault>& faults) {
-  if (options.sensitivity == 0) return;
-  if (options.sensitivity < kMinSobolSamples || options.sensitivity > kMaxSobolSamples) {
-    faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("sensitivity: {} is neither 0 nor in {} ... {}",
-                                  options.sensitivity, kMinSobolSamples, kMaxSobolSamples)});
-  }
-  if (options.nominal) {
-    faults.push_back({ErrorCode::kConflict, "",
-                      "sensitivity needs randomly drawn vehicles, which nominal disables; remove "
-                      "one of the two"});
   }
 }
 
@@ -243,7 +216,6 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
   std::vector<Fault> faults;
   check_mode(options, vehicle, faults);
   check_goals(options, vehicle, faults);
-  check_sensitivity(options, faults);
   search_options(options, CheckOption{faults});
   limit_options(options.limits, CheckOption{faults, "limits: "});
   check_late_limits(options, faults);
@@ -261,7 +233,6 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
     faults.push_back({ErrorCode::kOutOfRange, "", "weights: at least one has to be above 0"});
   }
   check_open(options, faults);
-  check_part(options, faults);
   check_scenarios(options.scenarios, options.observer.has_value(), faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return {};

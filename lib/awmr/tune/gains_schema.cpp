@@ -3,6 +3,7 @@
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_json.h"
 #include "awmr/model/parameters.h"
+#include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/tune.h"
@@ -157,25 +158,6 @@ void describe_goals(JsonObject& json) {
   }
 }
 
-/// Sobol indices, by mode and metric.
-void describe_sensitivity(JsonObject json) {
-  json.number("samples", kPositive);
-  for (JsonObject& figure : json.objects("figures")) {
-    figure.choice("mode", kYawModeNames);
-    figure.string("figure");
-    figure.number("mean");
-    figure.number("std", kNonNegative);
-    for (JsonObject& input : figure.objects("by_input")) {
-      input.string("input");
-      for (const char* key : {"first", "total"}) input.number(key);
-      for (const char* key : {"first_ci95", "total_ci95"}) input.interval(key);
-      input.reject_unknown_keys();
-    }
-    figure.reject_unknown_keys();
-  }
-  json.reject_unknown_keys();
-}
-
 void describe_worst_case(JsonObject json, const char* value) {
   json.nullable_number(value);
   json.number("yaw_rate_degps", kNonNegative);
@@ -260,7 +242,7 @@ void describe_gains(JsonObject& json) {
   if (auto search = json.optional_object("search")) describe_search(*search);
   if (auto robust = json.optional_object("robust")) describe_robust(*robust);
   describe_goals(json);
-  if (auto sensitivity = json.optional_object("sensitivity")) describe_sensitivity(*sensitivity);
+  json.ignore("sensitivity");  // of older files
   if (auto baseline = json.optional_object("baseline")) describe_baseline(*baseline);
   read_findings(json);
   json.reject_unknown_keys();

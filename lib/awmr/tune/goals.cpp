@@ -51,6 +51,13 @@ std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> 
 /// JSON.
 constexpr double kNoFigure = 1e100;
 
+/// Value of a metric for a run. Precondition: the metric exists.
+double figure_of_run(std::string_view name, const RunOutcome& outcome) {
+  const auto* figure =
+      std::ranges::find_if(kFiguresByName, [&](const RunFigure& one) { return one.name == name; });
+  return outcome.figures[static_cast<std::size_t>(figure - std::begin(kFiguresByName))];
+}
+
 }  // namespace
 
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario) {
@@ -70,12 +77,6 @@ std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
     outcomes.push_back(outcome_of(scores[i], scenarios[i % scenarios.size()]));
   }
   return outcomes;
-}
-
-double figure_of_run(std::string_view name, const RunOutcome& outcome) {
-  const auto* figure =
-      std::ranges::find_if(kFiguresByName, [&](const RunFigure& one) { return one.name == name; });
-  return outcome.figures[static_cast<std::size_t>(figure - std::begin(kFiguresByName))];
 }
 
 bool is_run_figure(std::string_view name) {

@@ -9,6 +9,7 @@
 /// is by the 95 % interval of the share of new draws that meet the goal.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,14 +20,30 @@
 
 namespace awmr {
 
+inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
+bool is_run_figure(std::string_view name);
+std::vector<std::string> run_figure_names();
+
+/// Metrics of a run for goals and evaluation. The objective uses other ones (kObjectiveTerms).
+struct RunOutcome {
+  YawMode mode{};
+  bool completed = false;  ///< true if the run settles after every heading step
+  bool broke_off = false;  ///< the run broke off; the metrics are those up to that time
+  /// In the order of run_figure_names(). The settling time of a run that does not settle is the
+  /// scenario's duration.
+  std::array<double, kRunFigures> figures{};
+};
+/// The runs of one set of gains, by draw, then mode, then scenario.
+struct EvaluatedRuns {
+  std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
+  std::vector<RunOutcome> outcomes;
+};
+
 /// Returns the metrics of a run that goals and evaluation need.
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
 /// outcome_of() for many runs. `scores` are by draw, then mode, then scenario.
 std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
                                     std::span<const Scenario> scenarios);
-
-/// Value of a metric for a run. Precondition: the metric exists.
-double figure_of_run(std::string_view name, const RunOutcome& outcome);
 
 /// Describes a goal: "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of draws".
 std::string in_words(const TuningGoal& goal);

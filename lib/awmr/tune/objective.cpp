@@ -38,11 +38,6 @@ Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
       .metrics;
 }
 
-/// Number of a vehicle's draw, which with the seed selects the random numbers of its runs.
-std::uint64_t number_of(const ObjectiveSetting& setting, std::size_t vehicle) {
-  return setting.numbers.empty() ? vehicle : setting.numbers[vehicle];
-}
-
 /// The runs of one scenario: by gains, then vehicle, then mode.
 std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
                               std::span<const Gains<double>> gains) {
@@ -54,7 +49,7 @@ std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
       vehicle.wheel_force = drawn.wheel_force;
       const auto controller = make_controller(setting.vehicles.front().plant, vehicle, one);
       for (const YawMode mode : setting.modes()) {
-        runs.push_back({drawn.plant, controller, mode, setting.seed, number_of(setting, i)});
+        runs.push_back({drawn.plant, controller, mode, setting.seed, i});
       }
     }
   }
@@ -133,9 +128,8 @@ RunNoise draw_noise(const ObjectiveSetting& setting) {
   RunNoise noise(setting.scenarios.size(), std::vector<DrawnNoise>(vehicles));
   parallel_for(setting.scenarios.size() * vehicles, 0, [&](std::size_t i) {
     const std::size_t scenario = i / vehicles;
-    noise[scenario][i % vehicles] =
-        draw_sensor_noise(setting.scenarios[scenario], setting.vehicle.sample_time_s, setting.seed,
-                          number_of(setting, i % vehicles));
+    noise[scenario][i % vehicles] = draw_sensor_noise(
+        setting.scenarios[scenario], setting.vehicle.sample_time_s, setting.seed, i % vehicles);
   });
   return noise;
 }

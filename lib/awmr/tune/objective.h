@@ -74,11 +74,9 @@ struct ObjectiveSetting {
   ObjectiveWeights weights;
   std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
   double tail_share = 1.0;          ///< share of the vehicles that counts as worst, (0, 1]
-  std::uint64_t seed = 0;           ///< seed of the random numbers of the runs
+  std::uint64_t seed = 0;           ///< with the index of a vehicle, it selects the random numbers
   BatchArithmetic arithmetic = {};  ///< instruction set and rounding of the runs
   std::vector<TuningGoal> goals = {};
-  /// Number of each vehicle, which with the seed selects its random numbers; empty: 0, 1, ...
-  std::vector<std::uint64_t> numbers = {};
   std::optional<YawMode> mode = {};  ///< the only mode to score; absent: all modes of the vehicle
 
   std::span<const YawMode> modes() const { return tuned_modes(vehicle, mode); }

@@ -115,6 +115,19 @@ class HeadingPoles {
   double least_broken_ = std::numeric_limits<double>::infinity();
 };
 
+/// Returns gains with the same poles, whose boundary layers contain the initial errors S = lambda e
+/// (e: the largest heading step) and e_u = u_d, so that only the actuators saturate, not the laws:
+///   mu >= lambda k e,   mu_s >= k_s u_d
+Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context) {
+  const double k = gains.heading.mu / gains.heading.epsilon;
+  const double k_s = gains.speed.mu / gains.speed.epsilon;
+  gains.heading.mu = std::max(gains.heading.mu, gains.heading.lambda * k * context.step_rad);
+  gains.heading.epsilon = gains.heading.mu / k;
+  gains.speed.mu = std::max(gains.speed.mu, k_s * context.speed_mps);
+  gains.speed.epsilon = gains.speed.mu / k_s;
+  return gains;
+}
+
 }  // namespace
 
 Gains<double> place_poles(const ConstraintContext& context, const ObserverGains<double>& observer) {
@@ -129,16 +142,6 @@ Gains<double> slowed(Gains<double> gains, double share) {
   gains.heading.lambda *= share;
   gains.heading.epsilon *= share;
   gains.heading.mu *= share * share;
-  return gains;
-}
-
-Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context) {
-  const double k = gains.heading.mu / gains.heading.epsilon;
-  const double k_s = gains.speed.mu / gains.speed.epsilon;
-  gains.heading.mu = std::max(gains.heading.mu, gains.heading.lambda * k * context.step_rad);
-  gains.heading.epsilon = gains.heading.mu / k;
-  gains.speed.mu = std::max(gains.speed.mu, k_s * context.speed_mps);
-  gains.speed.epsilon = gains.speed.mu / k_s;
   return gains;
 }
 

@@ -22,11 +22,6 @@ namespace awmr {
 Gains<double> place_poles(const ConstraintContext& context,
                           const ObserverGains<double>& observer = {});
 
-/// Returns gains with the same poles, whose boundary layers contain the initial errors S = lambda e
-/// (e: the largest heading step) and e_u = u_d, so that only the actuators saturate, not the laws:
-///   mu >= lambda k e,   mu_s >= k_s u_d
-Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context);
-
 /// Starts of the search: the result of place_poles() with wide boundary layers, and as it is. The
 /// default bounds of the gains are around these.
 std::array<Gains<double>, 2> starting_poles(const ConstraintContext& context,

@@ -13,7 +13,6 @@
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/plant_sampler.h"
-#include "awmr/tune/goals.h"
 
 namespace awmr {
 namespace {
@@ -59,8 +58,8 @@ EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::
 /// Applies the unmodelled variation (payload, battery voltage) of the drawn vehicle `number`, from
 /// 1. The mass factor changes with every vehicle, the wheel-force range after all mass factors were
 /// used.
-void open_up(const UnmodelledVariation& open, int number, DrawnVehicle& vehicle) {
-  const std::size_t turn = at(number - 1) % open.combinations();
+void open_up(const UnmodelledVariation& open, std::size_t number, DrawnVehicle& vehicle) {
+  const std::size_t turn = (number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
   if (!open.mass_factors.empty()) {
     vehicle.plant.mass_norm *= open.mass_factors[turn % masses];
@@ -87,45 +86,28 @@ Result<PlantSampler> sampler_of(Model model) {
   return PlantSampler::make(model);
 }
 
-/// The nominal vehicle, then the draws with these numbers and plants, each with its unmodelled
-/// variation. If `plants` is empty, the draws have the nominal plant.
-Result<std::vector<DrawnVehicle>> vehicles_with(const Model& model, std::span<const int> numbers,
-                                                const std::vector<Plant<double>>& plants,
-                                                const UnmodelledVariation& open) {
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
-  std::vector<DrawnVehicle> vehicles(numbers.size() + 1, {own, model.vehicle.wheel_force});
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!plants.empty()) vehicles[i + 1].plant = plants[i];
-    open_up(open, numbers[i], vehicles[i + 1]);
-  }
-  return vehicles;
-}
-
 }  // namespace
 
-Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
-                                              std::uint64_t seed, const UnmodelledVariation& open) {
-  std::vector<Plant<double>> plants;
+Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
+                                              const UnmodelledVariation& open, Spread spread) {
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> own, model.plant());
+  std::vector<Plant<double>> plants(at(draws), own);
   if (!model.covariance.parameters.empty()) {
     AWMR_ASSIGN_OR_RETURN(const PlantSampler sampler, sampler_of(model));
-    for (const int number : numbers) {
-      AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, sampler.draw(seed, number));
-      plants.push_back(plant);
+    if (spread == Spread::kEven) {
+      AWMR_ASSIGN_OR_RETURN(plants, sampler.draw_evenly(seed, draws));
+    } else {
+      for (int i = 0; i < draws; ++i) {
+        AWMR_ASSIGN_OR_RETURN(plants[at(i)], sampler.draw(seed, i + 1));
+      }
     }
   }
-  return vehicles_with(model, numbers, plants, open);
-}
-
-Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
-                                              const UnmodelledVariation& open) {
-  std::vector<int> numbers(at(draws));
-  std::iota(numbers.begin(), numbers.end(), 1);
-  std::vector<Plant<double>> plants;
-  if (!model.covariance.parameters.empty()) {
-    AWMR_ASSIGN_OR_RETURN(const PlantSampler sampler, sampler_of(model));
-    AWMR_ASSIGN_OR_RETURN(plants, sampler.draw_evenly(seed, draws));
+  std::vector<DrawnVehicle> vehicles{{own, model.vehicle.wheel_force}};
+  for (const Plant<double>& plant : plants) {
+    vehicles.push_back({plant, model.vehicle.wheel_force});
+    open_up(open, vehicles.size() - 1, vehicles.back());
   }
-  return vehicles_with(model, numbers, plants, open);
+  return vehicles;
 }
 
 std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,

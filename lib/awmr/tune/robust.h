@@ -2,26 +2,26 @@
 /// not tuned on. Private to tune/.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "awmr/core/result.h"
 #include "awmr/tune/drawn_vehicle.h"
+#include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/tune.h"
 
 namespace awmr {
 
-/// Returns the nominal vehicle, then the draws with these numbers (from 1), each with its
-/// unmodelled variation. The parameters of a draw come from the model's covariance; without a
-/// covariance, they are nominal. Errors (input): as PlantSampler::make and PlantSampler::draw.
-Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, std::span<const int> numbers,
-                                              std::uint64_t seed, const UnmodelledVariation& open);
-/// Returns the nominal vehicle, then the draws 1 to `draws`, which are spread evenly
-/// (PlantSampler::draw_evenly), each with its unmodelled variation. Errors (input): as
-/// PlantSampler::make and PlantSampler::draw_evenly.
+/// Distribution of draws: independent (PlantSampler::draw), or spread evenly
+/// (PlantSampler::draw_evenly).
+enum class Spread { kRandom, kEven };
+
+/// Returns the nominal vehicle, then the draws 1 to `draws`, each with its unmodelled variation.
+/// The parameters of a draw come from the model's covariance; without a covariance, they are
+/// nominal. Errors (input): as PlantSampler::make, PlantSampler::draw and
+/// PlantSampler::draw_evenly.
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
-                                              const UnmodelledVariation& open);
+                                              const UnmodelledVariation& open, Spread spread);
 
 /// Gains to evaluate, with their name in the result (EvaluatedGains::gains).
 struct NamedCandidate {

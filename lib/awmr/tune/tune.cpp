@@ -22,7 +22,6 @@
 #include "awmr/tune/certificate.h"
 #include "awmr/tune/check_options.h"
 #include "awmr/tune/constraints.h"
-#include "awmr/tune/global_sensitivity.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
 #include "awmr/tune/pole_placement.h"
@@ -78,8 +77,7 @@ Status check_work(const TuneOptions& options, const std::vector<Scenario>& scena
   if (!options.nominal) {
     steps *= 1.0 + options.draws;
     // The evaluation runs about three sets of gains (candidates_of()) on each draw.
-    evaluations += (3.0 * options.evaluation_draws + sensitivity_runs(model, options.sensitivity)) /
-                   (1.0 + options.draws);
+    evaluations += 3.0 * options.evaluation_draws / (1.0 + options.draws);
   }
   if (evaluations * steps <= kMaxSearchSteps) {
     const std::size_t modes = tuned_modes(model.vehicle, options.mode).size();
@@ -300,7 +298,6 @@ std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveS
     if (settled_share >= kSettledShare) return;
     ObjectiveSetting runs = setting;
     runs.mode = mode;
-    runs.numbers.clear();
     runs.goals.clear();
     if (runs.vehicles.size() > kVehicles) runs.vehicles.resize(kVehicles);
     if (!scenario.empty()) {
@@ -346,14 +343,6 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
 /// Number that is XORed with the seed, so that the evaluation uses other draws than the search.
 constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 
-/// Numbers of the new draws, from 1: those of the part `options.shard`, or all.
-std::vector<int> evaluation_draws_of(const TuneOptions& options) {
-  const Shard shard = options.shard.value_or(Shard{});
-  std::vector<int> draws(at(shard.share_of(options.evaluation_draws)));
-  for (int i = 0; int& draw : draws) draw = shard.item(i++) + 1;
-  return draws;
-}
-
 /// Sets of gains to evaluate: tuned, baseline, the paper's, and the tuned ones without their
 /// observer.
 std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
@@ -368,21 +357,14 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Runs the candidates on new draws and adds the statistics to `robust`. For a shard, adds the runs
-/// themselves instead, for merge_tune_shards().
+/// Runs the candidates on new draws and adds the statistics to `robust`.
 Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
                            const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};
   setting.seed ^= kEvaluationSeeds;
-  const std::vector<int> draws = evaluation_draws_of(options);
-  AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, draws, setting.seed, options.open));
-  setting.numbers = {0};
-  setting.numbers.insert(setting.numbers.end(), draws.begin(), draws.end());
-  std::vector<EvaluatedRuns> runs = run_candidates(setting, candidates);
-  if (options.shard) {
-    robust.runs = std::move(runs);
-    return {};
-  }
+  AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, options.evaluation_draws, setting.seed,
+                                                      options.open, Spread::kRandom));
+  const std::vector<EvaluatedRuns> runs = run_candidates(setting, candidates);
   const std::span<const YawMode> modes = setting.modes();
   std::vector<std::string> names;
   for (const Scenario& scenario : setting.scenarios) names.push_back(scenario.name);
@@ -405,13 +387,10 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                       .from_covariance = !model.covariance.parameters.empty(),
                       .evaluated = {},
                       .evaluated_by_scenario = {},
-                      .goals = {},
-                      .runs = {},
-                      .sensitivity = {}};
+                      .goals = {}};
   const LoopConditions& c = robust.conditions;
-  const ObjectiveSetting without_noise = setting;
-  AWMR_ASSIGN_OR_RETURN(setting.vehicles,
-                        vehicles_of(model, options.draws, options.seed, options.open));
+  AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, options.draws, options.seed,
+                                                      options.open, Spread::kEven));
   for (Scenario& scenario : setting.scenarios) scenario = under(c, std::move(scenario));
   setting.goals = options.goals;
   context.draws.assign(setting.vehicles.begin() + 1, setting.vehicles.end());
@@ -425,13 +404,8 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
   AWMR_RETURN_IF_ERROR(evaluate_candidates(model, setting, options, candidates_of(tuning), robust));
-  if (options.sensitivity > 0) {
-    AWMR_ASSIGN_OR_RETURN(robust.sensitivity,
-                          global_sensitivity(model, without_noise, robust.conditions, tuning.gains,
-                                             options.sensitivity));
-  }
   tuning.robust = std::move(robust);
-  if (!options.shard) tuning.unsettled = unsettled_runs(tuning, setting, context);
+  tuning.unsettled = unsettled_runs(tuning, setting, context);
   return tuning;
 }
 

@@ -1,7 +1,6 @@
 /// Tuning of the gains of heading and speed law: options, constraints, goals and result of tune().
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -15,7 +14,6 @@
 #include "awmr/core/progress.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
-#include "awmr/core/shard.h"
 #include "awmr/core/units.h"
 #include "awmr/model/gains.h"
 #include "awmr/model/model.h"
@@ -130,7 +128,7 @@ struct UnmodelledVariation {
 inline constexpr double kMinMassFactor = 0.1, kMaxMassFactor = 10.0;
 inline constexpr std::size_t kMaxOpenValues = 20;  ///< largest number of entries in each list
 
-/// Upper limit, 1e-9 to 1e9, of a run's metric (run_figure_names()), in the metric's unit.
+/// Upper limit, 1e-9 to 1e9, of a run's metric (tune/goals.h), in the metric's unit.
 struct GoalLimit {
   std::string figure;
   double most = 0.0;
@@ -149,10 +147,6 @@ inline constexpr double kMinGoalShare = 0.5, kMaxGoalShare = 0.999;
 inline constexpr std::size_t kMaxGoals = 20;
 /// Default of evaluation_draws in a tune.json with goals.
 inline constexpr int kGoalDraws = 500;
-inline constexpr int kMinSobolSamples = 16, kMaxSobolSamples = 100'000;
-inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
-bool is_run_figure(std::string_view name);
-std::vector<std::string> run_figure_names();
 
 struct TuneOptions {
   std::string file = "tune.json";  ///< name of the options' file in error messages: the path that
@@ -165,9 +159,6 @@ struct TuneOptions {
   int draws = 32;                 ///< drawn plants of the search, 0 ... 1000
   int evaluation_draws = 50;      ///< new draws for the evaluation of the gains, 0 ... 100000
   UnmodelledVariation open = {};  ///< robust search only
-  /// This machine's part of an evaluation on several machines. Each machine runs the whole search,
-  /// but evaluates the gains only on the new draws of its part (tune_shard.h).
-  std::optional<Shard> shard = {};
   /// Share of the draws that counts as the tail, (0, 1]: the worst ones. The objective averages the
   /// mean over all draws and the mean over the tail (CVaR).
   double tail_share = 0.2;
@@ -192,17 +183,13 @@ struct TuneOptions {
   int global_evaluations = 80;  ///< >= 1
   /// >= 0: budget of all local searches together; 0: no local search.
   int local_evaluations = 80;
-  /// Seed of the draws, their noise, the global search and the sensitivity samples. Tune with other
-  /// seeds to see how much the gains depend on chance.
+  /// Seed of the draws, their noise and the global search. Tune with other seeds to see how much the gains depend on chance.
   std::uint64_t seed = 1;
   /// Each needs heading guidance and a unique name. Empty: default_tuning_scenarios().
   std::vector<Scenario> scenarios;
   GainBounds bounds;
   std::optional<ObserverSearch> observer = {};  ///< absent: no observer is tuned
   std::vector<TuningGoal> goals = {};           ///< robust search only
-  /// Number of samples of the sensitivity analysis of the tuned loop (GlobalSensitivity): 0 (none)
-  /// or kMinSobolSamples to kMaxSobolSamples. Robust search only.
-  int sensitivity = 0;
   /// Called with the number of evaluated sets of gains, and with the budget global_evaluations +
   /// local_evaluations. The last stage of the search, on all draws, is not counted.
   Progress progress = {};
@@ -261,24 +248,9 @@ struct SearchHistory {
 /// A longer history is thinned to evenly spaced steps, including the first and the last.
 inline constexpr std::size_t kMaxHistorySteps = 200;
 
-/// Metrics of a run for goals and evaluation. The objective uses other ones (kObjectiveTerms).
-struct RunOutcome {
-  YawMode mode{};
-  bool completed = false;  ///< true if the run settles after every heading step
-  bool broke_off = false;  ///< the run broke off; the metrics are those up to that time
-  /// In the order of run_figure_names(). The settling time of a run that does not settle is the
-  /// scenario's duration.
-  std::array<double, kRunFigures> figures{};
-};
-/// The runs of one set of gains, by draw, then mode, then scenario.
-struct EvaluatedRuns {
-  std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
-  std::vector<RunOutcome> outcomes;
-};
-
 /// A metric of the runs of one set of gains in one mode, over the evaluation draws.
 struct EvaluatedFigure {
-  std::string name;  ///< one of run_figure_names(), such as "heading_iae_degs"
+  std::string name;  ///< such as "heading_iae_degs"
   double median = 0.0;
   double q95 = 0.0;        ///< 95 % quantile
   double tail_mean = 0.0;  ///< mean over the worst tail_share of the draws (CVaR)
@@ -296,27 +268,6 @@ struct EvaluatedGains {
   double completed_share = 0.0;  ///< share of the runs that settle after every step, [0, 1]
   std::vector<EvaluatedFigure> figures;
   std::string scenario = {};  ///< empty: all scenarios together
-};
-
-/// Fraction of a metric's variance that is due to one input (tune/sobol.h).
-struct SobolIndex {
-  double first = 0.0;               ///< first order: in [0, 1], apart from the sampling error
-  double total = 0.0;               ///< total, >= 0: including interactions with other inputs
-  Interval first_ci95, total_ci95;  ///< 95 % intervals of `first` and `total`, by bootstrap
-};
-/// Mean, spread and Sobol indices of a metric of the runs in one mode.
-struct SensitiveFigure {
-  YawMode mode{};
-  std::string name;                  ///< name of the metric, such as "settling_time_s"
-  double mean = 0.0;                 ///< in the unit of the metric
-  double deviation = 0.0;            ///< standard deviation, >= 0
-  std::vector<SobolIndex> by_input;  ///< in the order of GlobalSensitivity::inputs
-};
-/// Sensitivity of the tuned loop to the assumptions of the search (global_sensitivity.h).
-struct GlobalSensitivity {
-  int samples = 0;  ///< N; the loop is simulated for N (2 + number of inputs) samples
-  std::vector<std::string> inputs;
-  std::vector<SensitiveFigure> figures;  ///< by mode, then metric
 };
 
 /// Verdict on a goal from the share of the new draws that meet it (EvaluatedGoal::ci95).
@@ -345,15 +296,12 @@ struct RobustTuning {
   /// false: the model has no covariance, so the draws differ by noise and unmodelled variation
   /// only.
   bool from_covariance = false;
-  /// Statistics over the new draws, by gains, then mode. Empty if only a part of the draws was
-  /// evaluated (TuneOptions::shard).
+  /// Statistics over the new draws, by gains, then mode. Empty without new draws.
   std::vector<EvaluatedGains> evaluated;
   /// `evaluated` for each scenario: by scenario, then gains, then mode; empty with a single
   /// scenario.
   std::vector<EvaluatedGains> evaluated_by_scenario;
-  std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode; empty for a part
-  std::vector<EvaluatedRuns> runs;   ///< only for a part: the runs of its draws, by gains
-  std::optional<GlobalSensitivity> sensitivity;  ///< absent if the analysis was not requested
+  std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode
 };
 
 /// Settling time and control variation of one set of gains, each as the mean over the modes,
@@ -449,8 +397,8 @@ struct Tuning {
   double held_out_objective = 0.0;
   std::optional<Certificate> certificate;  ///< always present in the result of tune()
   TradeOff trade_off;
-  std::vector<UnsettledRuns> unsettled;  ///< empty for a part (TuneOptions::shard)
-  std::optional<RobustTuning> robust;    ///< absent for nominal gains
+  std::vector<UnsettledRuns> unsettled;
+  std::optional<RobustTuning> robust;  ///< absent for nominal gains
 };
 
 /// Default tuning scenario: from rest, a heading and then its opposite. Speed, angle and time are
@@ -491,8 +439,7 @@ Result<Scenario> held_out_scenario(const Model& model);
 /// Errors (refused): no gains within the bounds meet the constraints, the activity limit and the
 /// goals that are not soft (the message names the most violated one); in every mode, the largest
 /// yaw moment is below the yaw resistance at 1 deg/s (turning.h); runs diverge with all gains; no
-/// run of the nominal vehicle settles with the tuned gains; runs of the sensitivity analysis
-/// diverge.
+/// run of the nominal vehicle settles with the tuned gains.
 /// Errors (input): the model lacks a parameter; an option is invalid (check_options.h); the latency
 /// exceeds 20 samples; no wheel force is left for an observer; runs with the baseline break off;
 /// the evaluations would take more than 1e11 RK4 steps (some hours).

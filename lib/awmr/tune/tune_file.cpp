@@ -44,13 +44,7 @@ void read_search(JsonObject& json, TuneOptions& options) {
     fit_draws_to(options.open, options);
   }
   search_options(options, ReadOption{json});
-  options.sensitivity =
-      static_cast<int>(json.optional_integer("sensitivity", 0, kMaxSobolSamples).value_or(0));
-  if (options.sensitivity > 0 && options.sensitivity < kMinSobolSamples) {
-    json.fault(ErrorCode::kOutOfRange, "sensitivity",
-               fmt::format("{} samples are too few; give 0, or at least {}", options.sensitivity,
-                           kMinSobolSamples));
-  }
+  json.ignore("sensitivity");  // of older files
   if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
     options.seed = static_cast<std::uint64_t>(*seed);
   }
@@ -222,33 +216,10 @@ Json robust_json(const RobustTuning& robust, const TuneOptions& options) {
   }
   if (options.open.any()) json["open"] = open_json(options.open);
   if (options.activity_max) json["activity_max"] = *options.activity_max;
-  // Must be the last key: merge_tune_shards() appends it there, and the merged file must be
-  // byte-identical with this one.
   if (!robust.evaluated_by_scenario.empty()) {
     json["by_scenario"] = by_scenario_json(robust.evaluated_by_scenario);
   }
   return json;
-}
-
-Json sensitivity_json(const GlobalSensitivity& sensitivity) {
-  Json figures = Json::array();
-  for (const SensitiveFigure& figure : sensitivity.figures) {
-    Json by_input = Json::array();
-    for (std::size_t i = 0; i < figure.by_input.size(); ++i) {
-      const SobolIndex& index = figure.by_input[i];
-      by_input.push_back({{"input", sensitivity.inputs[i]},
-                          {"first", index.first},
-                          {"first_ci95", interval_json(index.first_ci95)},
-                          {"total", index.total},
-                          {"total_ci95", interval_json(index.total_ci95)}});
-    }
-    figures.push_back({{"mode", name_of(figure.mode)},
-                       {"figure", figure.name},
-                       {"mean", figure.mean},
-                       {"std", figure.deviation},
-                       {"by_input", std::move(by_input)}});
-  }
-  return {{"samples", sensitivity.samples}, {"figures", std::move(figures)}};
 }
 
 Json limits_json(const TuningLimits& limits) {
@@ -369,9 +340,6 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
                     {"stop_reason", tuning.stop_reason},
                     {"history", history_json(tuning.history)}};
   if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
-  if (tuning.robust && tuning.robust->sensitivity) {
-    json["sensitivity"] = sensitivity_json(*tuning.robust->sensitivity);
-  }
   if (!options.goals.empty()) json["goals"] = goals_json(tuning.robust->goals);
   Json baseline = gains_to_json(tuning.baseline.gains);
   baseline["source"] = tuning.baseline.source;

@@ -34,7 +34,6 @@ Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name
 ///   baseline ("pole-placement" | "paper" | path of a gains.json relative to the file),
 ///   open {mass_factors [...], wheel_forces [{min, max}, ...]}: with it, the defaults of draws and
 ///   judged_draws are rounded up to a multiple of the number of combinations,
-///   sensitivity (0: none),
 ///   goals [{at_most {FIGURE: limit, ...}, share (0.95), mode, soft (false)}, ...],
 ///   global_evaluations, local_evaluations, seed, scenarios [path relative to the file, ...].
 /// Errors (input): as read_json_file and read_scenario; unknown keys, values out of range.

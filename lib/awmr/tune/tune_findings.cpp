@@ -32,13 +32,12 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
 }
 
 /// End of a message about runs that do not settle: the cause or the changes with which they settle.
-/// Without them (for example in `merge`) it names the key with the settling times.
+/// Precondition: `unsettled` has these runs.
 std::string advice_for(const std::string& scenario, YawMode mode,
                        std::span<const UnsettledRuns> unsettled) {
   const auto found = std::ranges::find_if(unsettled, [&](const UnsettledRuns& runs) {
     return runs.scenario == scenario && runs.mode == mode;
   });
-  if (found == unsettled.end()) return ". The settling times are in /robust/quantiles";
   if (!found->why.empty()) return ": " + found->why;
   const std::string share = fmt::format("{:g} %", 100.0 * kSettledShare);
   return ". " +
@@ -55,26 +54,6 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
            "step{}",
            scenario.empty() ? "" : scenario + ", ", name_of(mode), 100.0 * completed_share,
            advice_for(scenario, mode, unsettled))});
-}
-
-/// Adds a note if the 95 % interval of a total Sobol index is wider than kWide.
-void note_sensitivity(const Tuning& tuning, std::vector<Finding>& findings) {
-  if (!tuning.robust || !tuning.robust->sensitivity) return;
-  constexpr double kWide = 0.5;  // an index with a 95 % interval of 0.2 to 0.7 is uninformative
-  const auto width = [](const SobolIndex& index) {
-    return index.total_ci95.hi - index.total_ci95.lo;
-  };
-  const std::vector<SensitiveFigure>& figures = tuning.robust->sensitivity->figures;
-  const auto open = std::ranges::count_if(figures, [&](const SensitiveFigure& figure) {
-    return width(*std::ranges::max_element(figure.by_input, {}, width)) > kWide;
-  });
-  if (open == 0) return;
-  findings.push_back(
-      {"", 0, Severity::kNote, "sensitivity-open",
-       fmt::format("{} samples are too few to show which uncertain input has the largest effect "
-                   "on {} of {} metrics; increase {}",
-                   tuning.robust->sensitivity->samples, open, figures.size(),
-                   option_text("sensitivity"))});
 }
 
 /// Adds a warning if some parameters of the confidence set make the heading loop unstable.
@@ -128,18 +107,18 @@ std::vector<Finding> nominal_findings(const Tuning& tuning) {
   return findings;
 }
 
-}  // namespace
-
-std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& evaluated,
-                                         const std::vector<EvaluatedGains>& evaluated_by_scenario,
-                                         const std::vector<EvaluatedGoal>& goals,
+/// Findings of the tuned gains on fresh draws, which are drawn vehicles that the search did not
+/// use: a warning for each goal that these draws do not confirm (`goal-missed`, `goal-open`), and
+/// one for each mode in which fewer than 95 % of the runs settle after every step (`unsettled`),
+/// per scenario if there are several.
+std::vector<Finding> evaluation_findings(const RobustTuning& robust,
                                          std::span<const UnsettledRuns> unsettled) {
   std::vector<Finding> findings;
-  for (const EvaluatedGoal& goal : goals) {
+  for (const EvaluatedGoal& goal : robust.goals) {
     if (goal.gains == kRobustGains) note_goal(goal, findings);
   }
   for (const EvaluatedGains& one :
-       evaluated_by_scenario.empty() ? evaluated : evaluated_by_scenario) {
+       robust.evaluated_by_scenario.empty() ? robust.evaluated : robust.evaluated_by_scenario) {
     if (one.gains == kRobustGains) {
       note_unsettled(one.scenario, one.mode, one.completed_share, unsettled, findings);
     }
@@ -147,18 +126,14 @@ std::vector<Finding> evaluation_findings(const std::vector<EvaluatedGains>& eval
   return findings;
 }
 
+}  // namespace
+
 std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
                                    const Tuning& tuning) {
-  std::vector<Finding> findings;
-  if (!options.shard) {
-    findings =
-        tuning.robust && !tuning.robust->evaluated.empty()
-            ? evaluation_findings(tuning.robust->evaluated, tuning.robust->evaluated_by_scenario,
-                                  tuning.robust->goals, tuning.unsettled)
-            : nominal_findings(tuning);
-  }
+  std::vector<Finding> findings = tuning.robust && !tuning.robust->evaluated.empty()
+                                      ? evaluation_findings(*tuning.robust, tuning.unsettled)
+                                      : nominal_findings(tuning);
   if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
-  note_sensitivity(tuning, findings);
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
   note_observer(options, findings);
   if (const auto plant = model.plant()) {

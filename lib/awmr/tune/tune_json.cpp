@@ -9,6 +9,7 @@
 
 #include "awmr/model/model_json.h"
 #include "awmr/model/wheel_force_json.h"
+#include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
 
 namespace awmr {
@@ -80,13 +81,6 @@ TuningGoal read_goal(JsonObject json) {
   goal.is_soft = json.optional_boolean("soft").value_or(false);
   json.reject_unknown_keys();
   return goal;
-}
-
-Json goal_json(const TuningGoal& goal) {
-  Json json = {{"at_most", Json::object()}, {"share", goal.share}, {"soft", goal.is_soft}};
-  for (const GoalLimit& limit : goal.at_most) json["at_most"][limit.figure] = limit.most;
-  if (goal.mode) json["mode"] = name_of(*goal.mode);
-  return json;
 }
 
 UnmodelledVariation read_open(JsonObject json) {

@@ -1,5 +1,4 @@
-/// Conversions to and from JSON that tune.json, gains.json and the shards of an evaluation
-/// (tune_shard.h) share. Private to tune/.
+/// Conversions to and from JSON that tune.json and gains.json share. Private to tune/.
 #pragma once
 
 #include <vector>
@@ -28,9 +27,8 @@ TuningLimits read_limits(JsonObject json);
 /// Reads `/examined` of gains.json.
 ExaminedRange read_examined(JsonObject json);
 
-/// Reads and writes a goal, as in tune.json.
+/// Reads a goal, as in tune.json.
 TuningGoal read_goal(JsonObject json);
-Json goal_json(const TuningGoal& goal);
 
 /// Reads and writes the unmodelled variation, as in tune.json.
 UnmodelledVariation read_open(JsonObject json);

@@ -93,6 +93,16 @@ void take_rows(const DrivingLog& log, std::size_t first, double duration_s, cons
   }
 }
 
+/// Estimates the standard deviation of the noise in a channel's readings from row `first` on. The
+/// noise is assumed to be white. Precondition: the log has the channel.
+double noise_in(const DrivingLog& log, LogChannel which, std::size_t first) {
+  std::vector<double> values;
+  for (std::size_t row = first; row < log.rows(); ++row) {
+    if (log[which]->fresh[row]) values.push_back(log[which]->value[row]);
+  }
+  return white_noise(values, log[which]->quantum);
+}
+
 DriveChannel measured_channel(const DrivingLog& log, LogChannel which, std::size_t first,
                               double duration_s, const Scenario& scenario) {
   const Measured& readings = *log[which];
@@ -135,14 +145,6 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
                            option_text("from"))
              : "the log commands nothing (every force and steering command is 0); give a log of "
                "the drive");
-}
-
-double noise_in(const DrivingLog& log, LogChannel which, std::size_t first) {
-  std::vector<double> values;
-  for (std::size_t row = first; row < log.rows(); ++row) {
-    if (log[which]->fresh[row]) values.push_back(log[which]->value[row]);
-  }
-  return white_noise(values, log[which]->quantum);
 }
 
 LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle) {

@@ -48,10 +48,6 @@ struct DriveStart {
 /// or from_s is before the log.
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s);
 
-/// Estimates the standard deviation of the noise in a channel's readings from row `first` on. The
-/// noise is assumed to be white. Precondition: the log has the channel.
-double noise_in(const DrivingLog& log, LogChannel which, std::size_t first);
-
 /// Sensor noise, sensor latency and motor lag of the vehicle. Noise that the vehicle file does not
 /// give is estimated from the log, if the log has the channel.
 LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle);

@@ -4,13 +4,9 @@
 #include <limits>
 
 namespace awmr {
+namespace {
 
-double aic_under(const NoiseLevels& noise, const LogFit& fit) {
-  double aic = 2.0 * static_cast<double>(fit.quantities.size());
-  for (const auto& [channel, errors] : fit.errors) aic += cost_of(errors, noise.at(channel));
-  return aic;
-}
-
+/// Logarithmic size of a fit's errors: sum over channels of n ln(sum e^2/n), with n errors e each.
 double log_size_of_errors(const LogFit& fit) {
   double size = 0.0;
   for (const auto& [channel, errors] : fit.errors) {
@@ -23,6 +19,14 @@ double log_size_of_errors(const LogFit& fit) {
     size += n * std::log(std::max(squares / n, kMinimumStd * kMinimumStd));
   }
   return size;
+}
+
+}  // namespace
+
+double aic_under(const NoiseLevels& noise, const LogFit& fit) {
+  double aic = 2.0 * static_cast<double>(fit.quantities.size());
+  for (const auto& [channel, errors] : fit.errors) aic += cost_of(errors, noise.at(channel));
+  return aic;
 }
 
 double aic_lead(const LogFit& a, const LogFit& b) {

@@ -16,9 +16,6 @@ namespace awmr {
 ///     AIC = sum (ln S_k + nu_k^2/S_k) + 2 n
 double aic_under(const NoiseLevels& noise, const LogFit& fit);
 
-/// Logarithmic size of a fit's errors: sum over channels of n ln(sum e^2/n), with n errors e each.
-double log_size_of_errors(const LogFit& fit);
-
 /// AIC of `b` minus AIC of `a`, under the noise of the fit with the smaller errors. > 0 if `a` is
 /// better. Infinity if only `a` is usable, -infinity if only `b` is, 0 if neither is.
 double aic_lead(const LogFit& a, const LogFit& b);

@@ -12,7 +12,6 @@
 #include "awmr/identify/logs/agreement.h"
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/command_findings.h"
-#include "awmr/identify/logs/cross_validation.h"
 #include "awmr/identify/logs/force_findings.h"
 #include "awmr/identify/logs/inertia_check.h"
 #include "awmr/identify/logs/interpolated_commands.h"
@@ -226,12 +225,6 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   take(chosen.fit, model, overrule, file, stage);
   append(stage.findings, speed_control_findings(vehicle, logs, stage, set_point_mps));
   check_inertia(vehicle, logs, model, stage);
-  if (options.cross_validate && logs.size() > 1) {
-    show_step(options, "predicting each log from the others");
-    const CrossValidation held_out = leave_one_log_out(logs, from_optimum(chosen.options, chosen));
-    append(stage.reports[stage.chosen_report].leave_one_out, held_out.leave_one_out);
-    append(stage.findings, held_out.findings);
-  }
   return stage;
 }
 

@@ -42,7 +42,7 @@ struct LogStage {
 /// from tables. Findings: `estimates-disagree` (logs against tables, p < 0.01),
 /// `coloured-residuals`, `model-inadequate`, `power-law-inadequate`, `family-undecided`,
 /// `back-emf`, `steering-measured`, `speed-controlled`, `logs-disagree`, `not-identifiable`,
-/// `not-converged`, `held-out-misses`, `inertia-mismatch`, `held-out-log`, `families-not-compared`
+/// `not-converged`, `held-out-misses`, `inertia-mismatch`, `families-not-compared`
 /// (a limit was reached), and those of command_findings.h. Errors (input): that of check_replay(),
 /// for a time constant that is too small.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,

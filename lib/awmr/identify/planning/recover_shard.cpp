@@ -102,20 +102,20 @@ Status check_runs(std::string_view text, const std::string& file, const std::str
 /// Reads the runs of a part. Errors (input): a run that belongs to another part, is out of order or
 /// is missing.
 Result<std::vector<RecoverRun>> read_runs(const Part& part, const RecoverPart& payload) {
-  const ShardFile& table = recover_shards().files.front();
-  AWMR_ASSIGN_OR_RETURN(const std::string text, read_part_file(part, table));
-  AWMR_ASSIGN_OR_RETURN(std::vector<RecoverRun> runs,
-                        recover_runs(text, (part.directory / table.name).string(), payload.truths));
+  const ShardKind& kind = recover_shards();
+  const std::string table = (part.directory / kind.table).string();
+  AWMR_ASSIGN_OR_RETURN(const std::string text, read_table(kind, part));
+  AWMR_ASSIGN_OR_RETURN(std::vector<RecoverRun> runs, recover_runs(text, table, payload.truths));
   const Shard& shard = part.origin.shard;
   const int expected = shard.share_of(payload.all_runs);
   if (std::ssize(runs) != expected) {
     return input_error(
-        ErrorCode::kStaleResult, (part.directory / table.name).string(),
+        ErrorCode::kStaleResult, table,
         fmt::format(
             "has {} runs, but part {} of {} (of {} runs in all) needs {}; run the part again",
             runs.size(), shard.index, shard.count, payload.all_runs, expected));
   }
-  AWMR_RETURN_IF_ERROR(check_items(part, table, "run", payload.all_runs, runs.size(),
+  AWMR_RETURN_IF_ERROR(check_items(kind, part, "run", payload.all_runs, runs.size(),
                                    [&](std::size_t i) { return runs[i].index; }));
   return runs;
 }
@@ -135,9 +135,9 @@ const ShardKind& recover_shards() {
   static const ShardKind kind{
       .schema = "awmr.recover_shard/1",
       .title = "A part of a recovery",
-      .files = {{"recovery.csv", "csv_sha256", check_runs}},
+      .table = "recovery.csv",
+      .check = check_runs,
       .own_keys = {"refusal", "error"},
-      .arithmetic = rounding_of_functions,
       .arithmetic_advice = "run all parts on processors of one kind, with the same C library",
       .read = [](JsonObject& json) { read_payload(json); }};
   return kind;
@@ -160,7 +160,7 @@ PartText recover_part_text(const RecoverPart& part, const Shard& shard,
   return part_text(
       recover_shards(),
       {.provenance = provenance, .shard = shard, .arithmetic = rounding_of_functions()},
-      {recover_csv(part)}, json);
+      recover_csv(part), json);
 }
 
 Result<MergedRecovery> merge_recover_shards(const std::vector<std::filesystem::path>& directories) {

@@ -11,6 +11,19 @@
 namespace awmr {
 namespace {
 
+/// Minimum of the sum of squared residuals over the other coordinates, with the coordinate `held`
+/// fixed at `value`. The search starts at `initial_guess`. Infinite if the search fails.
+double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
+                    TransformedParameter held, double value) {
+  TransformedParameters from = initial_guess;
+  from[at(held)] = value;
+  SteadySearch search(problem, from, held);
+  search.solve();
+  if (!search.summary().IsSolutionUsable()) return std::numeric_limits<double>::infinity();
+  const std::optional<Eigen::VectorXd> e = search.residuals();
+  return e ? e->squaredNorm() : std::numeric_limits<double>::infinity();
+}
+
 /// A value x of the coordinate, and zeta(x) as defined at Profile.
 struct Place {
   double x = 0.0;
@@ -65,17 +78,6 @@ double end_of(const Profile& profile, double sign, double t) {
 }
 
 }  // namespace
-
-double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
-                    TransformedParameter held, double value) {
-  TransformedParameters from = initial_guess;
-  from[at(held)] = value;
-  SteadySearch search(problem, from, held);
-  search.solve();
-  if (!search.summary().IsSolutionUsable()) return std::numeric_limits<double>::infinity();
-  const std::optional<Eigen::VectorXd> e = search.residuals();
-  return e ? e->squaredNorm() : std::numeric_limits<double>::infinity();
-}
 
 Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
                           TransformedParameter c) {

@@ -7,11 +7,6 @@
 
 namespace awmr {
 
-/// Minimum of the sum of squared residuals over the other coordinates, with the coordinate `held`
-/// fixed at `value`. The search starts at `initial_guess`. Infinite if the search fails.
-double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
-                    TransformedParameter held, double value);
-
 /// 95 % profile-likelihood interval of the coordinate `c`. At each end, profile_cost() is t^2 s^2
 /// above the minimum, with the residual standard deviation s and the 97.5 % quantile t of Student's
 /// t. An end beyond a bound is set to the bound. Precondition: squared loss, degrees of freedom,

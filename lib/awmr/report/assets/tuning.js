@@ -190,20 +190,6 @@ function quantileCharts(parent, quantiles) {
   }
 }
 
-function sensitivityTable(parent, sensitivity) {
-  if (!sensitivity) return;
-  const box = folded(parent, "Sensitivity of the tuned loop");
-  small(box, `Total Sobol indices over ${sensitivity.samples} samples: the share of a metric's ` +
-    `variance that remains if only this input is unknown. `
-    + "Noise, latency and lag are varied from 0 to twice the assumed values.");
-  const mostMoving = (figure) => [...figure.by_input].sort((a, b) => b.total - a.total).slice(0, 3)
-    .map((one) => `${one.input} ${digits(one.total, 2)} (${digits(one.total_ci95[0], 2)} to ` +
-      `${digits(one.total_ci95[1], 2)})`).join("; ");
-  table(box, ["mode", "metric", "#mean ± standard deviation", "most sensitive to"],
-    sensitivity.figures.map((figure) => [modeCell(figure.mode), metricWords(figure.figure),
-    `${digits(figure.mean, 3)} ± ${digits(figure.std, 2)}`, mostMoving(figure)]));
-}
-
 /// Sentence with the objectives of the tuned gains and the baseline, and the number of goals that are met.
 function objectiveWords(gains) {
   const {objective, baseline, goals = []} = gains;
@@ -234,7 +220,6 @@ function tuningSection(data) {
   if (objective && objective.formula) small(box, `Objective: ${objective.formula}.`);
   goalsTable(box, gains.goals);
   robustCharts(box, gains.robust);
-  sensitivityTable(box, gains.sensitivity);
   metricsTable(box, gains);
 }
 

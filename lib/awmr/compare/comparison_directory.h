@@ -1,4 +1,4 @@
-/// Writes comparison.csv and comparison.json, and reads them to resume a stopped comparison.
+/// Writes comparison.csv and comparison.json, and reads the rows of comparison.csv.
 #pragma once
 
 #include <filesystem>
@@ -7,17 +7,9 @@
 #include <vector>
 
 #include "awmr/compare/compare.h"
-#include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 
 namespace awmr {
-
-/// Reads the rows of an existing comparison.csv, to resume it. The comparison.json in the same
-/// directory must have the inputs and options of `provenance`; only samples, weights, relevance and
-/// break-even may differ. Errors (input): a file is missing or malformed; the files are of another
-/// comparison, program version or arithmetic; comparison.csv does not belong to comparison.json.
-Result<std::vector<ComparisonRow>> read_finished(const std::filesystem::path& directory,
-                                                 const Provenance& provenance);
 
 /// Reads the rows from the text of a comparison.csv. `file`: its name in errors. Errors (input):
 /// other columns, or an invalid row.

@@ -1,0 +1,90 @@
+#include "awmr/compare/comparison_directory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "awmr/compare/metric_columns.h"
+#include "awmr/core/csv_cell.h"
+#include "awmr/core/file.h"
+#include "awmr/core/json_document.h"
+
+namespace awmr {
+namespace {
+
+/// Largest accepted value of a metric, so that sums of squares over the samples stay finite.
+constexpr double kLargest = 1e100;
+
+template <class Number>
+bool read_number(const std::string& text, Number& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+/// Reads a row of comparison.csv. Empty if comparison_csv() does not write such cells.
+std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_gains) {
+  constexpr std::size_t kFirst = 4;
+  if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;
+  ComparisonRow row;
+  row.scenario = cells[0];
+  const auto mode = value_in(kYawModeNames, cells[1]);
+  if (!mode || !read_number(cells[2], row.sample) || (cells[3] != "0" && cells[3] != "1")) {
+    return std::nullopt;
+  }
+  row.mode = *mode;
+  row.metrics.completed = cells[3] == "1";
+  for (std::size_t i = 0; i < kMetricColumns.size(); ++i) {
+    if (cells[kFirst + i].empty()) continue;
+    double value = 0.0;
+    if (!read_number(cells[kFirst + i], value) || !(std::abs(value) <= kLargest)) {
+      return std::nullopt;
+    }
+    kMetricColumns[i].set(row.metrics, value);
+  }
+  if (with_gains) row.gains = cells.back();
+  return row;
+}
+
+}  // namespace
+
+Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const std::string& file) {
+  std::vector<ComparisonRow> rows;
+  std::string_view rest = text;
+  const std::vector<std::string> head = take_text_record(rest);
+  const bool with_gains = head.back() == "gains";
+  if (head != comparison_columns(with_gains)) {
+    return input_error(ErrorCode::kStaleResult, file + ":1:1",
+                       "the file does not have the columns of comparison.csv; run the part again");
+  }
+  while (!rest.empty()) {
+    const std::string_view before = text.substr(0, text.size() - rest.size());
+    auto row = row_of(take_text_record(rest), with_gains);
+    if (!row) {
+      const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+      return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
+                         "this line is not a row of a comparison; run the part again");
+    }
+    rows.push_back(std::move(*row));
+  }
+  return rows;
+}
+
+Status check_comparison_csv(std::string_view text, const std::string& file) {
+  AWMR_RETURN_IF_ERROR(comparison_rows(text, file));
+  return {};
+}
+
+Status write_comparison(const std::filesystem::path& directory, const Comparison& comparison,
+                        const std::string& document) {
+  AWMR_RETURN_IF_ERROR(make_directory(directory));
+  // comparison.json is last because it has the hash of the table.
+  const OutputFile files[] = {
+      {directory / kComparisonTable, comparison_csv(comparison), check_comparison_csv},
+      {directory / kComparisonJson, document, check_json_text}};
+  return write_files(files);
+}
+
+}  // namespace awmr
