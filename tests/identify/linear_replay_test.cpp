@@ -119,14 +119,12 @@ ByHand by_hand(const DrivingLog& log, double step_s, double latency_s = kSpeedDe
   }
   ByHand found;
   LinearStepper back(plant, kColumns, parameters, columns_of(path));
-  replay_linear(
-      signals, 0, log.rows(), path, stepper, step_s, first,
-      [&](std::size_t row, const LinearMotion& motion) {
-        const std::array<TimeColumn, 1> shifts{{{kSpeedDelay, -1.0}}};
-        found.motions.push_back(motion);
-        found.earlier.push_back(motion_at(signals, 0, found.motions, back, log.t_s[row] - latency_s,
-                                          shifts, step_s, path));
-      });
+  replay_linear(signals, 0, log.rows(), path, stepper, step_s, first,
+                [&](std::size_t, const LinearMotion& motion) {
+                  found.motions.push_back(motion);
+                  found.earlier.push_back(earlier_motion(signals, 0, found.motions, back,
+                                                         {latency_s, kSpeedDelay}, step_s, path));
+                });
   return found;
 }
 

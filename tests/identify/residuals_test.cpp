@@ -17,7 +17,7 @@ using testing::kTruths;
 using testing::robot;
 using testing::Truth;
 
-double cost_of(const LogProblem& problem, const SearchPoint& point) {
+double total_cost(const LogProblem& problem, const SearchPoint& point) {
   double cost = 0.0;
   for (const WindowSums& window : sums_at(problem, point)) cost += window.cost();
   return cost;
@@ -66,7 +66,8 @@ TEST_P(TermDerivatives, AgreeWithDifferencesOfTheCost) {
       SearchPoint less = point;
       more.coordinates[i] += kStep;
       less.coordinates[i] -= kStep;
-      const double difference = (cost_of(problem, more) - cost_of(problem, less)) / (2.0 * kStep);
+      const double difference =
+          (total_cost(problem, more) - total_cost(problem, less)) / (2.0 * kStep);
       // Commands that change within a step make the cost rough at the scale of the differences.
       EXPECT_NEAR(gradient, difference, 0.02 * std::abs(difference))
           << problem.model.quantities[i].name() << " interpolated " << is_interpolated;
@@ -79,8 +80,10 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(TermCase{"DelayAndLag", {{input_delay(), 0.031}, {motor_lag(), 0.047}}},
                       TermCase{"SensorDelay", {{sensor_delay_of(LogChannel::kYawRate), 0.013}}},
                       TermCase{"SensorLag", {{sensor_lag_of(LogChannel::kSpeed), 0.08}}},
-                      TermCase{"WideSmoothing", {{smoothing_of(LogChannel::kSpeed), 0.0031}}},
+                      TermCase{"GaussianSmoothing", {{smoothing_of(LogChannel::kSpeed), 0.0031}}},
                       TermCase{"NarrowSmoothing", {{smoothing_of(LogChannel::kYawRate), 2e-6}}},
+                      TermCase{"MovingAverage",
+                               {{smoothing_of(LogChannel::kYawRate, true), 0.0021}}},
                       TermCase{"DelayAndSmoothing",
                                {{sensor_delay_of(LogChannel::kSpeed), 0.023},
                                 {smoothing_of(LogChannel::kSpeed), 0.0017}}}),

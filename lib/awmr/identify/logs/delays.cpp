@@ -87,14 +87,21 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
-/// The smoothing of all channels that are candidates for it. (One program often smooths several.)
-std::vector<FreeTerm> smoothing_terms(const std::vector<CandidateTerm>& terms) {
-  std::vector<FreeTerm> smoothing;
-  for (const CandidateTerm& term : terms) {
-    if (term.quantity.kind != FreeQuantity::Kind::kSmoothing) continue;
-    smoothing.push_back({term.quantity, term.value});
+/// Considers smoothing of the channels that are candidates for it: of all together, because one
+/// program often smooths several, and of the most significant one alone; each as a moving average
+/// and as a Gaussian kernel.
+void consider_smoothing(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms,
+                        Loss loss, LowestAic& lowest) {
+  for (const bool is_mean : {false, true}) {
+    std::vector<FreeTerm> smoothing;
+    for (const auto& [quantity, value, significance] : terms) {
+      if (quantity.kind != FreeQuantity::Kind::kSmoothing) continue;
+      smoothing.push_back({smoothing_of(quantity.channel, is_mean), value});
+    }
+    if (smoothing.empty()) return;
+    lowest.consider(tried(settled, smoothing, loss));
+    if (smoothing.size() > 1) lowest.consider(tried(settled, {smoothing.front()}, loss));
   }
-  return smoothing;
 }
 
 /// The slip of the speed together with slip of the same form of the yaw rate, if that is a
@@ -134,6 +141,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     if (lowest.best() && candidate_term.significance < kComparable * terms.front().significance)
       break;
     const FreeQuantity& more = candidate_term.quantity;
+    if (more.kind == FreeQuantity::Kind::kSmoothing) continue;  // consider_smoothing()
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
     NoiseIteration fit = tried(settled, with_companion(settled.problem, candidate_term), loss);
@@ -154,8 +162,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     }
   }
   consider_filters(settled, filters, loss, lowest);
-  const std::vector<FreeTerm> smoothing = smoothing_terms(terms);
-  if (smoothing.size() > 1) lowest.consider(tried(settled, smoothing, loss));
+  consider_smoothing(settled, terms, loss, lowest);
   // One round can be too few to lower AIC if the drift had absorbed a large effect of the term.
   return lowest.best() ? std::move(lowest.best()) : std::move(strongest);
 }

@@ -463,33 +463,29 @@ void advance_after_row(const LogSignals& signals, std::size_t row, double from_s
   }
 }
 
-LinearMotion motion_at(const LogSignals& signals, std::size_t begin,
-                       const std::vector<LinearMotion>& motions, LinearStepper& stepper, double t_s,
-                       std::span<const TimeColumn> shifts, double longest_step_s,
-                       const CommandPath& path) {
+LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
+                            const std::vector<LinearMotion>& motions, LinearStepper& stepper,
+                            const DelayColumn& delay, double longest_step_s,
+                            const CommandPath& path) {
   const DrivingLog& log = *signals.log;
-  const auto first = log.t_s.begin() + static_cast<std::ptrdiff_t>(begin);
-  const auto after =
-      std::upper_bound(first + 1, first + static_cast<std::ptrdiff_t>(motions.size()), t_s);
-  std::size_t row = begin + at(after - first) - 1;
+  const double now_s = log.t_s[begin + motions.size() - 1];
+  const double then_s = now_s - delay.delay_s;
+  std::size_t row = begin + motions.size() - 1;
+  while (row > begin && log.t_s[row] > then_s) --row;
   LinearMotion motion = motions[row - begin];
-  for (; row + 1 < log.rows() && log.t_s[row + 1] < t_s; ++row) {
-    advance_after_row(signals, row, log.t_s[row], log.t_s[row + 1], path, stepper, longest_step_s,
-                      motion);
-  }
   const double row_s = log.t_s[row];
-  if (t_s > row_s) {
-    advance_after_row(signals, row, row_s, t_s, path, stepper, longest_step_s, motion);
+  if (then_s > row_s) {
+    advance_after_row(signals, row, row_s, then_s, path, stepper, longest_step_s, motion);
   }
-  DelayedCommand command = command_at(signals, std::max(row_s, t_s), path);
+  DelayedCommand command = command_at(signals, std::max(row_s, then_s), path);
   if (!log.steering_command_rad) command.command.steering_rad = motion.state.steering_rad;
-  const State<double> rates = t_s < row_s ? stepper.step_along_tangent(command, t_s - row_s, motion)
-                                          : stepper.rates(command, motion);
+  const State<double> rates = then_s < row_s
+                                  ? stepper.step_along_tangent(command, then_s - row_s, motion)
+                                  : stepper.rates(command, motion);
+  // A longer delay selects an earlier time.
   if (stepper.columns() == 0) return motion;
-  for (const TimeColumn& shift : shifts) {
-    for (const LogChannel channel : kChannels) {
-      motion.row(channel, stepper.columns())[shift.column] += shift.by * channel_of(rates, channel);
-    }
+  for (const LogChannel channel : kChannels) {
+    motion.row(channel, stepper.columns())[delay.column] -= channel_of(rates, channel);
   }
   return motion;
 }

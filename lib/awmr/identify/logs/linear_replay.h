@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "awmr/identify/logs/linear_rates.h"
@@ -193,18 +192,12 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   }
 }
 
-/// The column of a quantity that shifts a time, and the derivative of the time by the quantity.
-struct TimeColumn {
-  std::size_t column;
-  double by;
-};
-
-/// Returns the motion at the time t, with the derivatives by the quantities that shift t (`shifts`).
-/// `motions`: the motions at the rows from `begin` on; at least one. Integrates from the last of
-/// these rows before t. If t is before the first of them, extrapolates with the rates at this row.
-LinearMotion motion_at(const LogSignals& signals, std::size_t begin,
-                       const std::vector<LinearMotion>& motions, LinearStepper& stepper, double t_s,
-                       std::span<const TimeColumn> shifts, double longest_step_s,
-                       const CommandPath& path);
+/// Returns the motion delay.delay_s >= 0 seconds before the last of `motions`, which are the
+/// motions at the rows from `begin` on. Integrates from the row before that time. If that time is
+/// before the first of these rows, extrapolates with the rates at this row.
+LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
+                            const std::vector<LinearMotion>& motions, LinearStepper& stepper,
+                            const DelayColumn& delay, double longest_step_s,
+                            const CommandPath& path);
 
 }  // namespace awmr

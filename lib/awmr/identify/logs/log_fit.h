@@ -37,10 +37,10 @@ struct LogFit {
     return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
   }
   /// True if delay, lag or command error i is at least two standard errors and 1 ms, 1 mrad, 1 mm/s
-  /// or 0.1 %. Precondition: its coordinate is its value.
+  /// or 0.1 % (smoothing: 1 ms^2). Precondition: its coordinate is its value.
   bool is_significant(std::size_t i) const {
-    constexpr double kSmallest = 1e-3;
-    return !(std::abs(coordinates[i]) < std::max(kSmallest, 2.0 * error_of(i)));
+    const double smallest = quantities[i].kind == FreeQuantity::Kind::kSmoothing ? 1e-6 : 1e-3;
+    return !(std::abs(coordinates[i]) < std::max(smallest, 2.0 * error_of(i)));
   }
 };
 

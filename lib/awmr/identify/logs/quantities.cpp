@@ -40,6 +40,7 @@ Interval extra_force_range(const FreeQuantity& quantity) {
 Interval range_of(const FreeQuantity& quantity) {
   using Kind = FreeQuantity::Kind;
   constexpr double kLongest_s = 1.0;
+  constexpr double kWidest_s2 = 0.1;
   constexpr double kLargestTrim_rad = 0.35;
   constexpr double kSlowestRate_radps = 0.01;
   constexpr double kFastestRate_radps = 100.0;
@@ -71,8 +72,9 @@ Interval range_of(const FreeQuantity& quantity) {
     case Kind::kMotorLag:
     case Kind::kSensorDelay:
     case Kind::kSensorLag:
-    case Kind::kSmoothing:
       return {0.0, kLongest_s};
+    case Kind::kSmoothing:
+      return {0.0, kWidest_s2};
     case Kind::kWheelSlip:
       return {0.0, kLargestSlip};
     case Kind::kSwayOffset:
@@ -215,8 +217,11 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows) {
           .is_at_rows = is_at_rows};
 }
 
-FreeQuantity smoothing_of(LogChannel channel) {
-  return {.kind = FreeQuantity::Kind::kSmoothing, .channel = channel, .large_change = 0.01};
+FreeQuantity smoothing_of(LogChannel channel, bool is_mean) {
+  return {.kind = FreeQuantity::Kind::kSmoothing,
+          .channel = channel,
+          .large_change = 0.01,
+          .is_mean = is_mean};
 }
 
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio) {

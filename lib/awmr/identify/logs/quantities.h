@@ -53,6 +53,7 @@ struct FreeQuantity {
   double full_command = 1.0;  ///< for kForceSaturation: F'm of force_saturation(), > 0
   double fastest = 1.0;       ///< for a Stribeck speed: largest speed (m/s or rad/s) of the logs
   bool is_at_rows = false;    ///< for kSensorLag: true: one filter step per row of a log
+  bool is_mean = false;       ///< for kSmoothing: true: moving average, false: Gaussian kernel
   bool is_ratio = false;      ///< for kWheelSlip: true: slip ratio, see WheelSlip::is_ratio
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
@@ -124,15 +125,10 @@ FreeQuantity extra_force(ExtraForce force);
 /// of a continuous filter (smoothed_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
-/// Variance s of the symmetric kernel that smooths a channel, s^2. With a = sqrt(2 s), the sensor
-/// reads
-///
-///     x(t - a)/4 + x(t)/2 + x(t + a)/4
-///
-/// in place of the kernel's true form. (Central differences, interpolation between the rows of
-/// another log and smoothing after the drive have such kernels.) If a is shorter than half of the
-/// row spacing, that takes its place, and the outer weights are lower, so that the variance is s.
-FreeQuantity smoothing_of(LogChannel channel);
+/// Variance of a symmetric kernel that smooths a channel over the rows of the log, s^2. `is_mean`: a
+/// moving average in place of a Gaussian kernel (smoothing_kernel.h). Central differences,
+/// interpolation between the rows of another log and smoothing after the drive have such kernels.
+FreeQuantity smoothing_of(LogChannel channel, bool is_mean = false);
 
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);

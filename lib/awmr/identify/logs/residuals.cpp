@@ -38,6 +38,15 @@ void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double
   });
 }
 
+/// The smoothing of a channel with the variance `variance_s2`.
+Smoothing smoothing_at(const LogModel& model, const FreeQuantity& quantity, double variance_s2,
+                       std::size_t column) {
+  const double rows2_per_s2 = std::pow(model.row_spacing_s, -2);
+  const double variance = variance_s2 * rows2_per_s2;
+  return {quantity.is_mean ? moving_average(variance) : gaussian_kernel(variance), column,
+          rows2_per_s2};
+}
+
 Unpacked unpack(const LogModel& model, const FitWindow& window, const double* coordinates,
                 const double* initial_state) {
   Unpacked u{};
@@ -87,7 +96,7 @@ Unpacked unpack(const LogModel& model, const FitWindow& window, const double* co
         u.sensors.lag[at(quantity.channel)] = {{number, i}, quantity.is_at_rows};
         break;
       case FreeQuantity::Kind::kSmoothing:
-        u.sensors.smoothing[at(quantity.channel)] = {number, i};
+        u.sensors.smoothing[at(quantity.channel)] = smoothing_at(model, quantity, number, i);
         break;
       case FreeQuantity::Kind::kSensorDelay:
         u.sensors.delay[at(quantity.channel)] = {number, i};
@@ -167,6 +176,42 @@ void follow(const DrivingLog& log, std::size_t row, bool has_before, const Linea
   }
 }
 
+/// Readings of one channel at all rows of a window, with derivatives, and their smoothing.
+class ReadingSeries {
+ public:
+  void add(double value, const std::vector<double>& row) {
+    values_.push_back(value);
+    rows_.insert(rows_.end(), row.begin(), row.end());
+  }
+  /// Returns the smoothed reading at the place i; `row` gets its derivatives. A pair of rows i - n
+  /// and i + n of which one is outside of the window counts as twice the row i.
+  double smoothed(std::size_t i, const Smoothing& smoothing, std::vector<double>& row) const {
+    const auto& [weight, by_variance] = smoothing.kernel;
+    double value = values_[i];
+    double by = 0.0;
+    const std::size_t columns = row.size();
+    const double* const middle = rows_.data() + i * columns;
+    std::copy_n(middle, columns, row.begin());
+    const std::size_t reach = std::min({weight.size() - 1, i, values_.size() - 1 - i});
+    for (std::size_t n = 1; n <= reach; ++n) {
+      const double bend = values_[i - n] - 2.0 * values_[i] + values_[i + n];
+      value += weight[n] * bend;
+      by += by_variance[n] * bend;
+      const double* const before = middle - n * columns;
+      const double* const after = middle + n * columns;
+      for (std::size_t k = 0; k < columns; ++k) {
+        row[k] += weight[n] * (before[k] - 2.0 * middle[k] + after[k]);
+      }
+    }
+    if (columns > 0) row[smoothing.column] += by * smoothing.rows2_per_s2;
+    return value;
+  }
+
+ private:
+  std::vector<double> values_;
+  std::vector<double> rows_;  ///< [place][column]
+};
+
 /// Simulated readings of one window at the rows of its log, with derivatives.
 class Readings {
  public:
@@ -174,69 +219,69 @@ class Readings {
       : model_(model),
         window_(window),
         u_(u),
-        aside_(u.plant, columns, u.parameters, columns_of(u.path), model.longest_step_s, u.extra),
+        back_(u.plant, columns, u.parameters, columns_of(u.path), model.longest_step_s, u.extra),
         sensors_(*window.signals, u.sensors, u.path, u.plant, u.parameters, columns),
-        smoothed_(smoothed_channels(window, u, columns)),
+        filters_(smoothed_channels(window, u, columns)),
+        is_kept_(u.sensors.any_delayed() || u.sensors.any_smoothed()),
         row_(columns) {}
 
-  /// Adds the motion at the next row, for sensors that read other times.
-  void add(const LinearMotion& motion) { motions_.push_back(motion); }
+  /// Adds the motion at the next row of the window.
+  void add(const LinearMotion& now) {
+    if (!is_kept_) return;
+    motions_.push_back(now);
+    const double t_s = window_.rows.log->t_s[window_.rows.begin + motions_.size() - 1];
+    for (const LogChannel c : kChannels) {
+      if (u_.sensors.smoothing[at(c)]) series_[at(c)].add(read_unsmoothed(c, t_s, now), row_);
+    }
+  }
   const std::vector<LinearMotion>& motions() const { return motions_; }
   /// Advances the filters to a row; call it for every row in order.
   void go_to(std::size_t row, const LinearMotion& now) {
-    follow(*window_.rows.log, row, row > window_.rows.begin, now, sensors_, smoothed_);
+    follow(*window_.rows.log, row, row > window_.rows.begin, now, sensors_, filters_);
   }
   /// Returns the reading of a channel at the row at which go_to() was called last. row() then has
-  /// its derivatives.
-  double read(LogChannel c, double t_s, const LinearMotion& now) {
-    const SensorTerms& terms = u_.sensors;
-    if (terms.delay[at(c)] || terms.smoothing[at(c)]) return read_other_times(c, t_s);
-    if (const auto& smooth = smoothed_[at(c)]) {
-      row_ = smooth->by_column();
-      return smooth->value();
+  /// its derivatives. For a smoothed channel, the motions of all rows must have been added.
+  double read(LogChannel c, std::size_t row, const LinearMotion& now) {
+    if (const auto& smoothing = u_.sensors.smoothing[at(c)]) {
+      return series_[at(c)].smoothed(row - window_.rows.begin, *smoothing, row_);
     }
-    const double value = sensors_.read(c, now, t_s);
-    row_ = sensors_.row();
-    return value;
+    return read_unsmoothed(c, window_.rows.log->t_s[row], now);
   }
   std::vector<double>& row() { return row_; }
 
  private:
-  double read_other_times(LogChannel c, double t_s) {
-    const SensorTerms& terms = u_.sensors;
-    std::ranges::fill(row_, 0.0);
-    double value = 0.0;
-    std::vector<TimeColumn> shifts;
-    for (const ReadingTime& time : reading_times(terms, c, t_s, model_.row_spacing_s)) {
-      shifts.clear();
-      if (terms.delay[at(c)]) shifts.push_back({terms.delay[at(c)]->column, -1.0});
-      if (time.time_by != 0.0) shifts.push_back({terms.smoothing[at(c)]->column, time.time_by});
-      const LinearMotion motion = motion_at(*window_.signals, window_.rows.begin, motions_, aside_,
-                                            time.t_s, shifts, model_.longest_step_s, u_.path);
-      const double reading = sensors_.read(c, motion, time.t_s);
-      value += time.weight * reading;
-      for (std::size_t k = 0; k < row_.size(); ++k) row_[k] += time.weight * sensors_.row()[k];
-      if (!row_.empty() && terms.smoothing[at(c)]) {
-        row_[terms.smoothing[at(c)]->column] += time.weight_by * reading;
-      }
+  double read_unsmoothed(LogChannel c, double t_s, const LinearMotion& now) {
+    if (const auto& filter = filters_[at(c)]) {
+      row_ = filter->by_column();
+      return filter->value();
     }
+    const auto& delay = u_.sensors.delay[at(c)];
+    const double value =
+        delay ? sensors_.read(c,
+                              earlier_motion(*window_.signals, window_.rows.begin, motions_, back_,
+                                             *delay, model_.longest_step_s, u_.path),
+                              t_s - delay->delay_s)
+              : sensors_.read(c, now, t_s);
+    row_ = sensors_.row();
     return value;
   }
 
   const LogModel& model_;
   const FitWindow& window_;
   const Unpacked& u_;
-  LinearStepper aside_;
+  LinearStepper back_;
   Sensors sensors_;
-  SmoothedChannels smoothed_;
-  std::vector<LinearMotion> motions_;  // one per row; kept only if sensors read other times
+  SmoothedChannels filters_;
+  bool is_kept_;  ///< true: sensors read motions of other rows
+  std::vector<LinearMotion> motions_;
+  std::array<ReadingSeries, kChannelCount> series_;  ///< of smoothed channels
   std::vector<double> row_;
 };
 
 /// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured,
 /// `row` has its derivatives, one per column; the visitor may overwrite it. Empty without columns.
 /// A sensor with latency is compared with the state one delay earlier, a filtered sensor with the
-/// output of the filter, a smoothed sensor with the mean of an earlier and a later state.
+/// output of the filter, a smoothed channel with the mean over earlier and later rows.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const Unpacked& u,
                     std::size_t columns, Visit visit) {
@@ -246,23 +291,22 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Unpack
   LinearStepper stepper(u.plant, columns, u.parameters, columns_of(u.path), h, u.extra);
   Readings readings(model, window, u, columns);
   std::size_t next = 0;
-  const auto compare_at = [&](std::size_t at_row, const LinearMotion& now) {
-    readings.go_to(at_row, now);
-    for (; next < samples.size() && samples[next].row == at_row; ++next) {
+  const auto compare_at = [&](std::size_t row, const LinearMotion& now) {
+    readings.go_to(row, now);
+    for (; next < samples.size() && samples[next].row == row; ++next) {
       const LogChannel c = samples[next].channel;
-      const double read = readings.read(c, log.t_s[at_row], now);
-      const double error = read + u.sensors.bias[at(c)] - log[c]->value[at_row];
+      const double read = readings.read(c, row, now);
+      const double error = read + u.sensors.bias[at(c)] - log[c]->value[row];
       const auto& bias_column = u.sensors.bias_column[at(c)];
       if (columns > 0 && bias_column) readings.row()[*bias_column] += 1.0;
       visit(next, error, readings.row());
     }
   };
-  const bool waits = u.sensors.reads_later();  // for the motion after a row
-  const bool keeps = u.sensors.reads_other_times();
+  const bool waits = u.sensors.any_smoothed();  // for the rows after a row
   replay_linear(*window.signals, window.rows.begin, window.rows.end, u.path, stepper, h,
-                first_motion(model, u, columns), [&](std::size_t at_row, const LinearMotion& now) {
-                  if (keeps) readings.add(now);
-                  if (!waits) compare_at(at_row, now);
+                first_motion(model, u, columns), [&](std::size_t row, const LinearMotion& now) {
+                  readings.add(now);
+                  if (!waits) compare_at(row, now);
                 });
   for (std::size_t i = 0; waits && i < readings.motions().size(); ++i) {
     compare_at(window.rows.begin + i, readings.motions()[i]);

@@ -6,38 +6,12 @@
 #include "awmr/core/index.h"
 
 namespace awmr {
-namespace {
-
-bool has_value(const std::optional<DelayColumn>& delay) { return delay.has_value(); }
-bool is_smoothed(const std::optional<OffsetColumn>& smoothing) { return smoothing.has_value(); }
-
-}  // namespace
-
-bool SensorTerms::reads_other_times() const {
-  return reads_later() || std::ranges::any_of(delay, &has_value);
+bool SensorTerms::any_delayed() const {
+  return std::ranges::any_of(delay, [](const auto& one) { return one.has_value(); });
 }
 
-bool SensorTerms::reads_later() const { return std::ranges::any_of(smoothing, &is_smoothed); }
-
-std::vector<ReadingTime> reading_times(const SensorTerms& terms, LogChannel channel, double t_s,
-                                       double row_spacing_s) {
-  const auto& delay = terms.delay[at(channel)];
-  const auto& smoothing = terms.smoothing[at(channel)];
-  const double middle_s = delay ? t_s - delay->delay_s : t_s;
-  if (!smoothing) return {{.t_s = middle_s}};
-  const double shortest_s = 0.5 * row_spacing_s;
-  const double width_s = std::sqrt(2.0 * smoothing->value);
-  if (width_s >= shortest_s) {
-    const double by = 1.0 / width_s;
-    return {{.t_s = middle_s - width_s, .weight = 0.25, .time_by = -by},
-            {.t_s = middle_s, .weight = 0.5},
-            {.t_s = middle_s + width_s, .weight = 0.25, .time_by = by}};
-  }
-  const double per_s2 = 1.0 / (shortest_s * shortest_s);
-  const double share = smoothing->value * per_s2;
-  return {{.t_s = middle_s - shortest_s, .weight = 0.5 * share, .weight_by = 0.5 * per_s2},
-          {.t_s = middle_s, .weight = 1.0 - share, .weight_by = -per_s2},
-          {.t_s = middle_s + shortest_s, .weight = 0.5 * share, .weight_by = 0.5 * per_s2}};
+bool SensorTerms::any_smoothed() const {
+  return std::ranges::any_of(smoothing, [](const auto& one) { return one.has_value(); });
 }
 
 Sensors::Sensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,

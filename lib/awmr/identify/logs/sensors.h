@@ -7,9 +7,17 @@
 #include <vector>
 
 #include "awmr/identify/logs/smoothed_channel.h"
+#include "awmr/identify/logs/smoothing_kernel.h"
 #include "awmr/identify/logs/wheel_slip.h"
 
 namespace awmr {
+
+/// Symmetric smoothing of a channel over the rows of the log.
+struct Smoothing {
+  SmoothingKernel kernel;
+  std::size_t column;   ///< of the variance, s^2
+  double rows2_per_s2;  ///< variance in rows^2 over the variance in s^2
+};
 
 /// Errors of the sensors at one point of the search, one per channel, with their columns.
 struct SensorTerms {
@@ -17,30 +25,14 @@ struct SensorTerms {
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
   std::array<std::optional<DelayColumn>, kChannelCount> delay{};
   std::array<std::optional<SensorFilter>, kChannelCount> lag{};
-  std::array<std::optional<OffsetColumn>, kChannelCount> smoothing{};  ///< s of smoothing_of(), s^2
+  std::array<std::optional<Smoothing>, kChannelCount> smoothing{};
   std::vector<WheelSlip> slips;
   std::optional<OffsetColumn> sway_offset;
   std::optional<OffsetColumn> sway_angle;
 
-  /// True if a sensor reads the motion at other times than that of its row.
-  bool reads_other_times() const;
-  /// True if a sensor reads the motion also after the time of its row.
-  bool reads_later() const;
+  bool any_delayed() const;
+  bool any_smoothed() const;
 };
-
-/// One of the times that make up a reading, with its weight. The derivatives are by s of
-/// smoothing_of().
-struct ReadingTime {
-  double t_s;
-  double weight = 1.0;
-  double weight_by = 0.0;  ///< 1/s^2
-  double time_by = 0.0;    ///< 1/s
-};
-
-/// The times at which a sensor with latency, smoothing or both reads the motion for a row at t.
-/// `row_spacing_s`: of the logs.
-std::vector<ReadingTime> reading_times(const SensorTerms& terms, LogChannel channel, double t_s,
-                                       double row_spacing_s);
 
 /// Readings of the sensors at the motion of one time, without latency, filter, smoothing and bias.
 class Sensors {

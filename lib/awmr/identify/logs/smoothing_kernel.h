@@ -1,0 +1,31 @@
+/// Symmetric kernels that smooth a channel over the rows of a log. Private to identify/.
+#pragma once
+
+#include <vector>
+
+namespace awmr {
+
+/// Weights w_n of the rows i - n and i + n in the smoothed value of row i,
+///
+///     y_i = w_0 x_i + sum_{n > 0} w_n (x_{i-n} + x_{i+n})
+///
+/// The sum of all weights is 1. `by_variance`: their derivatives by the variance of the kernel
+/// (rows^2).
+struct SmoothingKernel {
+  std::vector<double> weight;
+  std::vector<double> by_variance;
+};
+
+/// Discrete Gaussian kernel of the variance s >= 0 (rows^2) [Lindeberg, Scale-space for discrete
+/// signals, 1990], with the modified Bessel functions I_n:
+///
+///     w_n = e^-s I_n(s),   dw_n/ds = (w_{n-1} + w_{n+1})/2 - w_n
+SmoothingKernel gaussian_kernel(double variance);
+
+/// Moving average of the variance s >= 0 (rows^2). With k whole rows to either side and the weight
+/// f in [0, 1) of the next ones, relative to theirs:
+///
+///     s = (2 sum_{n <= k} n^2 + 2 f (k + 1)^2)/(2 k + 1 + 2 f)
+SmoothingKernel moving_average(double variance);
+
+}  // namespace awmr
