@@ -202,6 +202,33 @@ TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
+/// The log with a yaw rate that was computed from the heading, which is then lost.
+DrivingLog with_differenced_heading(DrivingLog log) {
+  const std::vector<double>& heading = log[LogChannel::kHeading]->value;
+  std::vector<double>& rate = log[LogChannel::kYawRate]->value;
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    rate[i] = (heading[i] - heading[i - 1]) / kStep_s;
+  }
+  rate.front() = rate[1];
+  for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
+    log[absent].reset();
+  }
+  return log;
+}
+
+TEST(LateLog, AllowsForAYawRateThatIsTheDifferenceOfHeadings) {
+  const Truth& t = kTruths[1];
+  TrialData data;
+  data.logs = {with_differenced_heading(drive(t, 8, {.duration_s = 40.0}))};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+  const Estimate& inertia = result->model[ParameterId::kInertiaNorm];
+  // With white noise of the same size, the standard error would be a third of the value.
+  EXPECT_LT(*inertia.std_error, 0.1 * *inertia.value);
+}
+
 /// The log with one channel averaged over the rows from `reach` before to `reach` after each row.
 DrivingLog with_centred_mean(DrivingLog log, LogChannel channel, std::size_t reach) {
   const std::vector<double> raw = log[channel]->value;

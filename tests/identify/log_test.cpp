@@ -648,6 +648,28 @@ TEST(Log, SeparatesDriftFromWhiteNoise) {
   EXPECT_NEAR(std::log(found.correlation_s / truth.correlation_s), 0.0, 0.6);
 }
 
+TEST(Log, RecognisesDifferencedNoise) {
+  constexpr double kStd = 0.02;
+  for (const double theta : {0.4, 0.95, 1.0}) {
+    Random random(8, 3);
+    std::vector<ErrorSeries> series(10);
+    for (ErrorSeries& part : series) {
+      double before = kStd * random.normal();
+      for (int k = 0; k < 1000; ++k) {
+        const double now = kStd * random.normal();
+        part.error.push_back(now - theta * before);
+        part.since_s.push_back(k == 0 ? 0.0 : 0.01);
+        before = now;
+      }
+    }
+    const ChannelNoise found = likeliest_noise(series, 1.0, {});
+    // 10,000 values determine theta to sqrt(1 - theta^2)/100.
+    EXPECT_NEAR(found.differenced, theta, 0.04) << theta;
+    EXPECT_NEAR(found.white_std, kStd, 0.05 * kStd) << theta;
+    EXPECT_EQ(found.drift_std, 0.0) << theta;
+  }
+}
+
 /// Scores of `logs` logs with alternating signs; their size is `times` the standard deviation that
 /// the information gives.
 Scores scattered(int logs, double times, double information) {

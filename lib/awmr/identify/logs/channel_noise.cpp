@@ -265,6 +265,20 @@ Drift likeliest_second_order(std::span<const ErrorSeries> series, double step_s,
                         range);
 }
 
+/// Most likely differenced noise.
+Drift likeliest_difference(std::span<const ErrorSeries> series) {
+  constexpr int kBits = 10;
+  constexpr double kMost = 0.9999;
+  std::uintmax_t evaluations = 24;
+  const auto noise = [](double theta) {
+    return ChannelNoise{.white_std = 1.0 / std::hypot(1.0, theta), .differenced = theta};
+  };
+  const auto cost = [&](double theta) { return likelihood(series, noise(theta)).cost; };
+  const auto [theta, least] =
+      boost::math::tools::brent_find_minima(cost, 0.0, kMost, kBits, evaluations);
+  return {noise(theta), least};
+}
+
 }  // namespace
 
 NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
@@ -299,12 +313,17 @@ ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_sh
   const std::vector<ErrorSeries> some = some_of(series);
   const double step_s = median_step_s(some);
   if (step_s > 0.0) {
-    const double white_cost = likelihood(some, noise).cost;
-    const Drift drift = likeliest_drift(some, step_s, white_cost);
-    if (drift.is_significantly_better_than(white_cost)) {
-      const Drift second = likeliest_second_order(some, step_s, before);
-      noise = second.is_significantly_better_than(drift.cost) ? second.noise : drift.noise;
+    double cost = likelihood(some, noise).cost;
+    const auto take_if_better = [&](const Drift& other) {
+      if (!other.is_significantly_better_than(cost)) return false;
+      noise = other.noise;
+      cost = other.cost;
+      return true;
+    };
+    if (take_if_better(likeliest_drift(some, step_s, cost))) {
+      take_if_better(likeliest_second_order(some, step_s, before));
     }
+    take_if_better(likeliest_difference(some));
   }
   const Likelihood scale = likelihood(series, noise);
   const double std = std::max(std::sqrt(scale.factor / free_share), kMinimumStd);

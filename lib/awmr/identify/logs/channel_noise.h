@@ -20,21 +20,30 @@ namespace awmr {
 ///
 /// The second order describes a suspension, a filter or a smoothed sensor: the drift is smooth from
 /// sample to sample, and oscillates if zeta < 1.
+///
+/// In place of a drift, the white noise can be differenced, as in a speed that is computed from
+/// counts or positions, or in a yaw rate from headings:
+///
+///     e_k = n_k - theta n_{k-1},   E[n^2] = sigma_w^2
 struct ChannelNoise {
   double white_std = 1.0;        ///< sigma_w, SI
   double drift_std = 0.0;        ///< sigma_d, SI; 0: no drift
   double correlation_s = 0.0;    ///< tau, or decay time of a second-order drift; 0 without a drift
   double frequency_radps = 0.0;  ///< omega of a second-order drift; 0: first order
   double damping = 0.0;          ///< zeta of a second-order drift, > 0
+  double differenced = 0.0;      ///< theta of differenced noise, 0 to 1; 0: not differenced
   double sensor_std = 0.0;       ///< white noise by sensor_noise(), from the readings only, SI
   int count = 0;                 ///< number of samples
   double cost = 0.0;             ///< -2 ln L of the channel's errors, up to a constant
 
-  double std() const { return std::hypot(white_std, drift_std); }
+  double std() const { return std::hypot(white_std, differenced * white_std, drift_std); }
   bool second_order() const { return frequency_radps > 0.0; }
-  /// Number of estimated noise parameters: 1 (sigma_w), plus 2 of a first-order drift or 3 of a
-  /// second-order drift.
-  int numbers() const { return drift_std > 0.0 ? (second_order() ? 4 : 3) : 1; }
+  bool is_white() const { return !(drift_std > 0.0) && !(differenced > 0.0); }
+  /// Number of estimated noise parameters: 1 (sigma_w), plus 2 of a first-order drift, 3 of a
+  /// second-order drift or 1 of differenced noise.
+  int numbers() const {
+    return drift_std > 0.0 ? (second_order() ? 4 : 3) : differenced > 0.0 ? 2 : 1;
+  }
   /// True if the drift is above half of the sensor noise and lasts `longest_s` or more, or above
   /// one and a half times the noise for half of that. It is then a model error or a sensor drift;
   /// sensor filters are faster.
@@ -79,7 +88,8 @@ using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
 /// Maximum-likelihood noise model of these errors. It has a first-order drift if this lowers -2 ln
-/// L by more than 10, and a second-order drift if this lowers -2 ln L by more than another 10.
+/// L by more than 10, and a second-order drift if this lowers -2 ln L by more than another 10;
+/// differenced noise in their place if this lowers -2 ln L by more than another 10.
 /// `free_share`: degrees of freedom of the fit over the number of errors, in (0, 1]; the variances
 /// are divided by it. `before`: noise model of the round before; its sensor_std and count are kept,
 /// and the search for a second-order drift starts at that of `before`, if it has one.

@@ -322,7 +322,7 @@ double pull(const InitialComponent& component, const FitWindow& window, double i
 /// Whitening filters of one channel: one for the errors and one for each of their derivatives.
 struct RowWhitener {
   RowWhitener(const ChannelNoise& noise, std::size_t columns)
-      : gains(noise), states(noise.drift_std > 0.0 ? columns : 0) {}
+      : gains(noise), states(noise.is_white() ? 0 : columns) {}
 
   /// Replaces each number of the row by weight times its innovation over the standard deviation.
   void next(double since_s, double weight, std::vector<double>& row) {

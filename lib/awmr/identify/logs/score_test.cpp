@@ -36,6 +36,7 @@ ScoreTest test_one(const Eigen::MatrixXd& h, const std::vector<Eigen::VectorXd>&
 
 LogProblem with_white_noise(LogProblem problem) {
   for (auto& [channel, noise] : problem.model.noise) {
+    if (noise.differenced > 0.0) continue;  // has no drift
     noise.white_std = noise.std();
     noise.drift_std = 0.0;
     noise.correlation_s = noise.frequency_radps = noise.damping = 0.0;

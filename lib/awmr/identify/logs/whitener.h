@@ -56,13 +56,20 @@ struct DriftStep {
 ///     x = F x,   P = F P F^T + sigma_d^2 (I - F F^T)
 ///     nu = e - x_0,   S = P_00 + sigma_w^2,   x += (P_.0/S) nu,   P -= P_.0 P_.0^T/S
 ///
+/// With differenced noise, the state is the last n with the variance P, sigma_w^2 at first:
+///
+///     nu = e + theta n,   S = sigma_w^2 + theta^2 P,   n = (sigma_w^2/S) nu
+///     P = sigma_w^2 (1 - sigma_w^2/S)
+///
 /// The innovations nu/sqrt(S) are white if e follows ChannelNoise. This class computes F, S and the
-/// gains P_.0/S, which depend only on the times of the residuals, not on their values.
+/// gains, which depend only on the times of the residuals, not on their values.
 class WhitenerGains {
  public:
   /// `noise` must outlive this object.
   explicit WhitenerGains(const ChannelNoise& noise)
-      : noise_(noise), p00_(noise.drift_std * noise.drift_std), p11_(p00_) {}
+      : noise_(noise),
+        p00_(std::pow(noise.differenced > 0.0 ? noise.white_std : noise.drift_std, 2)),
+        p11_(p00_) {}
 
   struct Step {
     bool predicts = false;  ///< true: x = F x has to be applied first
@@ -75,7 +82,8 @@ class WhitenerGains {
   const Step& next(double since_s) {
     if (settled_ && same_step(since_s)) return last_;
     const double white = noise_.white_std * noise_.white_std;
-    if (!(noise_.drift_std > 0.0)) {
+    if (noise_.differenced > 0.0) return next_differenced(white);
+    if (noise_.is_white()) {
       last_.variance = white;
       return last_;
     }
@@ -93,11 +101,19 @@ class WhitenerGains {
     return last_;
   }
   const DriftStep& drift_step() const { return step_; }
-  bool has_drift() const { return noise_.drift_std > 0.0; }
+  bool is_white() const { return noise_.is_white(); }
+  double differenced() const { return noise_.differenced; }
   bool second_order() const { return noise_.second_order(); }
 
  private:
   static bool near(double a, double b) { return std::abs(a - b) <= 1e-14 * std::abs(b); }
+
+  const Step& next_differenced(double white) {
+    last_.variance = white + noise_.differenced * noise_.differenced * p00_;
+    last_.gain0 = white / last_.variance;
+    p00_ = white * (1.0 - last_.gain0);
+    return last_;
+  }
 
   bool same_step(double since_s) const { return std::abs(since_s - since_s_) <= 1e-6 * since_s; }
 
@@ -142,6 +158,11 @@ struct WhitenerState {
 
   /// Returns the innovation nu of the next value.
   double next(double value, const WhitenerGains& gains, const WhitenerGains::Step& step) {
+    if (gains.differenced() > 0.0) {
+      const double innovation = value + gains.differenced() * x0;
+      x0 = step.gain0 * innovation;
+      return innovation;
+    }
     const auto& f = gains.drift_step().f;
     if (step.predicts && !gains.second_order()) x0 = f[0][0] * x0;
     if (step.predicts && gains.second_order()) {
@@ -170,7 +191,7 @@ class Whitener {
   /// the first.
   Innovation next(double error, double since_s) {
     const WhitenerGains::Step& step = gains_.next(since_s);
-    if (!gains_.has_drift()) return {error, step.variance};
+    if (gains_.is_white()) return {error, step.variance};
     return {state_.next(error, gains_, step), step.variance};
   }
 
