@@ -8,21 +8,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "awmr/identify/logs/channel_noise.h"
-#include "awmr/identify/logs/quantities.h"
+#include "awmr/identify/logs/simulated_vehicle.h"
 
 namespace awmr {
-
-/// Model, free quantities and noise of a log fit, shared by all windows.
-struct LogModel {
-  Vehicle vehicle;
-  ParameterValues<double> held;  ///< values of all parameters; those of free ones are not used
-  std::vector<FreeQuantity> quantities;
-  std::vector<InitialComponent> initial;
-  NoiseLevels noise;
-  double row_spacing_s = 0.02;   ///< shortest row spacing of the logs
-  double longest_step_s = 0.01;  ///< longest integration step
-};
 
 /// Errors of a window's n samples.
 struct WindowErrors {

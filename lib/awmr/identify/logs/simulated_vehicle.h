@@ -1,0 +1,45 @@
+/// The vehicle that a log fit simulates in a window, at one point of the search. Private to
+/// identify/.
+#pragma once
+
+#include <vector>
+
+#include "awmr/identify/logs/channel_noise.h"
+#include "awmr/identify/logs/quantities.h"
+#include "awmr/identify/logs/sensors.h"
+
+namespace awmr {
+
+/// Model, free quantities and noise of a log fit, shared by all windows.
+struct LogModel {
+  Vehicle vehicle;
+  ParameterValues<double> held;  ///< values of all parameters; those of free ones are not used
+  std::vector<FreeQuantity> quantities;
+  std::vector<InitialComponent> initial;
+  NoiseLevels noise;
+  double row_spacing_s = 0.02;   ///< shortest row spacing of the logs
+  double longest_step_s = 0.01;  ///< longest integration step
+};
+
+/// Plant, command path, sensor errors and initial state at one point of the search, with the
+/// columns of the free quantities.
+struct SimulatedVehicle {
+  Plant<double> plant;
+  std::vector<ParameterColumn> parameters;
+  CommandPath path;
+  ExtraForces extra;
+  SensorTerms sensors;
+  State<double> initial{};
+};
+
+/// Returns the vehicle at the coordinates, one per free quantity, with the initial state of a window,
+/// one value per free component.
+SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
+                            const double* coordinates, const double* initial_state);
+
+/// Initial motion of a window. The derivative of each free component of the state by itself is 1,
+/// and so is that of the steering angle by its trim. The others are 0.
+LinearMotion first_motion(const LogModel& model, const SimulatedVehicle& vehicle,
+                          std::size_t columns);
+
+}  // namespace awmr
