@@ -65,9 +65,10 @@ inline void add_plant(CLI::App& command, PlantChoice& choice) {
 inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
   std::vector<std::string> names = names_in(kPlantKindNames);
   names.emplace_back(kBothPlants);
-  add_plant_of(command, choice, std::move(names),
-               "both: four-wheel if a scenario has tyres, else model, with a check of the ranking "
-               "on the other plant and with slower and faster gains");
+  add_plant_of(
+      command, choice, std::move(names),
+      "both: each scenario on its own plant (four-wheel if it has tyres, else model), and a "
+      "check of the ranking on the other plant and with slower and faster gains");
 }
 
 /// Reads the tyres from the file and adds a finding on their prediction errors (`tyres-simulated`).

@@ -39,9 +39,10 @@ struct RankedMode {
 };
 
 inline constexpr std::string_view kScoreFormula =
-    "weighted geometric mean over the ranked metrics of (x + f)/(x1 + f), x: the mode's value, x1: "
-    "that of the first mode, f: the metric's floor divided by the relevance. It is computed by "
-    "sample; a metric that a run lacks counts as that of the worst run. A mode is behind if the "
+    "geometric mean over the samples of the weighted geometric mean over the ranked metrics of "
+    "(x + f)/(x1 + f), x: the mode's value, x1: that of the first mode in the list, f: the "
+    "metric's floor divided by the relevance. A metric that a run lacks counts as that of the "
+    "worst run. A mode is behind if the "
     "whole 95 % interval of the ratio of its score to the leader's (bootstrap over samples, "
     "widened for few samples by Student's t) is above 1 + relevance. It is equivalent if the 90 % "
     "interval is within relevance of 1, or if every ranked metric is equivalent. Otherwise it is "

@@ -180,7 +180,7 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
           {"then", then}};
 }
 
-/// Schema that is valid if the choices of this object have these names.
+/// Schema that accepts a document in which the choices of this object have the names `picks`.
 Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const {
   Json rule = Json::object();
   for (const auto& [key, property] : properties_) {

@@ -180,8 +180,9 @@ TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
   const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
   const double most = std::sqrt(kMaxAcceleration_mps2 / radius_m);
   return {&row, row.yaw_rate_radps / most,
-          fmt::format("a lateral acceleration of {:.3g} m/s^2 or more, while grip allows at most "
-                      "{:g} (r^2 front_axle_m/tan(steering))",
+          fmt::format("a lateral acceleration of at least {:.3g} m/s^2 (r^2 "
+                      "front_axle_m/tan(steering), on the smallest possible circle), while grip "
+                      "allows at most {:g} m/s^2",
                       row.yaw_rate_radps * row.yaw_rate_radps * radius_m, kMaxAcceleration_mps2)};
 }
 

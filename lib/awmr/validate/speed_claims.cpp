@@ -115,11 +115,12 @@ std::string why_speed_is_held_or_not(bool holds, bool saturates, bool others_dro
                     : saturates ? "differential: a side saturates in the turn, so "
                                   "the thrust is below the command"
                                 : "differential: the speed loop is too slow for the turn";
-  why += others_drop
-             ? "; steering and combined: in the turn the thrust falls short of the command"
-             : "; steering and combined do not both drop by a visible and slight amount: the exact "
-               "allocation keeps tau_speed and the speed law compensates m' r v, so only the "
-               "servo's lag and the limits can cause a drop";
+  why +=
+      others_drop
+          ? "; steering and combined: in the turn the thrust falls short of the command"
+          : "; steering and combined: their speed drops are not both within these limits. With the "
+            "exact allocation, which keeps tau_speed, and a speed law that compensates m' r v, "
+            "only the servo's lag and the limits cause a drop";
   return why;
 }
 

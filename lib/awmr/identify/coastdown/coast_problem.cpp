@@ -249,7 +249,8 @@ void CoastProblem::solve() {
   free_short_leads();
 }
 
-/// Fits t0 of the runs without a long plateau. Goes back to the fit with fixed t0 if AIC is lower.
+/// Also fits t0, the time of motors-off, of the runs with no or a short plateau before it. Keeps
+/// this fit if it is usable and lowers AIC; else restores the fit with t0 fixed at the first sample.
 void CoastProblem::free_short_leads() {
   constexpr double kOfAic = 2.0;  // for each t0
   const std::vector<CoastInitialState> fixed = initial_;

@@ -55,9 +55,10 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
 Finding not_compared(const Subject& subject) {
   return about(
       subject, Severity::kWarning, "families-not-compared",
-      fmt::format("{} rows for the {} resistance are too few to compare families by AICc, "
-                  "which needs {} rows; the power law is used. Record another run",
-                  subject.points.size(), name_in(kFitSubjectNames, subject.name), kMinToCompare));
+      fmt::format("the {} resistance has {} rows, and a comparison of families of resistance by "
+                  "AICc needs {}; the power law is used. Record {} more",
+                  name_in(kFitSubjectNames, subject.name), subject.points.size(), kMinToCompare,
+                  kMinToCompare - subject.points.size()));
 }
 
 /// Error finding if no family can be chosen. `tried`: true if the family is selected by AICc and at
