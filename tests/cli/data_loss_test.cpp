@@ -218,10 +218,9 @@ TEST_F(DataLoss, RefusesOutputsInImpossiblePlaces) {
          {"init " + place, "init --example " + place, "run configs/paper/project.json -o " + place,
           "compare" + both + " -o " + place,
           "emit" + model + " --gains " + path("gains.json") + " -o " + place,
-          "recover" + model + " --runs 4 --shard 1/2 -o " + place,
-          "tune" + model + " --shard 1/2 -o " + place, "schema -o " + place, "man -o " + place,
-          "merge " + place + " -o " + place, "report " + place, "check " + place,
-          "suggest" + model + " -o " + place + "/suggest.json",
+          "recover" + model + " --runs 4 --shard 1/2 -o " + place, "tune" + model + " -o " + place,
+          "schema -o " + place, "man -o " + place, "merge " + place + " -o " + place,
+          "report " + place, "check " + place, "suggest" + model + " -o " + place + "/suggest.json",
           "identify --vehicle " + path("vehicle.json") + " --log " + place + " -o " +
               path("x.json")}) {
       const ProcessResult result = within_seconds(60, command);

@@ -82,10 +82,10 @@ struct Diagnostic {
   std::string meaning;   ///< what a small p-value means for the fit, in one sentence
 };
 
-/// The estimates without one row of a table, or without one log.
+/// The estimates without one row of a table.
 struct LeaveOneOut {
   std::string file;
-  int line = 0;                ///< 0: the whole file
+  int line = 0;                ///< 0: a whole log, in older files
   std::vector<double> values;  ///< in the order of EstimatorReport::parameters
 };
 

@@ -28,7 +28,6 @@ struct Predictor {
   LogSignals signals;
   Plant<double> plant;
   double step_s;
-  double delay_s;
   std::optional<LaggedForces> lagged;
   std::size_t series_step;  ///< every n-th measurement is kept in the series; 0: no series
 };
@@ -39,15 +38,14 @@ Predictor predictor(const DrivingLog& log, const Plant<double>& plant,
   const std::size_t most = options.most_in_series;
   std::optional<LaggedForces> lagged;
   if (options.motor_lag_s > 0.0) lagged.emplace(log, 0, log.rows(), options.motor_lag_s);
-  return {LogSignals(log),   resolved_beside_friction(plant, step_s), step_s, options.delay_s,
-          std::move(lagged), most > 0 ? log.rows() / most + 1 : 0};
+  return {LogSignals(log), resolved_beside_friction(plant, step_s), step_s, std::move(lagged),
+          most > 0 ? log.rows() / most + 1 : 0};
 }
 
 template <class Visit>
 void run(const Predictor& model, std::size_t begin, std::size_t end, const State<double>& initial,
          Visit visit) {
-  replay<double>(model.signals, begin, end, model.plant,
-                 model.delay_s != 0.0 ? &model.delay_s : nullptr, model.step_s, initial, visit,
+  replay<double>(model.signals, begin, end, model.plant, nullptr, model.step_s, initial, visit,
                  model.lagged ? &*model.lagged : nullptr);
 }
 

@@ -34,7 +34,6 @@ struct ChannelPrediction {
 
 struct PredictionOptions {
   double horizon_s = 10.0;   ///< maximum length of a window, s
-  double delay_s = 0.0;      ///< latency from a command to its effect, s
   double motor_lag_s = 0.0;  ///< time constant of the motors, s, >= 0
   /// Maximum number of measurements in a series; if there are more, only every n-th is kept. 0: no
   /// series.

@@ -1,7 +1,6 @@
 #include "awmr/identify/logs/actuator_terms.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "awmr/core/index.h"
@@ -38,15 +37,17 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
   return fit;
 }
 
-std::optional<NoiseIteration> with_motor_lag_beside_delay(const NoiseIteration& settled,
-                                                          Loss loss) {
+std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled, Loss loss) {
   constexpr double kShare = 0.5;  // of the delay, as the initial guess
   const std::vector<FreeQuantity>& quantities = settled.problem.model.quantities;
   const auto delay = std::ranges::find(quantities, FreeQuantity::Kind::kDelay, &FreeQuantity::kind);
   if (delay == quantities.end() || has_motor_lag(settled.problem.model)) return {};
-  const double delay_s = settled.point.coordinates[at(delay - quantities.begin())];
-  if (!(delay_s > 0.0)) return {};
-  NoiseIteration lagged = tried(settled, {{motor_lag(), kShare * delay_s}}, loss);
+  const std::size_t place = at(delay - quantities.begin());
+  const double lag_s = kShare * settled.point.coordinates[place];
+  if (!(lag_s > 0.0)) return {};
+  NoiseIteration from = settled;
+  from.point.coordinates[place] -= lag_s;
+  NoiseIteration lagged = tried(from, {{motor_lag(), lag_s}}, loss);
   if (!(akaike_of(lagged) < akaike_of(settled))) return {};
   return settled_if_better(settled, {std::move(lagged.problem), std::move(lagged.point)}, loss);
 }

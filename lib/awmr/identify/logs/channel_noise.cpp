@@ -105,7 +105,7 @@ double median_step_s(std::span<const ErrorSeries> series) {
   return steps.empty() ? 0.0 : median(std::move(steps));
 }
 
-struct Drift {
+struct NoiseCandidate {
   ChannelNoise noise;  ///< scaled to a total variance of 1
   double cost = std::numeric_limits<double>::infinity();
 
@@ -117,7 +117,7 @@ struct Drift {
 
 /// Noise model with a first-order drift of the given correlation time and its most likely share of
 /// the variance.
-Drift likeliest_share(std::span<const ErrorSeries> series, double correlation_s) {
+NoiseCandidate likeliest_share(std::span<const ErrorSeries> series, double correlation_s) {
   constexpr int kBits = 10;
   std::uintmax_t evaluations = 24;
   const auto cost = [&](double logit) {
@@ -131,18 +131,19 @@ Drift likeliest_share(std::span<const ErrorSeries> series, double correlation_s)
 /// Most likely first-order drift. Its correlation time is between half the sample interval and the
 /// length of a window; a coarse grid is refined by a search. `white_cost`: cost without a drift.
 /// The search is skipped if the grid lowers this cost so little that no drift can be significant.
-Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s, double white_cost) {
+NoiseCandidate likeliest_drift(std::span<const ErrorSeries> series, double step_s,
+                               double white_cost) {
   constexpr double kWorthASearch = 4.0;  // smallest decrease of -2 ln L for a finer search
   constexpr int kGrid = 7;
   constexpr int kBits = 8;
   const double shortest = std::log(0.5 * step_s);
   const double longest = std::log(std::max(kWindow_s, 2.0 * step_s));
   const double spacing = (longest - shortest) / (kGrid - 1);
-  Drift best;
+  NoiseCandidate best;
   double best_log = shortest;
   for (int i = 0; i < kGrid; ++i) {
     const double log_s = shortest + i * spacing;
-    Drift drift = likeliest_share(series, std::exp(log_s));
+    NoiseCandidate drift = likeliest_share(series, std::exp(log_s));
     if (!(drift.cost < best.cost)) continue;
     best = drift;
     best_log = log_s;
@@ -155,7 +156,7 @@ Drift likeliest_drift(std::span<const ErrorSeries> series, double step_s, double
           std::max(shortest, best_log - spacing), std::min(longest, best_log + spacing), kBits,
           evaluations)
           .first;
-  Drift drift = likeliest_share(series, std::exp(refined));
+  NoiseCandidate drift = likeliest_share(series, std::exp(refined));
   return drift.cost < best.cost ? drift : best;
 }
 
@@ -189,7 +190,7 @@ struct SecondOrderRange {
                 std::log(20.0)} {}
 };
 
-Drift as_drift(std::span<const ErrorSeries> series, const SecondOrder& s) {
+NoiseCandidate as_drift(std::span<const ErrorSeries> series, const SecondOrder& s) {
   const ChannelNoise noise = s.noise();
   return {noise, likelihood(series, noise).cost};
 }
@@ -216,12 +217,12 @@ SecondOrder likeliest_of_grid(std::span<const ErrorSeries> series, const SecondO
 /// Data of the NLopt callback, and the best point so far.
 struct SecondOrderSearch {
   std::span<const ErrorSeries> series;
-  Drift best = {};
+  NoiseCandidate best = {};
 };
 
 double second_order_cost(unsigned, const double* x, double*, void* data) {
   auto& search = *static_cast<SecondOrderSearch*>(data);
-  const Drift drift = as_drift(search.series, {x[0], x[1], x[2]});
+  const NoiseCandidate drift = as_drift(search.series, {x[0], x[1], x[2]});
   if (!std::isfinite(drift.cost)) return std::numeric_limits<double>::max();
   if (drift.cost < search.best.cost) search.best = drift;
   return drift.cost;
@@ -229,8 +230,8 @@ double second_order_cost(unsigned, const double* x, double*, void* data) {
 
 /// Nelder-Mead search from the point `from` [NLopt, LN_NELDERMEAD]. Returns the best point found,
 /// also if the search fails, because the caller compares it with the other noise models.
-Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
-                     const SecondOrderRange& range) {
+NoiseCandidate likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
+                              const SecondOrderRange& range) {
   constexpr int kMaxEvaluations = 150;
   constexpr double kFine = 0.02;  // the search ends at changes of -2 ln L below this
   constexpr double kFirstStep = 0.5;
@@ -254,8 +255,8 @@ Drift likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& fro
 
 /// Most likely second-order drift. The search starts at the second-order drift of `before`, or at
 /// the best point of a grid if there is none.
-Drift likeliest_second_order(std::span<const ErrorSeries> series, double step_s,
-                             const ChannelNoise& before) {
+NoiseCandidate likeliest_second_order(std::span<const ErrorSeries> series, double step_s,
+                                      const ChannelNoise& before) {
   const SecondOrderRange range(step_s);
   if (!before.second_order())
     return likeliest_from(series, likeliest_of_grid(series, range), range);
@@ -266,16 +267,16 @@ Drift likeliest_second_order(std::span<const ErrorSeries> series, double step_s,
 }
 
 /// Most likely differenced noise.
-Drift likeliest_difference(std::span<const ErrorSeries> series) {
+NoiseCandidate likeliest_difference(std::span<const ErrorSeries> series) {
   constexpr int kBits = 10;
-  constexpr double kMost = 0.9999;
+  constexpr double kMaxTheta = 0.9999;
   std::uintmax_t evaluations = 24;
   const auto noise = [](double theta) {
     return ChannelNoise{.white_std = 1.0 / std::hypot(1.0, theta), .differenced = theta};
   };
   const auto cost = [&](double theta) { return likelihood(series, noise(theta)).cost; };
   const auto [theta, least] =
-      boost::math::tools::brent_find_minima(cost, 0.0, kMost, kBits, evaluations);
+      boost::math::tools::brent_find_minima(cost, 0.0, kMaxTheta, kBits, evaluations);
   return {noise(theta), least};
 }
 
@@ -314,7 +315,7 @@ ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_sh
   const double step_s = median_step_s(some);
   if (step_s > 0.0) {
     double cost = likelihood(some, noise).cost;
-    const auto take_if_better = [&](const Drift& other) {
+    const auto take_if_better = [&](const NoiseCandidate& other) {
       if (!other.is_significantly_better_than(cost)) return false;
       noise = other.noise;
       cost = other.cost;

@@ -10,7 +10,7 @@
 namespace awmr {
 
 /// One finding for each delay, lag or command error that the fit identifies: `sensor-delay`,
-/// `sensor-lag`, `steering-delay`, `steering-trim`, `force-imbalance`, `force-saturation`,
+/// `sensor-lag`, `smoothed-channel`, `steering-delay`, `steering-trim`, `force-imbalance`, `force-saturation`,
 /// `actuator-lag`, `late-commands`, `wheel-slip`, `sway-sensor`. Ignores a value that is below two
 /// standard errors, or below the limit for its kind: 1 ms (delay, lag), 1 mrad (trim), 0.1 %
 /// (imbalance, saturation, slip ratio), 1 mm/s (slip).

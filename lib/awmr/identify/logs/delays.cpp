@@ -87,21 +87,31 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
+/// Much weaker candidates are skipped at first and tested again after the best term was added.
+constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
+constexpr double kBeyondDoubt = 20.0;
+
 /// Considers smoothing of the channels that are candidates for it: of all together, because one
 /// program often smooths several, and of the most significant one alone; each as a moving average
-/// and as a Gaussian kernel.
-void consider_smoothing(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms,
-                        Loss loss, LowestAic& lowest) {
+/// and as a Gaussian kernel. Returns the first of these fits.
+std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
+                                                 const std::vector<CandidateTerm>& terms, Loss loss,
+                                                 LowestAic& lowest) {
+  std::optional<NoiseIteration> first;
   for (const bool is_mean : {false, true}) {
     std::vector<FreeTerm> smoothing;
     for (const auto& [quantity, value, significance] : terms) {
       if (quantity.kind != FreeQuantity::Kind::kSmoothing) continue;
+      if (significance < kComparable * terms.front().significance) break;
       smoothing.push_back({smoothing_of(quantity.channel, is_mean), value});
     }
-    if (smoothing.empty()) return;
-    lowest.consider(tried(settled, smoothing, loss));
+    if (smoothing.empty()) break;
+    NoiseIteration all = tried(settled, smoothing, loss);
+    if (!first) first = all;
+    lowest.consider(std::move(all));
     if (smoothing.size() > 1) lowest.consider(tried(settled, {smoothing.front()}, loss));
   }
+  return first;
 }
 
 /// The slip of the speed together with slip of the same form of the yaw rate, if that is a
@@ -129,15 +139,12 @@ void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss
 /// lowers AIC, returns the fit of the most significant candidate if its score test exceeds 20
 /// standard errors, else empty.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
-  constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
-  constexpr double kBeyondDoubt = 20.0;
   LowestAic lowest(settled);
   std::optional<NoiseIteration> strongest;  // first candidate, if above kBeyondDoubt
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);
   for (const CandidateTerm& candidate_term : terms) {
-    // Much weaker candidates are skipped now and tested again after the best term was added.
     if (lowest.best() && candidate_term.significance < kComparable * terms.front().significance)
       break;
     const FreeQuantity& more = candidate_term.quantity;
@@ -162,7 +169,11 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     }
   }
   consider_filters(settled, filters, loss, lowest);
-  consider_smoothing(settled, terms, loss, lowest);
+  auto smoothed = consider_smoothing(settled, terms, loss, lowest);
+  if (!strongest && !terms.empty() && terms.front().significance > kBeyondDoubt &&
+      terms.front().quantity.kind == FreeQuantity::Kind::kSmoothing) {
+    strongest = std::move(smoothed);
+  }
   // One round can be too few to lower AIC if the drift had absorbed a large effect of the term.
   return lowest.best() ? std::move(lowest.best()) : std::move(strongest);
 }
@@ -196,7 +207,7 @@ std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss 
 std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled, Loss loss) {
   if (auto more = with_one_more(settled, loss)) return more;
   if (auto more = with_slower_servo(settled, loss)) return more;
-  return with_motor_lag_beside_delay(settled, loss);
+  return with_motor_lag_and_delay(settled, loss);
 }
 
 }  // namespace

@@ -45,8 +45,8 @@ struct SearchPoint {
 
 /// Longest integration step at these coordinates, s: that of replay_step_s(), except that fast sway
 /// shortens it to no less than 1/4 of the row spacing, and a fast servo to no less than 1/8. (Sway
-/// that is faster is slowed, LinearPlant::sway_pace.) At most the row spacing: a chord of the
-/// resistance near rest (Resistance::rest_speed) is the longer, the longer the step. At least
+/// that is faster is slowed, LinearPlant::sway_pace.) At most the row spacing, because the
+/// chord of the resistance near rest (Resistance::rest_speed) grows with the step. At least
 /// kShortestReplayStep_s.
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 

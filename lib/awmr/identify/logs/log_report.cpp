@@ -21,7 +21,7 @@ std::string in_words(const NoiseLevels& levels) {
   for (const auto& [channel, noise] : levels) {
     text += fmt::format("{}{} {:.3g} {}", text.empty() ? "" : "; ", info(channel).name, noise.std(),
                         info(channel).unit);
-    if (noise.differenced > 0.0) text += ", differenced";
+    if (noise.differenced > 0.0) text += fmt::format(", differenced ({:.2g})", noise.differenced);
     if (noise.drift_std > 0.0) {
       text += fmt::format(", {:.3g} of it correlated over {:.3g} s", noise.drift_std,
                           noise.correlation_s);

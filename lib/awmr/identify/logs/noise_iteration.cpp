@@ -73,15 +73,16 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
 }
 
 /// Largest change of the noise of any channel: change of its total or drift standard deviation over
-/// the total one, or, for drifts above a tenth of the total noise, a tenth of the relative change
+/// the total one, change of theta of differenced noise, or, for drifts above a tenth of the total noise, a tenth of the relative change
 /// of the correlation time.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   double change = 0.0;
   for (const auto& [channel, noise] : after) {
     const ChannelNoise& old = before.at(channel);
     const double std = noise.std();
-    change = std::max(
-        {change, std::abs(std / old.std() - 1.0), std::abs(noise.drift_std - old.drift_std) / std});
+    change = std::max({change, std::abs(std / old.std() - 1.0),
+                       std::abs(noise.drift_std - old.drift_std) / std,
+                       std::abs(noise.differenced - old.differenced)});
     if (noise.drift_std > 0.1 * std && old.drift_std > 0.1 * old.std()) {
       change = std::max(change, 0.1 * std::abs(std::log(noise.correlation_s / old.correlation_s)));
     }

@@ -122,7 +122,7 @@ FreeQuantity extra_force(ExtraForce force);
 
 /// Time constant of a first-order filter that smooths a channel, s. `is_at_rows`: a recursive
 /// filter with one step for each row of the log, y(row) = e y(row - 1) + (1 - e) u(row), in place
-/// of a continuous filter (smoothed_channel.h).
+/// of a continuous filter (filtered_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
 /// Variance of a symmetric kernel that smooths a channel over the rows of the log, s^2. `is_mean`: a

@@ -25,28 +25,36 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Simula
   const double h = model.longest_step_s;
   LinearStepper stepper(vehicle.plant, columns, vehicle.parameters, columns_of(vehicle.path), h,
                         vehicle.extra);
-  SensorReadings readings(model, window, vehicle, columns);
-  std::size_t next = 0;
-  const auto compare_at = [&](std::size_t row, const LinearMotion& now) {
-    readings.go_to(row, now);
-    for (; next < samples.size() && samples[next].row == row; ++next) {
-      const LogChannel c = samples[next].channel;
-      const double read = readings.read(c, row, now);
-      const double error = read + vehicle.sensors.bias[at(c)] - log[c]->value[row];
-      const auto& bias_column = vehicle.sensors.bias_column[at(c)];
-      if (columns > 0 && bias_column) readings.row()[*bias_column] += 1.0;
-      visit(next, error, readings.row());
-    }
+  const auto visit_sample = [&](std::size_t i, double reading, std::vector<double>& by) {
+    const LogChannel c = samples[i].channel;
+    const auto& bias_column = vehicle.sensors.bias_column[at(c)];
+    if (columns > 0 && bias_column) by[*bias_column] += 1.0;
+    visit(i, reading + vehicle.sensors.bias[at(c)] - log[c]->value[samples[i].row], by);
   };
   const bool waits = vehicle.sensors.any_smoothed();  // for the rows after a row
+  SensorReadings readings(model, window, vehicle, columns);
+  std::array<ReadingSeries, kChannelCount> series;  // if smoothing waits for later rows
+  std::size_t next = 0;
   replay_linear(*window.signals, window.rows.begin, window.rows.end, vehicle.path, stepper, h,
                 first_motion(model, vehicle, columns),
                 [&](std::size_t row, const LinearMotion& now) {
-                  readings.add(now);
-                  if (!waits) compare_at(row, now);
+                  readings.go_on(now);
+                  for (const auto& [c, noise] : model.noise) {
+                    if (!waits) break;
+                    const double reading = readings.read(c, now);
+                    series[at(c)].add(reading, readings.row());
+                  }
+                  for (; !waits && next < samples.size() && samples[next].row == row; ++next) {
+                    const double reading = readings.read(samples[next].channel, now);
+                    visit_sample(next, reading, readings.row());
+                  }
                 });
-  for (std::size_t i = 0; waits && i < readings.motions().size(); ++i) {
-    compare_at(window.rows.begin + i, readings.motions()[i]);
+  std::vector<double> by(columns);
+  for (; waits && next < samples.size(); ++next) {
+    const LogChannel c = samples[next].channel;
+    const std::size_t place = samples[next].row - window.rows.begin;
+    const double reading = series[at(c)].read(place, vehicle.sensors.smoothing[at(c)], by);
+    visit_sample(next, reading, by);
   }
 }
 

@@ -2,7 +2,7 @@
 ///
 /// The model is simulated with the logged commands and compared with all measurements. Correlated
 /// errors of a channel are whitened. The Jacobian J has a row per sample. J is not stored, only J^T
-/// J, so that memory does not grow with the number of samples.
+/// J. (Only smoothed channels keep the readings of a window and their derivatives.)
 #pragma once
 
 #include <Eigen/Core>

@@ -11,14 +11,15 @@ void ReadingSeries::add(double value, const std::vector<double>& row) {
   rows_.insert(rows_.end(), row.begin(), row.end());
 }
 
-double ReadingSeries::smoothed(std::size_t i, const Smoothing& smoothing,
-                               std::vector<double>& row) const {
-  const auto& [weight, by_variance] = smoothing.kernel;
-  double value = values_[i];
-  double by = 0.0;
+double ReadingSeries::read(std::size_t i, const std::optional<Smoothing>& smoothing,
+                           std::vector<double>& row) const {
   const std::size_t columns = row.size();
   const double* const middle = rows_.data() + i * columns;
   std::copy_n(middle, columns, row.begin());
+  if (!smoothing) return values_[i];
+  const auto& [weight, by_variance] = smoothing->kernel;
+  double value = values_[i];
+  double by = 0.0;
   const std::size_t reach = std::min({weight.size() - 1, i, values_.size() - 1 - i});
   for (std::size_t n = 1; n <= reach; ++n) {
     const double bend = values_[i - n] - 2.0 * values_[i] + values_[i + n];
@@ -30,7 +31,7 @@ double ReadingSeries::smoothed(std::size_t i, const Smoothing& smoothing,
       row[k] += weight[n] * (before[k] - 2.0 * middle[k] + after[k]);
     }
   }
-  if (columns > 0) row[smoothing.column] += by * smoothing.rows2_per_s2;
+  if (columns > 0) row[smoothing->column] += by * smoothing->rows2_per_s2;
   return value;
 }
 
@@ -43,7 +44,6 @@ SensorReadings::SensorReadings(const LogModel& model, const FitWindow& window,
             model.longest_step_s, vehicle.extra),
       sensors_(*window.signals, vehicle.sensors, vehicle.path, vehicle.plant, vehicle.parameters,
                columns),
-      keeps_motions_(vehicle.sensors.any_delayed() || vehicle.sensors.any_smoothed()),
       row_(columns) {
   for (const LogChannel c : kChannels) {
     const auto& lag = vehicle.sensors.lag[at(c)];
@@ -51,18 +51,12 @@ SensorReadings::SensorReadings(const LogModel& model, const FitWindow& window,
   }
 }
 
-void SensorReadings::add(const LinearMotion& now) {
-  if (!keeps_motions_) return;
-  motions_.push_back(now);
-  const double t_s = window_.rows.log->t_s[window_.rows.begin + motions_.size() - 1];
-  for (const LogChannel c : kChannels) {
-    if (vehicle_.sensors.smoothing[at(c)]) series_[at(c)].add(read_unsmoothed(c, t_s, now), row_);
-  }
-}
-
-void SensorReadings::go_to(std::size_t row, const LinearMotion& now) {
+void SensorReadings::go_on(const LinearMotion& now) {
   const std::vector<double>& t_s = window_.rows.log->t_s;
-  const double since_s = row > window_.rows.begin ? t_s[row] - t_s[row - 1] : 0.0;
+  const std::size_t row = window_.rows.begin + rows_;
+  const double since_s = rows_ > 0 ? t_s[row] - t_s[row - 1] : 0.0;
+  ++rows_;
+  if (vehicle_.sensors.any_delayed()) motions_.push_back(now);
   for (const LogChannel c : kChannels) {
     if (!filters_[at(c)]) continue;
     const double input = sensors_.read(c, now, t_s[row]);
@@ -70,18 +64,12 @@ void SensorReadings::go_to(std::size_t row, const LinearMotion& now) {
   }
 }
 
-double SensorReadings::read(LogChannel c, std::size_t row, const LinearMotion& now) {
-  if (const auto& smoothing = vehicle_.sensors.smoothing[at(c)]) {
-    return series_[at(c)].smoothed(row - window_.rows.begin, *smoothing, row_);
-  }
-  return read_unsmoothed(c, window_.rows.log->t_s[row], now);
-}
-
-double SensorReadings::read_unsmoothed(LogChannel c, double t_s, const LinearMotion& now) {
+double SensorReadings::read(LogChannel c, const LinearMotion& now) {
   if (const auto& filter = filters_[at(c)]) {
     row_ = filter->by_column();
     return filter->value();
   }
+  const double t_s = window_.rows.log->t_s[window_.rows.begin + rows_ - 1];
   const auto& delay = vehicle_.sensors.delay[at(c)];
   const double value =
       delay ? sensors_.read(c,

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "awmr/identify/logs/smoothed_channel.h"
+#include "awmr/identify/logs/filtered_channel.h"
 #include "awmr/identify/logs/smoothing_kernel.h"
 #include "awmr/identify/logs/wheel_slip.h"
 

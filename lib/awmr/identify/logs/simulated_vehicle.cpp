@@ -21,12 +21,85 @@ void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double
 }
 
 /// The smoothing of a channel with the variance `variance_s2`.
-Smoothing smoothing_at(const LogModel& model, const FreeQuantity& quantity, double variance_s2,
+Smoothing smoothing_at(const FitWindow& window, const FreeQuantity& quantity, double variance_s2,
                        std::size_t column) {
-  const double rows2_per_s2 = std::pow(model.row_spacing_s, -2);
+  const double rows2_per_s2 = std::pow(window.row_spacing_s, -2);
   const double variance = variance_s2 * rows2_per_s2;
   return {quantity.is_mean ? moving_average(variance) : gaussian_kernel(variance), column,
           rows2_per_s2};
+}
+
+/// Sets the term of the command path that the quantity `q` is. `number`: its value; `i`: its column.
+void set_command_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
+                      CommandPath& path) {
+  using Kind = FreeQuantity::Kind;
+  switch (q.kind) {
+    case Kind::kDelay:
+      path.delay = {number, i};
+      break;
+    case Kind::kSteeringDelay:
+      path.steering_delay = {number, i};
+      break;
+    case Kind::kMotorLag:
+      path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, number);
+      path.lag_column = i;
+      break;
+    case Kind::kSteeringTrim:
+      path.steering_trim = {number, i};
+      break;
+    case Kind::kServoRate:
+      path.servo_rate = {number, i};
+      break;
+    case Kind::kForceImbalance:
+      path.imbalance = {number, i};
+      break;
+    case Kind::kForceExponent:
+      path.exponent = {number, i};
+      break;
+    case Kind::kForceSaturation:
+      path.saturation = {number, i};
+      path.full_command = q.full_command;
+      break;
+    case Kind::kSaturationSharpness:
+      path.sharpness = {number, i};
+      break;
+    default:
+      break;
+  }
+}
+
+/// Sets the error of a sensor that the quantity `q` is. `number`: its value; `i`: its column.
+void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
+                     SensorTerms& sensors) {
+  using Kind = FreeQuantity::Kind;
+  const std::size_t c = at(q.channel);
+  switch (q.kind) {
+    case Kind::kSensorLag:
+      sensors.lag[c] = {{number, i}, q.is_at_rows};
+      break;
+    case Kind::kSmoothing:
+      sensors.smoothing[c] = smoothing_at(window, q, number, i);
+      break;
+    case Kind::kSensorDelay:
+      sensors.delay[c] = {number, i};
+      if (q.channel == LogChannel::kX) sensors.delay[at(LogChannel::kY)] = {number, i};
+      break;
+    case Kind::kWheelSlip:
+      sensors.slips.push_back({q.channel, {number, i}, q.is_ratio});
+      break;
+    case Kind::kSwayOffset:
+      sensors.sway_offset = {number, i};
+      break;
+    case Kind::kSwayAngle:
+      sensors.sway_angle = {number, i};
+      break;
+    case Kind::kBias:
+      sensors.bias[c] = number;
+      sensors.bias_column[c] = i;
+      break;
+    default:
+      break;
+  }
 }
 
 }  // namespace
@@ -36,72 +109,17 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
   SimulatedVehicle vehicle{};
   ParameterValues<double> values = model.held;
   for (std::size_t i = 0; i < model.quantities.size(); ++i) {
-    const FreeQuantity& quantity = model.quantities[i];
-    const double number = quantity.value(coordinates[i]);
-    switch (quantity.kind) {
-      case FreeQuantity::Kind::kParameter:
-        values[at(quantity.id)] = number;
-        vehicle.parameters.push_back({quantity.id, i, quantity.jacobian(coordinates[i])});
-        break;
-      case FreeQuantity::Kind::kDelay:
-        vehicle.path.delay = {number, i};
-        break;
-      case FreeQuantity::Kind::kSteeringDelay:
-        vehicle.path.steering_delay = {number, i};
-        break;
-      case FreeQuantity::Kind::kMotorLag:
-        vehicle.path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, number);
-        vehicle.path.lag_column = i;
-        break;
-      case FreeQuantity::Kind::kSteeringTrim:
-        vehicle.path.steering_trim = {number, i};
-        break;
-      case FreeQuantity::Kind::kServoRate:
-        vehicle.path.servo_rate = {number, i};
-        break;
-      case FreeQuantity::Kind::kForceImbalance:
-        vehicle.path.imbalance = {number, i};
-        break;
-      case FreeQuantity::Kind::kForceExponent:
-        vehicle.path.exponent = {number, i};
-        break;
-      case FreeQuantity::Kind::kForceSaturation:
-        vehicle.path.saturation = {number, i};
-        vehicle.path.full_command = quantity.full_command;
-        break;
-      case FreeQuantity::Kind::kSaturationSharpness:
-        vehicle.path.sharpness = {number, i};
-        break;
-      case FreeQuantity::Kind::kExtraForce:
-        vehicle.extra[quantity.force] = number;
-        vehicle.extra.columns.push_back({quantity.force, i, quantity.jacobian(coordinates[i])});
-        break;
-      case FreeQuantity::Kind::kSensorLag:
-        vehicle.sensors.lag[at(quantity.channel)] = {{number, i}, quantity.is_at_rows};
-        break;
-      case FreeQuantity::Kind::kSmoothing:
-        vehicle.sensors.smoothing[at(quantity.channel)] = smoothing_at(model, quantity, number, i);
-        break;
-      case FreeQuantity::Kind::kSensorDelay:
-        vehicle.sensors.delay[at(quantity.channel)] = {number, i};
-        if (quantity.channel == LogChannel::kX) {
-          vehicle.sensors.delay[at(LogChannel::kY)] = {number, i};
-        }
-        break;
-      case FreeQuantity::Kind::kWheelSlip:
-        vehicle.sensors.slips.push_back({quantity.channel, {number, i}, quantity.is_ratio});
-        break;
-      case FreeQuantity::Kind::kSwayOffset:
-        vehicle.sensors.sway_offset = {number, i};
-        break;
-      case FreeQuantity::Kind::kSwayAngle:
-        vehicle.sensors.sway_angle = {number, i};
-        break;
-      case FreeQuantity::Kind::kBias:
-        vehicle.sensors.bias[at(quantity.channel)] = number;
-        vehicle.sensors.bias_column[at(quantity.channel)] = i;
-        break;
+    const FreeQuantity& q = model.quantities[i];
+    const double number = q.value(coordinates[i]);
+    if (q.kind == FreeQuantity::Kind::kParameter) {
+      values[at(q.id)] = number;
+      vehicle.parameters.push_back({q.id, i, q.jacobian(coordinates[i])});
+    } else if (q.kind == FreeQuantity::Kind::kExtraForce) {
+      vehicle.extra[q.force] = number;
+      vehicle.extra.columns.push_back({q.force, i, q.jacobian(coordinates[i])});
     }
+    set_command_term(q, number, i, window, vehicle.path);
+    set_sensor_term(q, number, i, window, vehicle.sensors);
   }
   const double given_lag_s = model.vehicle.motor_time_constant_s.value_or(0.0);
   if (!vehicle.path.lag && given_lag_s > 0.0) {

@@ -5,10 +5,17 @@
 #include <cstddef>
 
 namespace awmr {
+namespace {
+
+/// The variance, at most kWidestKernel; 0 if it is not a positive number.
+double bounded(double variance) { return variance > 0.0 ? std::min(variance, kWidestKernel) : 0.0; }
+
+}  // namespace
 
 SmoothingKernel gaussian_kernel(double variance) {
   constexpr double kReach = 6.0;  // standard deviations; weights beyond are below 1e-8
   constexpr double kShortest = 1e-8;
+  variance = bounded(variance);
   const auto last = static_cast<std::size_t>(kReach * std::sqrt(variance)) + 10;
   // Downward recurrence I_{n-1} = I_{n+1} + (2 n/s) I_n, then scaled to the sum 1.
   std::vector<double> w(last + 2, 0.0);
@@ -30,6 +37,7 @@ SmoothingKernel gaussian_kernel(double variance) {
 }
 
 SmoothingKernel moving_average(double variance) {
+  variance = bounded(variance);
   // k whole rows have the variance k (k + 1)/3.
   const auto whole = static_cast<std::size_t>(0.5 * (std::sqrt(1.0 + 12.0 * variance) - 1.0));
   const auto k = static_cast<double>(whole);

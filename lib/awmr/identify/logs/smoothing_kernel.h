@@ -16,6 +16,10 @@ struct SmoothingKernel {
   std::vector<double> by_variance;
 };
 
+/// Largest variance of a kernel, rows^2. Kernels with a larger variance, or with one that is not a
+/// number, are those of this variance, or of 0.
+inline constexpr double kWidestKernel = 2500.0;
+
 /// Discrete Gaussian kernel of the variance s >= 0 (rows^2) [Lindeberg, Scale-space for discrete
 /// signals, 1990], with the modified Bessel functions I_n:
 ///

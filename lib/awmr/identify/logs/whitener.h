@@ -73,6 +73,7 @@ class WhitenerGains {
 
   struct Step {
     bool predicts = false;  ///< true: x = F x has to be applied first
+    bool restarts = false;  ///< true: x = 0 has to be applied first (differenced noise)
     double gain0 = 0.0;
     double gain1 = 0.0;
     double variance = 0.0;  ///< S
@@ -82,7 +83,7 @@ class WhitenerGains {
   const Step& next(double since_s) {
     if (settled_ && same_step(since_s)) return last_;
     const double white = noise_.white_std * noise_.white_std;
-    if (noise_.differenced > 0.0) return next_differenced(white);
+    if (noise_.differenced > 0.0) return next_differenced(white, since_s);
     if (noise_.is_white()) {
       last_.variance = white;
       return last_;
@@ -108,7 +109,12 @@ class WhitenerGains {
  private:
   static bool near(double a, double b) { return std::abs(a - b) <= 1e-14 * std::abs(b); }
 
-  const Step& next_differenced(double white) {
+  /// After a gap of more than kGap steps, the last n is not the one that is subtracted.
+  const Step& next_differenced(double white, double since_s) {
+    constexpr double kGap = 1.5;
+    last_.restarts = since_s_ > 0.0 && since_s > kGap * since_s_;
+    if (last_.restarts) p00_ = white;
+    if (since_s > 0.0 && !last_.restarts) since_s_ = since_s;
     last_.variance = white + noise_.differenced * noise_.differenced * p00_;
     last_.gain0 = white / last_.variance;
     p00_ = white * (1.0 - last_.gain0);
@@ -159,6 +165,7 @@ struct WhitenerState {
   /// Returns the innovation nu of the next value.
   double next(double value, const WhitenerGains& gains, const WhitenerGains::Step& step) {
     if (gains.differenced() > 0.0) {
+      if (step.restarts) x0 = 0.0;
       const double innovation = value + gains.differenced() * x0;
       x0 = step.gain0 * innovation;
       return innovation;

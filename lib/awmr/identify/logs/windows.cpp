@@ -61,7 +61,12 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
       rows.begin = std::clamp(first, rows.begin, rows.end);
       auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
       if (samples->empty()) continue;
-      windows.push_back({rows, signals, std::move(samples), measured_initial_state(rows), {}});
+      windows.push_back({rows,
+                         signals,
+                         log.median_step_s(),
+                         std::move(samples),
+                         measured_initial_state(rows),
+                         {}});
     }
   }
   return windows;
@@ -79,7 +84,12 @@ std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s) {
                          begin + (end - begin) * (part + 1) / count};
     auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
     if (samples->empty()) continue;
-    parts.push_back({rows, window.signals, std::move(samples), measured_initial_state(rows), {}});
+    parts.push_back({rows,
+                     window.signals,
+                     window.row_spacing_s,
+                     std::move(samples),
+                     measured_initial_state(rows),
+                     {}});
   }
   return parts;
 }

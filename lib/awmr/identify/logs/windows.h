@@ -28,6 +28,7 @@ struct Sample {
 struct FitWindow {
   LogWindow rows;
   std::shared_ptr<const LogSignals> signals;               ///< commands of the log
+  double row_spacing_s = 0.0;                              ///< median row spacing of the log
   std::shared_ptr<const std::vector<Sample>> all_samples;  ///< in the order of rows, never empty
   State<double> measured{};  ///< measured initial state; components without a measurement are 0
   /// One per sample: square root of its weight under the robust loss. Empty: all weights are 1.

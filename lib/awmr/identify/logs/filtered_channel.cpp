@@ -1,17 +1,17 @@
-#include "awmr/identify/logs/smoothed_channel.h"
+#include "awmr/identify/logs/filtered_channel.h"
 
 #include <cmath>
 
 namespace awmr {
 
-void SmoothedChannel::next(double u, const double* by, double h_s, std::size_t columns) {
+void FilteredChannel::next(double u, const double* by, double h_s, std::size_t columns) {
   if (has_before_) move(u, by, h_s, columns);
   has_before_ = true;
   u_before_ = u;
   if (columns > 0) by_before_.assign(by, by + columns);
 }
 
-void SmoothedChannel::move(double u, const double* by, double h_s, std::size_t columns) {
+void FilteredChannel::move(double u, const double* by, double h_s, std::size_t columns) {
   const double lag_s = filter_.lag.delay_s;
   const double e = lag_s > 0.0 ? std::exp(-h_s / lag_s) : 0.0;
   const double q = filter_.is_at_rows ? e : lag_s / h_s * (1.0 - e);

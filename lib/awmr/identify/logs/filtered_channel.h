@@ -23,10 +23,10 @@ struct SensorFilter {
 ///
 /// y starts at the first reading of the window. The effect of that reading's noise decays with the
 /// time constant T.
-class SmoothedChannel {
+class FilteredChannel {
  public:
   /// `first`: first reading of the window. `columns`: number of derivatives; 0: only y is computed.
-  SmoothedChannel(const SensorFilter& filter, double first, std::size_t columns)
+  FilteredChannel(const SensorFilter& filter, double first, std::size_t columns)
       : filter_(filter), y_(first), by_column_(columns, 0.0) {}
 
   /// Advances the filter by h_s seconds to the input u. `by`: derivatives of u, one per column.
