@@ -44,7 +44,7 @@ class SensorReadings {
   const FitWindow& window_;
   const SimulatedVehicle& vehicle_;
   LinearStepper back_;
-  Sensors sensors_;
+  LogSensors sensors_;
   /// Simulated filters, one per channel; empty for channels without a filter.
   std::array<std::optional<FilteredChannel>, kChannelCount> filters_;
   std::size_t rows_ = 0;               ///< number of rows up to now

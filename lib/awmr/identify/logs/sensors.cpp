@@ -14,16 +14,16 @@ bool SensorTerms::any_smoothed() const {
   return std::ranges::any_of(smoothing, [](const auto& one) { return one.has_value(); });
 }
 
-Sensors::Sensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
-                 const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
-                 std::size_t columns)
+LogSensors::LogSensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
+                       const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
+                       std::size_t columns)
     : signals_(signals),
       terms_(terms),
       path_(path),
       wheels_{plant, parameters, columns_of(path)},
       row_(columns) {}
 
-double Sensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
+double LogSensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
   if (!row_.empty()) std::copy_n(motion.row(c, row_.size()), row_.size(), row_.begin());
   double value = channel_of(motion.state, c);
   for (const WheelSlip& slip : terms_.slips) {
@@ -35,7 +35,7 @@ double Sensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
 }
 
 /// Reading of the sway sensor (sway_offset()).
-double Sensors::sway(const LinearMotion& motion) {
+double LogSensors::sway(const LinearMotion& motion) {
   const State<double>& s = motion.state;
   const double x = terms_.sway_offset ? terms_.sway_offset->value : 0.0;
   const double angle = terms_.sway_angle ? terms_.sway_angle->value : 0.0;

@@ -36,12 +36,12 @@ struct SensorTerms {
 };
 
 /// Readings of the sensors at the motion of one time, without latency, filter, smoothing and bias.
-class Sensors {
+class LogSensors {
  public:
   /// All arguments must outlive the object. `columns`: number of derivatives.
-  Sensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
-          const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
-          std::size_t columns);
+  LogSensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
+             const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
+             std::size_t columns);
   /// Returns the reading at the time t of the motion. row() then has its derivatives.
   double read(LogChannel c, const LinearMotion& motion, double t_s);
   const std::vector<double>& row() const { return row_; }
