@@ -7,29 +7,6 @@
 namespace awmr {
 namespace {
 
-bool is_filtered(const std::vector<FreeQuantity>& quantities, LogChannel channel) {
-  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) {
-    const bool is_filter =
-        q.kind == FreeQuantity::Kind::kSensorLag || q.kind == FreeQuantity::Kind::kSmoothing;
-    return is_filter && q.channel == channel;
-  });
-}
-
-bool has_delay(const std::vector<FreeQuantity>& quantities, LogChannel channel) {
-  return std::ranges::any_of(quantities, [&](const FreeQuantity& q) {
-    const bool is_of_sensor =
-        q.kind == FreeQuantity::Kind::kSensorDelay || q.kind == FreeQuantity::Kind::kSensorLag;
-    return is_of_sensor && q.channel == channel;
-  });
-}
-
-/// True if the servo's time constant is free. If no steering delay is fitted, this time constant
-/// absorbs a dead time of the servo.
-bool frees_servo(const std::vector<FreeQuantity>& quantities) {
-  return std::ranges::any_of(
-      quantities, [](const FreeQuantity& q) { return q.is(ParameterId::kSteeringTimeConstant); });
-}
-
 bool any_log(const LogProblem& problem, bool (*has)(const DrivingLog&)) {
   return std::ranges::any_of(problem.windows,
                              [&](const FitWindow& window) { return has(*window.rows.log); });
@@ -47,17 +24,38 @@ double largest_command(const LogProblem& problem) {
   return largest;
 }
 
+/// Adds delays of the commands and of the measured channels, and smoothing of these channels.
+void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
+  using Kind = FreeQuantity::Kind;
+  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
+  if (!has_kind(quantities, Kind::kDelay)) found.push_back(input_delay());
+  for (const auto& [measured, noise] : problem.model.noise) {
+    const LogChannel channel = measured == LogChannel::kY ? LogChannel::kX : measured;
+    if (has_kind(quantities, Kind::kSensorDelay, channel) ||
+        has_kind(quantities, Kind::kSensorLag, channel) ||
+        has_kind(found, Kind::kSensorDelay, channel)) {
+      continue;
+    }
+    found.push_back(sensor_delay_of(channel));
+  }
+  if (found.size() == 1) found.clear();
+  for (const auto& [channel, noise] : problem.model.noise) {
+    if (is_often_filtered(channel) && !has_kind(quantities, Kind::kSensorLag, channel) &&
+        !has_kind(quantities, Kind::kSmoothing, channel)) {
+      found.push_back(smoothing_of(channel));
+    }
+  }
+}
+
 /// Adds the forces of extra_forces.h that can still be added: Stribeck friction to a resistance
 /// with Coulomb friction, and a slope if the logs show the heading in world coordinates.
 void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  const auto is_free = [&](ParameterId id) {
-    return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.is(id); });
-  };
   for (const auto& [force, coulomb] :
        {std::pair(ExtraForce::kSurgeStribeck, ParameterId::kSurgeCoulomb),
         std::pair(ExtraForce::kYawStribeck, ParameterId::kYawCoulomb)}) {
-    if (is_free(coulomb) && !has_force(quantities, force)) found.push_back(extra_force(force));
+    if (place_of(quantities, coulomb) && !has_force(quantities, force))
+      found.push_back(extra_force(force));
   }
   const bool has_heading = problem.model.noise.contains(LogChannel::kHeading) ||
                            problem.model.noise.contains(LogChannel::kX);
@@ -71,15 +69,12 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 /// the same form.
 void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  const auto slips = [&](LogChannel channel) {
-    return std::ranges::any_of(quantities, [&](const FreeQuantity& q) {
-      return q.kind == FreeQuantity::Kind::kWheelSlip && q.channel == channel;
-    });
-  };
   const auto other =
       std::ranges::find(quantities, FreeQuantity::Kind::kWheelSlip, &FreeQuantity::kind);
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
-    if (!problem.model.noise.contains(channel) || slips(channel)) continue;
+    if (!problem.model.noise.contains(channel) ||
+        has_kind(quantities, FreeQuantity::Kind::kWheelSlip, channel))
+      continue;
     if (channel == LogChannel::kYawRate && !any_log(problem, has_force_difference)) continue;
     for (const bool is_ratio : {false, true}) {
       if (other != quantities.end() && other->is_ratio != is_ratio) continue;
@@ -99,19 +94,10 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> found;
-  if (!has_kind(quantities, Kind::kDelay)) found.push_back(input_delay());
-  for (const auto& [measured, noise] : problem.model.noise) {
-    const LogChannel channel = measured == LogChannel::kY ? LogChannel::kX : measured;
-    if (has_delay(quantities, channel) || has_delay(found, channel)) continue;
-    found.push_back(sensor_delay_of(channel));
-  }
-  if (found.size() == 1) found.clear();
-  for (const auto& [channel, noise] : problem.model.noise) {
-    if (is_often_filtered(channel) && !is_filtered(quantities, channel)) {
-      found.push_back(smoothing_of(channel));
-    }
-  }
-  if (frees_servo(quantities) && !has_kind(quantities, Kind::kSteeringDelay)) {
+  add_times(problem, found);
+  // If no steering delay is fitted, a free time constant of the servo absorbs its dead time.
+  if (place_of(quantities, ParameterId::kSteeringTimeConstant) &&
+      !has_kind(quantities, Kind::kSteeringDelay)) {
     found.push_back(steering_delay());
   }
   if (!has_kind(quantities, Kind::kSteeringTrim) && any_log(problem, has_steering_changes)) {

@@ -241,6 +241,12 @@ bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind ki
   return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.kind == kind; });
 }
 
+bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind,
+              LogChannel channel) {
+  return std::ranges::any_of(
+      quantities, [&](const FreeQuantity& q) { return q.kind == kind && q.channel == channel; });
+}
+
 bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force) {
   return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.is(force); });
 }

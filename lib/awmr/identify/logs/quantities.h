@@ -159,6 +159,8 @@ FreeTerm stribeck_speed_term(ExtraForce force, double fastest);
 inline constexpr double kStribeckShare = 0.1;  ///< initial guess of w_s, relative to `fastest`
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
+bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind,
+              LogChannel channel);
 bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force);
 /// Place of a parameter among the quantities; empty if it is not free.
 std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id);

@@ -39,12 +39,14 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Simula
                 first_motion(model, vehicle, columns),
                 [&](std::size_t row, const LinearMotion& now) {
                   readings.go_on(now);
-                  for (const auto& [c, noise] : model.noise) {
-                    if (!waits) break;
-                    const double reading = readings.read(c, now);
-                    series[at(c)].add(reading, readings.row());
+                  if (waits) {
+                    for (const auto& [c, noise] : model.noise) {
+                      const double reading = readings.read(c, now);
+                      series[at(c)].add(reading, readings.row());
+                    }
+                    return;
                   }
-                  for (; !waits && next < samples.size() && samples[next].row == row; ++next) {
+                  for (; next < samples.size() && samples[next].row == row; ++next) {
                     const double reading = readings.read(samples[next].channel, now);
                     visit_sample(next, reading, readings.row());
                   }

@@ -55,18 +55,15 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
   std::vector<FitWindow> windows;
   for (const DrivingLog& log : logs) {
     const auto signals = std::make_shared<const LogSignals>(log);
+    const double row_spacing_s = log.median_step_s();
     const std::size_t first = first_fitted_row(log);
     for (const LogWindow& all : windows_of(log, kWindow_s)) {
       LogWindow rows = only_s ? within(all, *only_s) : all;
       rows.begin = std::clamp(first, rows.begin, rows.end);
       auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
       if (samples->empty()) continue;
-      windows.push_back({rows,
-                         signals,
-                         log.median_step_s(),
-                         std::move(samples),
-                         measured_initial_state(rows),
-                         {}});
+      windows.push_back(
+          {rows, signals, row_spacing_s, std::move(samples), measured_initial_state(rows), {}});
     }
   }
   return windows;
