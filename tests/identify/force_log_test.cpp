@@ -1,4 +1,4 @@
-/// Logs of vehicles with forces that the model does not contain: slope and Stribeck friction.
+/// Logs of vehicles with forces that the model does not contain (extra_forces.h).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/linear_replay.h"
+#include "awmr/model/log_term_names.h"
 #include "identify/log_answers.h"
 
 namespace awmr::testing {
@@ -84,6 +85,41 @@ TEST(ForceLog, FindsStribeckFriction) {
   EXPECT_NEAR(result.model[ParameterId::kSurgeAlpha].value.value_or(0.0), 0.6, 0.02);
   expect_recovered(result, ParameterId::kInertiaNorm, robot_plant.inertia_norm, 4.5);
 }
+
+/// The forces of one test and their only finding.
+struct ForceCase {
+  std::string name;
+  double truth;
+  std::string code;
+  ExtraForces forces;
+};
+
+class FoundForce : public ::testing::TestWithParam<ForceCase> {};
+
+TEST_P(FoundForce, IsEstimatedBesideTheParameters) {
+  const auto& [name, truth, code, forces] = GetParam();
+  const Truth& t = kTruths[1];
+  const Identification result = identified(drive_with(plant(t), forces), power_law());
+  EXPECT_TRUE(has_finding(result, code));
+  EXPECT_FALSE(has_finding(result, "model-inadequate"));
+  expect_estimated(result, name, truth);
+  expect_recovered(result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+  expect_recovered(result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+}
+
+ForceCase force_case(ExtraForce force, double value, const std::string& code) {
+  ForceCase one{std::string(kExtraForceNames[at(force)]), value, code, {}};
+  one.forces[force] = value;
+  return one;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, FoundForce,
+    ::testing::Values(force_case(ExtraForce::kTurnDrag, 0.3, "turn-drag"),
+                      force_case(ExtraForce::kBrakeForce, 0.4, "brake-force"),
+                      force_case(ExtraForce::kReverseForce, -0.3, "reverse-force"),
+                      force_case(ExtraForce::kBackwardDrag, 0.5, "backward-drag")));
 
 /// A log of a differential vehicle with the resistances 0.6 u^0.9 and 0.075 r^0.8 (m' = 0.5 s^2/m,
 /// I'z = 0.03 s^2 m, d = 0.2 m). A PI controller of each wheel follows the logged set-points, which

@@ -482,20 +482,25 @@ TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
   expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
 }
 
-/// A log at 20 Hz of a vehicle whose commands change smoothly at 100 Hz.
-DrivingLog log_of_smooth_commands(const Plant<double>& vehicle) {
-  constexpr int kRows = 6000;
-  constexpr int kEvery = 5;
-  DrivingLog fast;
-  fast.steering_command_rad.emplace();
-  for (int i = 0; i < kRows; ++i) {
-    const double t_s = 0.01 * i;
-    fast.t_s.push_back(t_s);
+/// Smooth commands, with a row every `step_s` for 60 s.
+DrivingLog smooth_commands(double step_s) {
+  constexpr double kDuration_s = 60.0;
+  DrivingLog log;
+  log.steering_command_rad.emplace();
+  const auto rows = static_cast<std::size_t>(kDuration_s / step_s);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double t_s = step_s * static_cast<double>(i);
+    log.t_s.push_back(t_s);
     const double force = 0.25 + 0.12 * std::sin(0.9 * t_s) + 0.08 * std::sin(2.3 * t_s + 1.0);
-    fast.force_left.push_back(force);
-    fast.force_right.push_back(force);
-    fast.steering_command_rad->push_back(0.15 * std::sin(1.7 * t_s) + 0.1 * std::sin(4.1 * t_s));
+    log.force_left.push_back(force);
+    log.force_right.push_back(force);
+    log.steering_command_rad->push_back(0.15 * std::sin(1.7 * t_s) + 0.1 * std::sin(4.1 * t_s));
   }
+  return log;
+}
+
+/// Every `every`-th row of `fast` with measurements of the vehicle that its commands drive.
+DrivingLog measured_rows(const DrivingLog& fast, const Plant<double>& vehicle, std::size_t every) {
   std::vector<State<double>> states;
   replay<double>(LogSignals(fast), 0, fast.rows(), vehicle, nullptr, 0.002, {},
                  [&](std::size_t, const State<double>& s) { states.push_back(s); });
@@ -506,7 +511,7 @@ DrivingLog log_of_smooth_commands(const Plant<double>& vehicle) {
   const std::map<LogChannel, double> noise{
       {LogChannel::kSpeed, 0.01}, {LogChannel::kYawRate, 0.01}, {LogChannel::kHeading, 0.01}};
   for (const auto& [channel, std] : noise) log[channel].emplace();
-  for (std::size_t i = 0; i < fast.rows(); i += kEvery) {
+  for (std::size_t i = 0; i < fast.rows(); i += every) {
     log.t_s.push_back(fast.t_s[i]);
     log.line.push_back(static_cast<int>(log.t_s.size()) + 1);
     log.force_left.push_back(fast.force_left[i]);
@@ -525,7 +530,7 @@ DrivingLog log_of_smooth_commands(const Plant<double>& vehicle) {
 TEST(LateLog, InterpolatesCommandsThatChangeFasterThanTheRows) {
   const Truth& t = kTruths[1];
   TrialData data;
-  data.logs = {log_of_smooth_commands(plant(t))};
+  data.logs = {measured_rows(smooth_commands(0.01), plant(t), 5)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "interpolated-commands"));
@@ -533,6 +538,46 @@ TEST(LateLog, InterpolatesCommandsThatChangeFasterThanTheRows) {
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+}
+
+/// The commands, held over `rows` rows each.
+void hold_commands(DrivingLog& log, std::size_t rows) {
+  for (std::vector<double>* const signal :
+       {&log.force_left, &log.force_right, &*log.steering_command_rad}) {
+    for (std::size_t i = 0; i < signal->size(); ++i) (*signal)[i] = (*signal)[i - i % rows];
+  }
+}
+
+/// The signal on straight lines between its values in every `rows`-th row.
+std::vector<double> on_lines(const std::vector<double>& signal, std::size_t rows) {
+  std::vector<double> lines = signal;
+  for (std::size_t i = 0; i + rows < signal.size(); ++i) {
+    const std::size_t from = i - i % rows;
+    const double share = static_cast<double>(i % rows) / static_cast<double>(rows);
+    lines[i] = signal[from] + share * (signal[from + rows] - signal[from]);
+  }
+  return lines;
+}
+
+TEST(LateLog, HoldsSetPointsThatWereInterpolatedInTheLog) {
+  constexpr std::size_t kRowsHeld = 5;
+  const Truth& t = kTruths[1];
+  DrivingLog fast = smooth_commands(0.02);
+  hold_commands(fast, kRowsHeld);
+  DrivingLog log = measured_rows(fast, plant(t), 1);
+  for (std::vector<double>* const signal :
+       {&log.force_left, &log.force_right, &*log.steering_command_rad}) {
+    *signal = on_lines(*signal, kRowsHeld);
+  }
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "interpolated-set-points"));
+  EXPECT_FALSE(has_finding(*result, "interpolated-commands"));
+  EXPECT_FALSE(has_finding(*result, "late-commands"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
 class ForceImbalance : public ::testing::TestWithParam<double> {};

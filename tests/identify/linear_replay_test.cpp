@@ -443,7 +443,7 @@ TEST(WheelSlip, OfAStandingWheelIsZero) {
   EXPECT_EQ(slip_at(at_rest, LogChannel::kSpeed, false).first, 0.0);
 }
 
-/// Stribeck friction with the logarithms of its speed scales, and slope, by ExtraForce.
+/// By ExtraForce: values, for the speed scales of Stribeck friction their logarithms.
 using ForceCoordinates = std::array<double, kExtraForceCount>;
 
 /// The motion with these forces as the only columns.
@@ -474,8 +474,9 @@ TEST(LinearReplay, OfExtraForcesHasTheDerivativesOfCentralDifferences) {
   const DrivingLog log = commands(true);
   // At the first coordinates, no force acts. Where the vehicle stops within a step, derivatives and
   // differences agree less exactly.
-  for (const ForceCoordinates& at : {ForceCoordinates{0.0, -2.0, 0.0, -1.0, 0.0, 0.0},
-                                     ForceCoordinates{0.04, -2.0, 0.01, -1.0, 0.06, -0.1}}) {
+  for (const ForceCoordinates& at :
+       {ForceCoordinates{0.0, -2.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0},
+        ForceCoordinates{0.04, -2.0, 0.01, -1.0, 0.06, -0.1, 0.1, 0.8, 0.6, 0.3, -0.2, 0.25}}) {
     const std::vector<LinearMotion> here = with_forces(log, at);
     for (std::size_t column = 0; column < kExtraForceCount; ++column) {
       ForceCoordinates more = at;

@@ -223,5 +223,32 @@ TEST(ChannelQuality, TheEndOfASensorsRangeIsSetAside) {
   EXPECT_EQ(q.saturated_at, top);
 }
 
+/// A rounded signal, only the values that differ from the last one.
+std::vector<double> only_changes(const std::vector<double>& signal, double step) {
+  std::vector<double> changes;
+  for (const double x : signal) {
+    const double reading = step * std::round(x / step);
+    if (changes.empty() || reading != changes.back()) changes.push_back(reading);
+  }
+  return changes;
+}
+
+TEST(ChannelQuality, KnowsReadingsThatWereWrittenOnlyWhenTheyChanged) {
+  constexpr double kStep = 0.01;
+  std::vector<double> slow;
+  for (int i = 0; i < 3000; ++i) slow.push_back(std::sin(0.004 * i));
+  EXPECT_NEAR(resolution_of_changes(only_changes(slow, kStep)), kStep, 1e-9);
+  // Readings at regular times repeat; fine or fast ones do not, but change by more than one step.
+  std::vector<double> regular;
+  std::vector<double> fast;
+  for (int i = 0; i < 3000; ++i) {
+    regular.push_back(kStep * std::round(slow[static_cast<std::size_t>(i)] / kStep));
+    fast.push_back(kStep * std::round(std::sin(0.7 * i) / kStep));
+  }
+  EXPECT_EQ(resolution_of_changes(regular), 0.0);
+  EXPECT_EQ(resolution_of_changes(slow), 0.0);
+  EXPECT_EQ(resolution_of_changes(fast), 0.0);
+}
+
 }  // namespace
 }  // namespace awmr::channel_quality_test

@@ -16,11 +16,21 @@ inline constexpr std::string_view kForceExponentName = "motor.exponent";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
 /// Stribeck friction and its speed scale, of the speed and of the yaw rate; acceleration by a
-/// slope.
-inline constexpr std::array<std::string_view, 6> kExtraForceNames = {
-    "surge.stribeck", "surge.stribeck_speed_mps",
-    "yaw.stribeck",   "yaw.stribeck_speed_radps",
-    "slope.x_mps2",   "slope.y_mps2"};
+/// slope; surge resistance in turns; excess of forces against the motion, of backward
+/// forces, and of the surge resistance backward.
+inline constexpr std::array<std::string_view, 12> kExtraForceNames = {
+    "surge.stribeck",
+    "surge.stribeck_speed_mps",
+    "yaw.stribeck",
+    "yaw.stribeck_speed_radps",
+    "slope.x_mps2",
+    "slope.y_mps2",
+    "surge.turn_drag",
+    "surge.turn_drag_exponent",
+    "surge.turn_drag_speed_exponent",
+    "motor.brake_excess",
+    "motor.reverse_excess",
+    "surge.backward_excess"};
 inline constexpr std::string_view kSensorDelayPrefix =
     "delay.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSensorLagPrefix =

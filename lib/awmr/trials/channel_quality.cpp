@@ -311,6 +311,18 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
 
 }  // namespace
 
+double resolution_of_changes(std::span<const double> readings) {
+  constexpr std::size_t kFewest = 30;
+  constexpr double kOneStep = 1.5;
+  const Changes changes = changes_of(readings);
+  if (changes.row.size() < kFewest) return 0.0;
+  for (std::size_t i = 1; i < readings.size(); ++i) {
+    if (readings[i] == readings[i - 1] && readings[i] != 0.0) return 0.0;
+  }
+  const double quantum = quantum_of(changes);
+  return median(changes.step) < kOneStep * quantum ? quantum : 0.0;
+}
+
 ChannelQuality find_repeats(std::span<const double> value) {
   ChannelQuality quality;
   const Changes changes = changes_of(value);

@@ -36,6 +36,12 @@ struct ChannelQuality {
 /// measurement.
 ChannelQuality find_repeats(std::span<const double> value);
 
+/// Resolution of readings that were written only when they had changed; 0 if they were not. Such
+/// readings never repeat, although most of them change by one step of the resolution, so that
+/// readings at regular times would repeat. At least 30 readings are needed. Zeros may repeat (0 and
+/// -0 are written differently).
+double resolution_of_changes(std::span<const double> readings);
+
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any unit. A signal that is constant while `activity` changes is stuck.
 ///

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "awmr/trials/channel_quality.h"
@@ -90,11 +91,49 @@ ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel chann
   return quality;
 }
 
+/// Adds the note `only-changes`.
+void note_changes_only(LogChannel channel, const DrivingLog& log,
+                       const std::vector<std::size_t>& rows, double resolution,
+                       std::vector<Finding>& findings) {
+  const ChannelInfo& about = info(channel);
+  findings.push_back(
+      {log.file, 0, Severity::kNote, "only-changes",
+       fmt::format("{} has {} values in {} rows, each of them changed, mostly by its resolution "
+                   "of {:.3g}: it is taken as unchanged in rows without a value",
+                   about.column, rows.size(), log.rows(), resolution / about.to_si)});
+}
+
+std::vector<std::size_t> rows_from(std::size_t first, std::size_t end) {
+  std::vector<std::size_t> rows(end - first);
+  std::iota(rows.begin(), rows.end(), first);
+  return rows;
+}
+
+/// The values with those outside of `rows` replaced by the last one in `rows`.
+std::vector<double> held_between(const std::vector<std::size_t>& rows, std::vector<double> values) {
+  auto next = rows.begin();
+  for (std::size_t i = rows.front() + 1; i < values.size(); ++i) {
+    if (next + 1 != rows.end() && *(next + 1) == i) {
+      ++next;
+    } else {
+      values[i] = values[*next];
+    }
+  }
+  return values;
+}
+
 }  // namespace
 
 Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings) {
+  const bool is_sparse = rows.size() + rows.front() < log.rows();
+  const double resolution = is_sparse ? resolution_of_changes(picked(values, rows)) : 0.0;
+  if (resolution > 0.0) {
+    note_changes_only(channel, log, rows, resolution, findings);
+    return measured_of(channel, log, rows_from(rows.front(), log.rows()),
+                       held_between(rows, std::move(values)), findings);
+  }
   ChannelQuality quality = quality_in(rows, channel, log, values);
   note_quality(channel, log, quality, findings);
   const auto fresh = static_cast<int>(std::count(quality.fresh.begin(), quality.fresh.end(), true));

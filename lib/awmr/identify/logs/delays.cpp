@@ -76,6 +76,10 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
     if (!candidate.quantity.is(force)) continue;
     terms.push_back(stribeck_speed_term(force, fastest_of(problem, channel)));
   }
+  if (candidate.quantity.is(ExtraForce::kTurnDrag)) {
+    terms.push_back({extra_force(ExtraForce::kTurnDragExponent), 1.0});
+    terms.push_back({extra_force(ExtraForce::kTurnDragSpeedExponent), 0.5});
+  }
   for (const auto& [one, other] : {std::pair(ExtraForce::kSlopeX, ExtraForce::kSlopeY),
                                    std::pair(ExtraForce::kSlopeY, ExtraForce::kSlopeX)}) {
     if (candidate.quantity.is(one)) terms.push_back({extra_force(other), 0.0});

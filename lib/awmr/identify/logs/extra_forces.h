@@ -1,5 +1,6 @@
-/// Forces that a log fit can find, but that the model does not contain: Stribeck friction and the
-/// slope of the ground. Private to identify/.
+/// Forces that a log fit can find, but that the model does not contain: Stribeck friction, the slope
+/// of the ground, more resistance in turns or backward, and motors that brake or reverse with another
+/// force than they drive forward. Private to identify/.
 ///
 /// Stribeck friction is larger at low speed than the Coulomb friction c. At the speed or yaw rate w
 /// the resistance is
@@ -10,6 +11,16 @@
 /// coordinates, with the heading psi:
 ///
 ///     u_dot += p_x cos psi + p_y sin psi,   v_dot += p_y cos psi - p_x sin psi
+///
+/// In turns, the scrub of tyres or tracks increases the surge resistance at the yaw rate r to
+///
+///     g1(u) + k |r|^p |u|^q sgn u
+///
+/// Driving backward, g1 is 1 + e_g times as large as forward.
+///
+/// A wheel force against the motion is 1 + e_b times its command, a negative (backward) wheel force
+/// 1 + e_r times. The motion is that of the wheel's side (u - d r left, u + d r right) or, if left
+/// and right commands are equal, as with one motor, that of the vehicle (u).
 #pragma once
 
 #include <array>
@@ -20,14 +31,20 @@ namespace awmr {
 
 /// Quantities of these forces, in the order of kExtraForceNames (model/log_term_names.h).
 enum class ExtraForce {
-  kSurgeStribeck,       ///< s over F_max, of the speed
-  kSurgeStribeckSpeed,  ///< w_s, m/s
-  kYawStribeck,         ///< s over F_max, m, of the yaw rate
-  kYawStribeckSpeed,    ///< w_s, rad/s
-  kSlopeX,              ///< p_x, m/s^2
-  kSlopeY               ///< p_y, m/s^2
+  kSurgeStribeck,          ///< s over F_max, of the speed
+  kSurgeStribeckSpeed,     ///< w_s, m/s
+  kYawStribeck,            ///< s over F_max, m, of the yaw rate
+  kYawStribeckSpeed,       ///< w_s, rad/s
+  kSlopeX,                 ///< p_x, m/s^2
+  kSlopeY,                 ///< p_y, m/s^2
+  kTurnDrag,               ///< k over F_max, (s/rad)^p (s/m)^q
+  kTurnDragExponent,       ///< p
+  kTurnDragSpeedExponent,  ///< q
+  kBrakeForce,             ///< e_b
+  kReverseForce,           ///< e_r
+  kBackwardDrag            ///< e_g
 };
-inline constexpr std::size_t kExtraForceCount = 6;
+inline constexpr std::size_t kExtraForceCount = 12;
 
 /// A free quantity of these forces and the column of its derivatives.
 struct ExtraColumn {
@@ -38,7 +55,8 @@ struct ExtraColumn {
 
 /// The forces at one point of a search, with their free quantities.
 struct ExtraForces {
-  std::array<double, kExtraForceCount> values{0.0, 1.0, 0.0, 1.0, 0.0, 0.0};
+  std::array<double, kExtraForceCount> values{0.0, 1.0, 0.0, 1.0, 0.0, 0.0,
+                                              0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
   std::vector<ExtraColumn> columns{};
 
   double operator[](ExtraForce force) const { return values[static_cast<std::size_t>(force)]; }

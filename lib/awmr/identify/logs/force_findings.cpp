@@ -102,11 +102,61 @@ std::vector<Finding> slope_findings(const LogFit& fit, const std::string& file) 
                        degrees(std::asin(std::min(1.0, size / kGravity_mps2))))}};
 }
 
+std::optional<FoundForce> significant(const LogFit& fit, ExtraForce force) {
+  const auto found = found_force(fit, force);
+  if (!found || !(std::abs(found->value) > kStandardErrors * found->error)) return std::nullopt;
+  return found;
+}
+
+std::vector<Finding> turn_drag_findings(const LogFit& fit, const std::string& file) {
+  const auto drag = significant(fit, ExtraForce::kTurnDrag);
+  if (!drag) return {};
+  return {{file, 0, Severity::kWarning, "turn-drag",
+           fmt::format("the resistance to driving is larger in turns, by {:.2g} +- {:.2g} of F_max "
+                       "at 1 rad/s and 1 m/s: tyres or tracks scrub. The fit compensates this, but "
+                       "simulations and gains do not, so the vehicle is slower in turns than they "
+                       "predict",
+                       drag->value, drag->error)}};
+}
+
+std::vector<Finding> backward_drag_findings(const LogFit& fit, const std::string& file) {
+  const auto excess = significant(fit, ExtraForce::kBackwardDrag);
+  if (!excess) return {};
+  return {{file, 0, Severity::kWarning, "backward-drag",
+           fmt::format("the resistance is {:.1f} +- {:.1f} % {} driving backward than forward. The "
+                       "values of surge.* are those of forward motion, which simulations and gains "
+                       "use in both directions; drive forward",
+                       100.0 * std::abs(excess->value), 100.0 * excess->error,
+                       excess->value > 0.0 ? "larger" : "smaller")}};
+}
+
+std::vector<Finding> force_excess_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  const auto add = [&](ExtraForce force, std::string_view code, std::string_view which,
+                       std::string_view reference) {
+    const auto excess = significant(fit, force);
+    if (!excess) return;
+    findings.push_back(
+        {file, 0, Severity::kWarning, std::string(code),
+         fmt::format("{} push {:.1f} +- {:.1f} % {} than {}. The fit compensates this, but "
+                     "simulations and gains do not; divide such commands by {:.3g} before they are "
+                     "sent to the motors, and log the undivided ones",
+                     which, 100.0 * std::abs(excess->value), 100.0 * excess->error,
+                     excess->value > 0.0 ? "more" : "less", reference, 1.0 + excess->value)});
+  };
+  add(ExtraForce::kBrakeForce, "brake-force", "forces against the motion", "forces along it");
+  add(ExtraForce::kReverseForce, "reverse-force", "negative forces", "positive ones");
+  return findings;
+}
+
 }  // namespace
 
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings = stribeck_findings(fit, file);
-  for (Finding& slope : slope_findings(fit, file)) findings.push_back(std::move(slope));
+  for (auto* const more :
+       {&slope_findings, &turn_drag_findings, &backward_drag_findings, &force_excess_findings}) {
+    for (Finding& finding : more(fit, file)) findings.push_back(std::move(finding));
+  }
   return findings;
 }
 

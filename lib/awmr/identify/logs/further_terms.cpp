@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace awmr {
@@ -47,8 +48,18 @@ void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
+bool drives_and_brakes(const DrivingLog& log) {
+  const auto has = [&](auto sign) {
+    return std::ranges::any_of(log.force_left, [&](double f) { return sign(f, 0.0); }) ||
+           std::ranges::any_of(log.force_right, [&](double f) { return sign(f, 0.0); });
+  };
+  return has(std::greater{}) && has(std::less{});
+}
+
 /// Adds the forces of extra_forces.h that can still be added: Stribeck friction to a resistance
-/// with Coulomb friction, and a slope if the logs show the heading in world coordinates.
+/// with Coulomb friction, a slope if the logs show the heading in world coordinates, drag in turns
+/// if the commands turn the vehicle, and excess of braking or backward forces (one of them) and of the
+/// backward resistance.
 void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   for (const auto& [force, coulomb] :
@@ -62,6 +73,19 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   if (has_heading && !has_force(quantities, ExtraForce::kSlopeX)) {
     found.push_back(extra_force(ExtraForce::kSlopeX));
     found.push_back(extra_force(ExtraForce::kSlopeY));
+  }
+  const bool turns =
+      any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
+  if (turns && !has_force(quantities, ExtraForce::kTurnDrag)) {
+    found.push_back(extra_force(ExtraForce::kTurnDrag));
+  }
+  if (!any_log(problem, drives_and_brakes)) return;
+  if (std::ranges::none_of(quantities, &FreeQuantity::is_force_excess)) {
+    found.push_back(extra_force(ExtraForce::kBrakeForce));
+    found.push_back(extra_force(ExtraForce::kReverseForce));
+  }
+  if (!has_force(quantities, ExtraForce::kBackwardDrag)) {
+    found.push_back(extra_force(ExtraForce::kBackwardDrag));
   }
 }
 

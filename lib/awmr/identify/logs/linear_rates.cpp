@@ -138,7 +138,7 @@ void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on
   a.v_u -= slope(1, 0);
   a.v_v -= slope(1, 1);
   a.v_r -= slope(1, 2);
-  a.r_u = -slope(2, 0);
+  a.r_u -= slope(2, 0);
   a.r_v = -slope(2, 1);
   a.r_r -= slope(2, 2);
   a.u_steering -= k * along(braking.by_steering, 0);
@@ -161,6 +161,80 @@ void subtract_stribeck(const ExtraForces& extra, ExtraForce force, ExtraForce sp
   g.by_speed -= by_ratio / scale;
   out.by_extra[at(force)].*kRate = sign * (1.0 - rest) * per_inertia;
   out.by_extra[at(speed)].*kRate = -by_ratio * ratio / scale * per_inertia;
+}
+
+/// Drag in turns, k |r|^p |u|^q sgn u, over F_max, with its derivatives.
+struct TurnDrag {
+  double value = 0.0;
+  double by_speed = 0.0;
+  double by_yaw_rate = 0.0;
+  double by_size = 0.0;            ///< by k
+  double by_exponent = 0.0;        ///< by p
+  double by_speed_exponent = 0.0;  ///< by q
+};
+
+/// Below a small speed, |u|^q sgn u is replaced by a straight line, whose length counts as constant
+/// in the derivatives.
+TurnDrag turn_drag(const LinearPlant& plant, const State<double>& s) {
+  constexpr double kRest_mps = 0.02;
+  if (!plant.has_turn_drag) return {};
+  const ResistanceSlopes of_yaw = plant.turn_drag(s.r_radps);  // k |r|^p sgn r
+  const double rest_mps = std::max(kRest_mps, std::abs(of_yaw.value) * plant.rest_per_turn_drag);
+  const double speed_mps = std::max(std::abs(s.u_mps), rest_mps);
+  const double q = plant.extra[ExtraForce::kTurnDragSpeedExponent];
+  const double of_speed =
+      std::pow(speed_mps, q) * math::saturate(s.u_mps / rest_mps, 1.0);  // |u|^q sgn u
+  const double share = s.r_radps < 0.0 ? -of_speed : of_speed;
+  const bool is_slow = std::abs(s.u_mps) < rest_mps;
+  const double by_log_speed = is_slow ? 1.0 : q;
+  return {.value = share * of_yaw.value,
+          .by_speed = by_log_speed * std::abs(of_yaw.value) * std::pow(speed_mps, q - 1.0),
+          .by_yaw_rate = share * of_yaw.by_speed,
+          .by_size = share * of_yaw.by_alpha,
+          .by_exponent = share * of_yaw.by_beta,
+          .by_speed_exponent = share * of_yaw.value * std::log(speed_mps)};
+}
+
+/// Multiplies the surge resistance by 1 + e_g if the vehicle drives backward. Friction is left out:
+/// add_friction() adds it.
+void add_backward_drag(const LinearPlant& plant, double u_mps, ResistanceSlopes& g,
+                       LinearRates& out) {
+  DrivenSlopes& by = out.by_extra[at(ExtraForce::kBackwardDrag)];
+  by.u = 0.0;
+  if (!(u_mps < 0.0)) return;
+  by.u = -g.value * plant.per_mass;
+  const double share = 1.0 + plant.extra[ExtraForce::kBackwardDrag];
+  for (double* const part :
+       {&g.value, &g.by_speed, &g.by_alpha, &g.by_beta, &g.by_coulomb, &g.by_quadratic}) {
+    *part *= share;
+  }
+}
+
+/// Derivatives of the force of a wheel by e_b, e_r (extra_forces.h) and the rolling speed.
+struct ByExcess {
+  double by_brake = 0.0;
+  double by_reverse = 0.0;
+  double by_speed = 0.0;
+};
+
+/// Multiplies the force of a wheel by 1 + e_b if it is against the rolling speed `w_mps` of its
+/// side, and by 1 + e_r if it is negative. Near rest, e_b fades in over 2 kFade_mps, so that
+/// the rates are continuous.
+ByExcess add_excess(const ExtraForces& extra, double w_mps, WheelForce& wheel) {
+  constexpr double kFade_mps = 0.02;
+  const double pure = wheel.value;
+  const double along = std::copysign(0.5 / kFade_mps, pure);
+  const double wanted = 0.5 - along * w_mps;
+  const double braking = std::clamp(wanted, 0.0, 1.0);
+  const double brake = 1.0 + braking * extra[ExtraForce::kBrakeForce];
+  const bool reverses = pure < 0.0;
+  const double reverse = reverses ? 1.0 + extra[ExtraForce::kReverseForce] : 1.0;
+  wheel = {pure * brake * reverse, wheel.by_command * brake * reverse,
+           wheel.by_dead_zone * brake * reverse};
+  return {.by_brake = braking * pure * reverse,
+          .by_reverse = reverses ? pure * brake : 0.0,
+          .by_speed =
+              braking == wanted ? -along * extra[ExtraForce::kBrakeForce] * pure * reverse : 0.0};
 }
 
 /// Adds the acceleration by the slope of the ground.
@@ -190,6 +264,14 @@ bool has_force(const ExtraForces& extra, ExtraForce one, ExtraForce other) {
          });
 }
 
+/// The drag in turns as a resistance to yaw. Below 0.01 rad/s it is in proportion to the yaw rate.
+Resistance<double> turn_drag_law(const ExtraForces& extra) {
+  constexpr double kRest_radps = 0.01;
+  return {.alpha = extra[ExtraForce::kTurnDrag],
+          .beta = extra[ExtraForce::kTurnDragExponent],
+          .rest_speed = kRest_radps};
+}
+
 /// Multiplies v_dot and its derivatives by `pace` (LinearPlant::sway_pace).
 void slow_sway(double pace, LinearRates& out) {
   StateSlopes& a = out.by_state;
@@ -214,12 +296,17 @@ LinearPlant::LinearPlant(const Plant<double>& p, bool by_back_emf, double longes
       per_inertia(1.0 / p.inertia_norm),
       per_lag(1.0 / p.steering_time_constant_s),
       sway_pace(std::min(1.0, p.mass_norm / (p.sway_alpha * longest_step_s))),
+      turn_drag(turn_drag_law(extra)),
+      rest_per_turn_drag(longest_step_s * per_mass),
       has_back_emf(by_back_emf || p.back_emf_s_per_m > 0.0),
       has_surge_stribeck(
           has_force(extra, ExtraForce::kSurgeStribeck, ExtraForce::kSurgeStribeckSpeed)),
       has_yaw_stribeck(has_force(extra, ExtraForce::kYawStribeck, ExtraForce::kYawStribeckSpeed)),
       has_slope(has_force(extra, ExtraForce::kSlopeX, ExtraForce::kSlopeY) ||
-                has_force(extra, ExtraForce::kSlopeY, ExtraForce::kSlopeX)) {}
+                has_force(extra, ExtraForce::kSlopeY, ExtraForce::kSlopeX)),
+      has_turn_drag(has_force(extra, ExtraForce::kTurnDrag, ExtraForce::kTurnDragExponent)),
+      has_force_excess(has_force(extra, ExtraForce::kBrakeForce, ExtraForce::kReverseForce) ||
+                       has_force(extra, ExtraForce::kReverseForce, ExtraForce::kBrakeForce)) {}
 
 LinearResistance::LinearResistance(const Resistance<double>& law) : law_(law) {
   if (law.rest_speed > 0.0) at_rest_speed_ = at(law.rest_speed);
@@ -258,12 +345,20 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   const double sin_d = std::sin(s.steering_rad);
   const double cos_d = std::cos(s.steering_rad);
   const double reach = cos_d + p.rear_driven;  // forward force of front and rear wheel over F'
-  const WheelForce left = wheel_force(command.force.left, p.wheel_dead_zone);
-  const WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
+  WheelForce left = wheel_force(command.force.left, p.wheel_dead_zone);
+  WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
+  const double side_m = command.force.left == command.force.right ? 0.0 : p.half_track_m;
+  ByExcess left_excess;
+  ByExcess right_excess;
+  if (plant.has_force_excess) {
+    left_excess = add_excess(plant.extra, s.u_mps - side_m * s.r_radps, left);
+    right_excess = add_excess(plant.extra, s.u_mps + side_m * s.r_radps, right);
+  }
   const double sum = left.value + right.value;
   const double difference = right.value - left.value;
   ResistanceSlopes g1 = plant.surge(s.u_mps);
   ResistanceSlopes g3 = plant.yaw(s.r_radps);
+  add_backward_drag(plant, s.u_mps, g1, out);
   if (plant.has_surge_stribeck) {
     subtract_stribeck<&DrivenSlopes::u>(plant.extra, ExtraForce::kSurgeStribeck,
                                         ExtraForce::kSurgeStribeckSpeed, s.u_mps, plant.per_mass,
@@ -279,11 +374,12 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   add_servo(plant, s, command.steering_rad, out);
 
   // u_dot = (sum (rho + cos d_r) - g1(u))/m' + r v,   rho: 1 with driven rear wheels, else 0
-  const double surge = (sum * reach - g1.value) * plant.per_mass;
+  const TurnDrag scrub = turn_drag(plant, s);
+  const double surge = (sum * reach - g1.value - scrub.value) * plant.per_mass;
   out.rates.u_mps = surge + s.r_radps * s.v_mps;
-  out.by_state.u_u = -g1.by_speed * plant.per_mass;
+  out.by_state.u_u = -(g1.by_speed + scrub.by_speed) * plant.per_mass;
   out.by_state.u_v = s.r_radps;
-  out.by_state.u_r = s.v_mps;
+  out.by_state.u_r = s.v_mps - scrub.by_yaw_rate * plant.per_mass;
   out.by_state.u_steering = -sum * sin_d * plant.per_mass;
 
   // v_dot = (sum sin d_r - a_s v)/m' - r u
@@ -318,8 +414,26 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
                          .v = sin_d * plant.per_mass,
                          .r = p.front_axle_m * sin_d * plant.per_inertia},
                         p.half_track_m * reach * plant.per_inertia};
-  by[at(ParameterId::kWheelDeadZone)] =
-      forces.of(left.by_dead_zone + right.by_dead_zone, right.by_dead_zone - left.by_dead_zone);
+  const auto of_sides = [&](double by_left, double by_right) {
+    return forces.of(by_left + by_right, by_right - by_left);
+  };
+  by[at(ParameterId::kWheelDeadZone)] = of_sides(left.by_dead_zone, right.by_dead_zone);
+  auto& by_extra = out.by_extra;
+  by_extra[at(ExtraForce::kTurnDrag)].u = -scrub.by_size * plant.per_mass;
+  by_extra[at(ExtraForce::kTurnDragExponent)].u = -scrub.by_exponent * plant.per_mass;
+  by_extra[at(ExtraForce::kTurnDragSpeedExponent)].u = -scrub.by_speed_exponent * plant.per_mass;
+  by_extra[at(ExtraForce::kBrakeForce)] = of_sides(left_excess.by_brake, right_excess.by_brake);
+  by_extra[at(ExtraForce::kReverseForce)] =
+      of_sides(left_excess.by_reverse, right_excess.by_reverse);
+  const DrivenSlopes by_u = of_sides(left_excess.by_speed, right_excess.by_speed);
+  const DrivenSlopes by_r =
+      of_sides(-side_m * left_excess.by_speed, side_m * right_excess.by_speed);
+  out.by_state.u_u += by_u.u;
+  out.by_state.u_r += by_r.u;
+  out.by_state.v_u += by_u.v;
+  out.by_state.v_r += by_r.v;
+  out.by_state.r_u = by_u.r;
+  out.by_state.r_r += by_r.r;
   out.by_force_left = forces.of(left.by_command, -left.by_command);
   out.by_force_right = forces.of(right.by_command, right.by_command);
   if (plant.has_back_emf) {
@@ -362,7 +476,10 @@ void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out) {
     hold<&DrivenSlopes::u>(out.rates.u_mps, out);
     a.u_psi = a.u_u = a.u_v = a.u_r = a.u_steering = 0.0;
   } else if (p.friction.surge_mps2 > 0.0) {
-    brake<&DrivenSlopes::u>(way.surge, p.friction.surge_mps2, p.per_mass,
+    const bool is_backward = way.surge < 0.0;
+    const double share = is_backward ? 1.0 + p.extra[ExtraForce::kBackwardDrag] : 1.0;
+    if (is_backward) out.by_extra[at(ExtraForce::kBackwardDrag)].u += p.friction.surge_mps2;
+    brake<&DrivenSlopes::u>(share * way.surge, p.friction.surge_mps2, p.per_mass,
                             ParameterId::kSurgeCoulomb, ExtraForce::kSurgeStribeck,
                             ParameterId::kMassNorm, out.rates.u_mps, out);
   }

@@ -64,10 +64,16 @@ struct LinearPlant {
   /// Factor on v_dot, <= 1. Below 1 if the time constant m'/a_s of sway is shorter than a step: v
   /// then reaches the same steady value with a time constant of one step.
   double sway_pace;
+  LinearResistance turn_drag;  ///< k |r|^p sgn r of the drag in turns
+  /// Speed, m/s per drag in turns over F_max, below which this drag is in proportion to the speed,
+  /// so that it does not reverse the motion within a step.
+  double rest_per_turn_drag;
   bool has_back_emf;
   bool has_surge_stribeck;
   bool has_yaw_stribeck;
   bool has_slope;
+  bool has_turn_drag;
+  bool has_force_excess;  ///< forces against the motion, or backward forces
 };
 
 /// Wheel forces and steering command, held constant over a step.

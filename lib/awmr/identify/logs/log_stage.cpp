@@ -18,6 +18,7 @@
 #include "awmr/identify/logs/log_report.h"
 #include "awmr/identify/logs/log_setup.h"
 #include "awmr/identify/logs/model_choice.h"
+#include "awmr/identify/logs/set_points.h"
 #include "awmr/identify/logs/slip_choice.h"
 #include "awmr/identify/logs/speed_control.h"
 #include "awmr/model/plausibility.h"
@@ -176,6 +177,10 @@ std::optional<ReadAgain> read_again(const std::vector<DrivingLog>& logs,
                                     const LogFitOptions& power_law, const FamilyFit& first,
                                     const IdentifyOptions& options) {
   const std::string& file = logs.front().file;
+  auto held = with_held_set_points(logs);
+  if (held && are_set_points_held(*held, power_law, first, options)) {
+    return ReadAgain{*std::move(held), interpolated_set_points_finding(file)};
+  }
   if (are_commands_smooth(logs, power_law, first, options)) {
     return ReadAgain{interpolated(logs), interpolated_commands_finding(file)};
   }

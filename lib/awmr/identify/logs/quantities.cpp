@@ -29,10 +29,13 @@ Interval parameter_bounds(const FreeQuantity& quantity, double initial, const Ve
   return {initial - 10.0, std::max(initial, most)};
 }
 
-/// Range of a Stribeck friction, its speed scale, or a component of a slope.
 Interval extra_force_range(const FreeQuantity& quantity) {
   constexpr double kSteepest_mps2 = 5.0;
+  constexpr double kLargestExponent = 3.0;
+  constexpr Interval kExcess{-0.9, 5.0};
   if (quantity.is_stribeck_speed()) return {0.01 * quantity.fastest, 0.5 * quantity.fastest};
+  if (quantity.is_turn_drag_exponent()) return {0.0, kLargestExponent};
+  if (quantity.is_force_excess() || quantity.is(ExtraForce::kBackwardDrag)) return kExcess;
   return quantity.may_be_zero() ? Interval{0.0, 1e6} : Interval{-kSteepest_mps2, kSteepest_mps2};
 }
 
@@ -186,10 +189,15 @@ FreeQuantity saturation_sharpness() {
 }
 
 FreeQuantity extra_force(ExtraForce force) {
-  const bool is_slope = force == ExtraForce::kSlopeX || force == ExtraForce::kSlopeY;
-  return {.kind = FreeQuantity::Kind::kExtraForce,
-          .force = force,
-          .large_change = is_slope ? 0.5 : 0.2};
+  FreeQuantity quantity{.kind = FreeQuantity::Kind::kExtraForce, .force = force};
+  if (force == ExtraForce::kSlopeX || force == ExtraForce::kSlopeY) {
+    quantity.large_change = 0.5;
+  } else if (quantity.is_force_excess() || force == ExtraForce::kBackwardDrag) {
+    quantity.large_change = 0.1;
+  } else if (!quantity.is_form()) {
+    quantity.large_change = 0.2;
+  }
+  return quantity;
 }
 
 bool is_late_commands(const FreeTerm& term) {

@@ -31,7 +31,7 @@ struct FreeQuantity {
     kForceExponent,        ///< p of force_exponent(): forces in proportion to a power of commands
     kForceSaturation,      ///< L of force_saturation(): large commands push less than in proportion
     kSaturationSharpness,  ///< n of force_saturation()
-    kExtraForce,           ///< Stribeck friction or a slope (extra_forces.h)
+    kExtraForce,           ///< a force that the model does not contain (extra_forces.h)
     kBias,                 ///< constant offset of a channel
     kSensorDelay,          ///< latency of a channel
     kSensorLag,            ///< time constant of a filter that smooths a channel
@@ -46,8 +46,8 @@ struct FreeQuantity {
   ExtraForce force = ExtraForce::kSlopeX;  ///< for kExtraForce
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
-  /// a bias (SI); 0.2 for a term of a family or Stribeck friction; 0.1 for a delay or lag (s), trim
-  /// or angle (rad), imbalance, saturation, wheel slip or offset (m); 0.5 for a slope (m/s^2); 0.01 for smoothing (s^2).
+  /// a bias (SI); 0.2 for a term of a family, Stribeck friction or drag in turns; 0.1 for a delay or
+  /// lag (s), trim or angle (rad), imbalance, excess, saturation, wheel slip or offset (m); 0.5 for a slope (m/s^2); 0.01 for smoothing (s^2).
   /// Standard deviations of priors and limits of identifiability are multiples of this change.
   double large_change = 1.0;
   double full_command = 1.0;  ///< for kForceSaturation: F'm of force_saturation(), > 0
@@ -62,14 +62,25 @@ struct FreeQuantity {
   bool is_stribeck_speed() const {
     return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
   }
-  /// True for the form of a saturation (sharpness) or of Stribeck friction (speed scale).
-  bool is_form() const { return kind == Kind::kSaturationSharpness || is_stribeck_speed(); }
-  /// True for delays, lags, saturation, Stribeck friction and wheel slip, which cannot be negative,
-  /// so that 0 is an end of their range.
+  bool is_turn_drag_exponent() const {
+    return is(ExtraForce::kTurnDragExponent) || is(ExtraForce::kTurnDragSpeedExponent);
+  }
+  /// True for the excess of braking or backward forces, of which a fit has at most one.
+  bool is_force_excess() const {
+    return is(ExtraForce::kBrakeForce) || is(ExtraForce::kReverseForce);
+  }
+  /// True for the form of a saturation (sharpness), of Stribeck friction (speed scale) or of the drag
+  /// in turns (exponents).
+  bool is_form() const {
+    return kind == Kind::kSaturationSharpness || is_stribeck_speed() || is_turn_drag_exponent();
+  }
+  /// True for delays, lags, saturation, Stribeck friction, drag in turns and wheel slip, which cannot
+  /// be negative, so that 0 is an end of their range.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
            kind == Kind::kSmoothing || kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
-           is(ExtraForce::kSurgeStribeck) || is(ExtraForce::kYawStribeck);
+           is(ExtraForce::kSurgeStribeck) || is(ExtraForce::kYawStribeck) ||
+           is(ExtraForce::kTurnDrag);
   }
   std::string name() const;
   double value(double coordinate) const;
@@ -117,7 +128,8 @@ FreeQuantity force_saturation(double full_command);
 FreeQuantity saturation_sharpness();
 inline constexpr double kDefaultSharpness = 4.0;  ///< value of n in fits without free sharpness
 
-/// Stribeck friction (`force`: its s of surge or yaw), or a component of the slope.
+/// A force that the model does not contain (extra_forces.h). Not for the speed scale of Stribeck
+/// friction, see stribeck_speed_term().
 FreeQuantity extra_force(ExtraForce force);
 
 /// Time constant of a first-order filter that smooths a channel, s. `is_at_rows`: a recursive
