@@ -580,6 +580,26 @@ TEST(LateLog, HoldsSetPointsThatWereInterpolatedInTheLog) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
+TEST(LateLog, FindsADeadBandOfTheSteering) {
+  constexpr double kBand_rad = 0.03;
+  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  // The commands with which a vehicle with the dead band would have made the same drive.
+  for (double& command : *log.steering_command_rad) {
+    if (command != 0.0) command += std::copysign(kBand_rad, command);
+  }
+  expect_found(std::move(log), kTruths[1], "steering.dead_band_rad", kBand_rad,
+               "steering-dead-band");
+}
+
+TEST(LateLog, FindsSteeringThatIsNotSymmetric) {
+  constexpr double kAsymmetry = 0.1;
+  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  for (double& command : *log.steering_command_rad) {
+    command /= 1.0 + std::copysign(kAsymmetry, command);
+  }
+  expect_found(std::move(log), kTruths[1], "steering.asymmetry", kAsymmetry, "steering-asymmetry");
+}
+
 class ForceImbalance : public ::testing::TestWithParam<double> {};
 
 TEST_P(ForceImbalance, IsFound) {

@@ -333,8 +333,9 @@ TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
 }
 
 /// Steering trim, rad, force imbalance, saturation, the logarithms of its sharpness and of the
-/// exponent of the forces, and the servo's largest rate, rad/s.
-constexpr std::size_t kErrors = 6;
+/// exponent of the forces, the servo's largest rate, rad/s, and dead band, rad, and asymmetry of the
+/// steering.
+constexpr std::size_t kErrors = 8;
 using CommandErrors = std::array<double, kErrors>;
 
 /// The motion with these errors of the commands as the only columns.
@@ -342,6 +343,8 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
   constexpr double kStep_s = 0.004;
   const LogSignals signals(log);
   const CommandPath path{.steering_trim = OffsetColumn{errors[0], 0},
+                         .steering_dead_band = OffsetColumn{errors[6], 6},
+                         .steering_asymmetry = OffsetColumn{errors[7], 7},
                          .servo_rate = OffsetColumn{errors[5], 5},
                          .imbalance = OffsetColumn{errors[1], 1},
                          .exponent = OffsetColumn{std::exp(errors[4]), 4},
@@ -362,7 +365,7 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
 
 TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
   constexpr double kApart = 1e-6;
-  const CommandErrors errors{0.03, -0.08, 0.2, 1.2, -0.2, 1.5};
+  const CommandErrors errors{0.03, -0.08, 0.2, 1.2, -0.2, 1.5, 0.05, 0.1};
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
     const std::vector<LinearMotion> here = with_errors(log, errors);

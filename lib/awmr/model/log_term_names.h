@@ -10,6 +10,8 @@
 namespace awmr {
 
 inline constexpr std::string_view kSteeringTrimName = "steering.trim_rad";
+inline constexpr std::string_view kSteeringDeadBandName = "steering.dead_band_rad";
+inline constexpr std::string_view kSteeringAsymmetryName = "steering.asymmetry";
 inline constexpr std::string_view kServoRateName = "steering.max_rate_radps";
 inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";

@@ -30,7 +30,8 @@ constexpr double kSymmetryTolerance = 1e-9;
 /// True for the name of a parameter, or of another quantity that a fit estimates.
 bool is_estimated_name(std::string_view name) {
   return parameter_by_name(name) || name == kInputDelayName || name == kSteeringDelayName ||
-         name == kSteeringTrimName || name == kServoRateName || name == kForceImbalanceName ||
+         name == kSteeringTrimName || name == kSteeringDeadBandName ||
+         name == kSteeringAsymmetryName || name == kServoRateName || name == kForceImbalanceName ||
          name == kForceExponentName || name == kForceSaturationName ||
          name == kSaturationSharpnessName || name == kSwayOffsetName || name == kSwayAngleName ||
          name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||

@@ -194,6 +194,29 @@ std::vector<Finding> servo_rate_findings(const LogFit& fit, const std::string& f
   return findings;
 }
 
+std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const FoundTerm& band : found_terms(fit, FreeQuantity::Kind::kSteeringDeadBand)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "steering-dead-band",
+         fmt::format("steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and "
+                     "larger ones move them by that much less. The fit compensates this, but "
+                     "simulations and gains do not; reduce the play of the linkage, or add {:.2f} "
+                     "deg to every command before it is sent",
+                     degrees(band.value), degrees(band.error), degrees(band.value))});
+  }
+  for (const FoundTerm& asymmetry : found_terms(fit, FreeQuantity::Kind::kSteeringAsymmetry)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "steering-asymmetry",
+         fmt::format("at equal commands the wheels steer {:.1f} +- {:.1f} % further to the {} than "
+                     "the mean of both sides. The fit compensates this, but simulations and gains "
+                     "do not; adjust the linkage",
+                     100.0 * std::abs(asymmetry.value), 100.0 * asymmetry.error,
+                     asymmetry.value > 0.0 ? "left" : "right")});
+  }
+  return findings;
+}
+
 /// `steering-trim` and `force-imbalance` for constant errors of the commands. If the commands
 /// cannot separate the two, only one of them is in the fit.
 std::vector<Finding> constant_error_findings(const LogFit& fit, const std::string& file) {
@@ -290,10 +313,11 @@ bool saturates_much(const LogFit& fit) {
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::string& file) {
   std::vector<Finding> findings = delay_findings(fit, file);
-  for (const auto& more : {slip_findings(fit, file), sway_sensor_findings(fit, file),
-                           steering_delay_findings(fit, file), servo_rate_findings(fit, file),
-                           constant_error_findings(fit, file), saturation_findings(fit, file),
-                           actuator_findings(fit, file), force_findings(fit, file)}) {
+  for (const auto& more :
+       {slip_findings(fit, file), sway_sensor_findings(fit, file),
+        steering_delay_findings(fit, file), servo_rate_findings(fit, file),
+        linkage_findings(fit, file), constant_error_findings(fit, file),
+        saturation_findings(fit, file), actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   if (!withdrawn) return findings;

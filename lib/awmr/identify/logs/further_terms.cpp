@@ -107,6 +107,21 @@ void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
+/// Adds errors of the steering: the angle at a command of 0, and, if the logs have commands, dead
+/// band and asymmetry of the linkage.
+void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
+  using Kind = FreeQuantity::Kind;
+  if (!any_log(problem, has_steering_changes)) return;
+  const auto has_command = [](const DrivingLog& log) {
+    return log.steering_command_rad.has_value();
+  };
+  for (const FreeQuantity& q : {steering_trim(), steering_dead_band(), steering_asymmetry()}) {
+    const bool is_of_command = q.kind != Kind::kSteeringTrim;
+    if (has_kind(problem.model.quantities, q.kind)) continue;
+    if (!is_of_command || any_log(problem, has_command)) found.push_back(q);
+  }
+}
+
 }  // namespace
 
 bool is_often_filtered(LogChannel channel) {
@@ -124,9 +139,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
       !has_kind(quantities, Kind::kSteeringDelay)) {
     found.push_back(steering_delay());
   }
-  if (!has_kind(quantities, Kind::kSteeringTrim) && any_log(problem, has_steering_changes)) {
-    found.push_back(steering_trim());
-  }
+  add_steering(problem, found);
   if (!has_kind(quantities, Kind::kForceImbalance) && any_log(problem, has_force_difference)) {
     found.push_back(force_imbalance());
   }

@@ -84,9 +84,11 @@ CommandColumns columns_of(const CommandPath& path) {
   const auto column = [](const auto& term) {
     return term ? std::optional(term->column) : std::nullopt;
   };
-  return {column(path.delay),         column(path.steering_delay), path.lag_column,
-          column(path.steering_trim), column(path.servo_rate),     column(path.imbalance),
-          column(path.exponent),      column(path.saturation),     column(path.sharpness)};
+  return {
+      column(path.delay),         column(path.steering_delay),     path.lag_column,
+      column(path.steering_trim), column(path.steering_dead_band), column(path.steering_asymmetry),
+      column(path.servo_rate),    column(path.imbalance),          column(path.exponent),
+      column(path.saturation),    column(path.sharpness)};
 }
 
 const double* LinearMotion::row(LogChannel channel, std::size_t columns) const {
@@ -134,6 +136,12 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
     set_column({by, 0.0}, column, driven);
   });
   if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
+  if (c.steering_dead_band) {
+    set_column({{}, command.steering_by_dead_band}, *c.steering_dead_band, driven);
+  }
+  if (c.steering_asymmetry) {
+    set_column({{}, command.steering_by_asymmetry}, *c.steering_asymmetry, driven);
+  }
   if (c.servo_rate) {
     driven[(kDrivenSize - 1) * columns_ + *c.servo_rate] = rates_.steering_by_max_rate;
   }
@@ -331,7 +339,22 @@ void raise_to_power(const CommandPath& path, DelayedCommand& at) {
   }
 }
 
+/// Applies dead band and asymmetry of the linkage to the steering command.
+void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
+  const double band_rad = path.steering_dead_band ? path.steering_dead_band->value : 0.0;
+  const double e = path.steering_asymmetry ? path.steering_asymmetry->value : 0.0;
+  double& angle_rad = at.command.steering_rad;
+  const bool moves = std::abs(angle_rad) > band_rad;
+  const double side = std::copysign(moves ? 1.0 : 0.0, angle_rad);
+  const double beyond_rad = moves ? angle_rad - side * band_rad : 0.0;
+  const double share = 1.0 + side * e;
+  at.steering_by_dead_band = -side * share;
+  at.steering_by_asymmetry = std::abs(beyond_rad);
+  angle_rad = beyond_rad * share;
+}
+
 DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
+  if (path.steering_dead_band || path.steering_asymmetry) steer_by_linkage(path, at);
   if (path.steering_trim) {
     at.command.steering_rad += path.steering_trim->value;
     at.steering_by_trim = 1.0;

@@ -51,7 +51,9 @@ struct CommandPath {
   std::optional<LaggedForces> lag = {};            ///< forces after the motors' lag
   std::optional<std::size_t> lag_column = {};      ///< column of the lag; present if it is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
-  std::optional<OffsetColumn> servo_rate = {};     ///< rad/s, in place of the plant's
+  std::optional<OffsetColumn> steering_dead_band = {};  ///< rad, of the command
+  std::optional<OffsetColumn> steering_asymmetry = {};  ///< e of steering_asymmetry()
+  std::optional<OffsetColumn> servo_rate = {};          ///< rad/s, in place of the plant's
   std::optional<OffsetColumn> imbalance = {};   ///< e: left forces times 1 - e, right times 1 + e
   std::optional<OffsetColumn> exponent = {};    ///< p of force_exponent(); derivatives by ln p
   std::optional<OffsetColumn> saturation = {};  ///< L of force_saturation()
@@ -67,6 +69,8 @@ struct CommandColumns {
   std::optional<std::size_t> steering_delay = {};
   std::optional<std::size_t> lag = {};
   std::optional<std::size_t> steering_trim = {};
+  std::optional<std::size_t> steering_dead_band = {};
+  std::optional<std::size_t> steering_asymmetry = {};
   std::optional<std::size_t> servo_rate = {};
   std::optional<std::size_t> imbalance = {};
   std::optional<std::size_t> exponent = {};
@@ -87,6 +91,8 @@ struct DelayedCommand {
   SideForces<double> by_saturation{};  ///< d force / d L
   SideForces<double> by_sharpness{};   ///< d force / d ln n
   double steering_by_trim = 0.0;       ///< d steering / d trim: 1 if there is a trim, else 0
+  double steering_by_dead_band = 0.0;  ///< d steering / d dead band
+  double steering_by_asymmetry = 0.0;  ///< d steering / d asymmetry, rad
 };
 
 /// Calls visit(column, by) for each free quantity that changes the forces of `command`, with the

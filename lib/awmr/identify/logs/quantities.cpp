@@ -57,8 +57,11 @@ Interval range_of(const FreeQuantity& quantity) {
       return {-kLongest_s, kLongest_s};
     case Kind::kSteeringTrim:
       return {-kLargestTrim_rad, kLargestTrim_rad};
+    case Kind::kSteeringDeadBand:
+      return {0.0, kLargestTrim_rad};
     case Kind::kServoRate:
       return {kSlowestRate_radps, kFastestRate_radps};
+    case Kind::kSteeringAsymmetry:
     case Kind::kForceImbalance:
       return {-kLargestImbalance, kLargestImbalance};
     case Kind::kForceExponent:
@@ -111,6 +114,10 @@ std::string FreeQuantity::name() const {
       return std::string(kMotorLagName);
     case Kind::kSteeringTrim:
       return std::string(kSteeringTrimName);
+    case Kind::kSteeringDeadBand:
+      return std::string(kSteeringDeadBandName);
+    case Kind::kSteeringAsymmetry:
+      return std::string(kSteeringAsymmetryName);
     case Kind::kServoRate:
       return std::string(kServoRateName);
     case Kind::kForceImbalance:
@@ -162,6 +169,14 @@ FreeQuantity motor_lag() { return {.kind = FreeQuantity::Kind::kMotorLag, .large
 
 FreeQuantity steering_trim() {
   return {.kind = FreeQuantity::Kind::kSteeringTrim, .large_change = 0.1};
+}
+
+FreeQuantity steering_dead_band() {
+  return {.kind = FreeQuantity::Kind::kSteeringDeadBand, .large_change = 0.1};
+}
+
+FreeQuantity steering_asymmetry() {
+  return {.kind = FreeQuantity::Kind::kSteeringAsymmetry, .large_change = 0.1};
 }
 
 FreeQuantity servo_rate(double begin_radps) {

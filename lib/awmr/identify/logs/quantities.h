@@ -26,6 +26,8 @@ struct FreeQuantity {
     kSteeringDelay,        ///< additional delay of the steering command
     kMotorLag,             ///< time constant of the motors
     kSteeringTrim,         ///< steering angle at a command of 0
+    kSteeringDeadBand,     ///< commands that do not move the steering
+    kSteeringAsymmetry,    ///< (left - right)/(left + right) of the angles at equal commands
     kServoRate,            ///< largest rate of the steering angle
     kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
     kForceExponent,        ///< p of force_exponent(): forces in proportion to a power of commands
@@ -74,13 +76,13 @@ struct FreeQuantity {
   bool is_form() const {
     return kind == Kind::kSaturationSharpness || is_stribeck_speed() || is_turn_drag_exponent();
   }
-  /// True for delays, lags, saturation, Stribeck friction, drag in turns and wheel slip, which cannot
+  /// True for delays, lags, saturation, Stribeck friction, dead band, drag in turns and slip, which cannot
   /// be negative, so that 0 is an end of their range.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
            kind == Kind::kSmoothing || kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
            is(ExtraForce::kSurgeStribeck) || is(ExtraForce::kYawStribeck) ||
-           is(ExtraForce::kTurnDrag);
+           is(ExtraForce::kTurnDrag) || kind == Kind::kSteeringDeadBand;
   }
   std::string name() const;
   double value(double coordinate) const;
@@ -102,6 +104,14 @@ FreeQuantity motor_lag();
 
 /// Steering angle at a command of 0, rad; positive to the left.
 FreeQuantity steering_trim();
+
+/// Dead band b >= 0, rad, of the steering: the command c steers to the angle c - b sgn c, or to 0 if
+/// |c| < b.
+FreeQuantity steering_dead_band();
+
+/// Asymmetry e of the steering: angles to the left are 1 + e times the command (beyond the dead
+/// band), angles to the right 1 - e times.
+FreeQuantity steering_asymmetry();
 
 /// Largest rate of the steering angle, rad/s, in place of the vehicle file's. `begin_radps`:
 /// initial guess, > 0.

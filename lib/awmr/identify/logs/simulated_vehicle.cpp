@@ -47,6 +47,12 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
     case Kind::kSteeringTrim:
       path.steering_trim = {number, i};
       break;
+    case Kind::kSteeringDeadBand:
+      path.steering_dead_band = {number, i};
+      break;
+    case Kind::kSteeringAsymmetry:
+      path.steering_asymmetry = {number, i};
+      break;
     case Kind::kServoRate:
       path.servo_rate = {number, i};
       break;
