@@ -62,8 +62,9 @@ Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool
 /// bytes, in both directions. Errors: as Emulator::load().
 Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
                                         std::uint32_t parameters_crc, double noise);
-/// Exchanges data with a real board through a serial port. `elf`: the firmware with which the board
-/// was flashed, read for its use of flash and RAM. Errors: as Emulator::load().
+/// Exchanges data with a real board through a serial port, which start() opens. `elf`: the firmware
+/// with which the board was flashed, read only for its use of flash and RAM. `parameters_crc`: as
+/// for frame_link(). Errors: as Emulator::load(), if `elf` cannot be read as firmware.
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "awmr/control/autopilot.h"
+#include "awmr/control/speed_law.h"
 #include "paper_autopilot.h"
 
 namespace awmr::testing {
@@ -143,6 +144,30 @@ TEST(RunsAwayUnsigned, IsTheConditionOfTheLaw) {
   // 1.3.
   EXPECT_FALSE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.2, 1.0}, 0.5));
   EXPECT_TRUE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.4, 1.0}, 0.5));
+}
+
+TEST(RunsAwayUnsigned, CountsTheCoulombFrictionThatTheLawFeedsForward) {
+  // With c = 0.1, g1(0.5) = 0.75 and the friction fed forward is g1(0.02) = 0.126: the vehicle is
+  // accelerated if 0.5 m' mu_s/eps_s is above 0.624.
+  const Resistance<double> g1{.alpha = 1.3, .beta = 1.0, .coulomb = 0.1};
+  EXPECT_FALSE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.24, 1.0}, 0.5));
+  EXPECT_TRUE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.26, 1.0}, 0.5));
+}
+
+TEST(RunsAwayUnsigned, UsesTheForceOfTheSpeedLaw) {
+  for (const double coulomb : {0.0, 0.1}) {
+    Controller<double> controller = paper_controller_of<double>();
+    controller.surge = {.alpha = 1.3, .beta = 0.7, .coulomb = coulomb};
+    controller.gains.speed = {0.8, 0.5};
+    const Resistance<double> g1 = controller.surge;
+    controller.surge = feed_forward(g1);
+    const auto laws = prepared(controller);
+    for (const double u_mps : {0.001, 0.015, 0.02, 0.3, 2.0}) {
+      EXPECT_DOUBLE_EQ(unsigned_push(g1, controller.mass_norm, controller.gains.speed, u_mps),
+                       -speed_law(laws, {0.0, u_mps, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0, 0.0}))
+          << coulomb << ' ' << u_mps;
+    }
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 /// Errors in CSV files: their place, message and remedy.
 #include <gmock/gmock.h>
 
+#include "awmr/core/raw_table.h"
 #include "core/csv_text.h"
 #include "core/faults.h"
 
@@ -34,6 +35,12 @@ TEST(CsvFaults, EmptyFile) {
 TEST(CsvFaults, OnlyAByteOrderMarkOrCommentsIsNoHeader) {
   EXPECT_THAT(faults("\xEF\xBB\xBF"), ElementsAre(HasSubstr("no header row")));
   EXPECT_THAT(faults("# nothing\n\n"), ElementsAre(HasSubstr("no header row")));
+}
+
+TEST(CsvFaults, JoinedSignalsWithoutRows) {
+  EXPECT_THAT(faults_of(table_of({.file = "a.mcap", .joined = true}, {}, {}, {})),
+              ElementsAre(AllOf(StartsWith("a.mcap:1:1: "),
+                                HasSubstr("no row has a value of a command or measurement"))));
 }
 
 TEST(CsvFaults, HeaderWithoutRows) {

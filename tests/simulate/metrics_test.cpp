@@ -7,6 +7,7 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
+#include "awmr/model/paper_gains.h"
 #include "awmr/simulate/validity.h"
 #include "simulate/paper_plant.h"
 
@@ -308,6 +309,23 @@ TEST(Validity, WarnsOfScenarioPartsWithoutEffect) {
   EXPECT_EQ(codes_of(unattainable_requests(fast, model)), Codes{});
   fast.speed_mps = 3.7;
   EXPECT_EQ(codes_of(unattainable_requests(fast, model)), Codes{"unreachable-speed"});
+}
+
+TEST(Validity, WarnsOfASpeedLawThatDrivesBackwardWithAnUnsignedSpeed) {
+  Plant<double> plant = paper_plant();
+  plant.mass_norm = 1.0;
+  plant.surge = {.alpha = 1.0, .beta = 1.0};
+  Gains<double> gains = kPaperGains;
+  gains.speed = {0.9, 1.0};
+  EXPECT_FALSE(unsigned_speed_finding(plant, paper_vehicle(), gains, ""));
+  // Coulomb friction that is fed forward: 0.9 u + 0.12 > 0.1 + u up to 0.2 m/s.
+  plant.surge.coulomb = 0.1;
+  const auto finding = unsigned_speed_finding(plant, paper_vehicle(), gains, "");
+  ASSERT_TRUE(finding);
+  EXPECT_NE(finding->message.find("at 0.195 m/s"), std::string::npos) << finding->message;
+  // However weak the law is, it cancels the friction at 0.02 m/s.
+  gains.speed = {1e-6, 1.0};
+  EXPECT_TRUE(unsigned_speed_finding(plant, paper_vehicle(), gains, ""));
 }
 
 TEST(Validity, WarnsOfTyresThatContradictTheTurningTrials) {

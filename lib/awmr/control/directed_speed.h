@@ -1,8 +1,8 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
-/// The speed law needs a signed speed. With |u| as its input and a wanted speed of 0, the law would
-/// accelerate a vehicle that rolls backward while m' mu_s sat(u/eps_s) > g1(u). The sign is that of
-/// a predicted speed u, computed from the commanded force by the identified model:
+/// The speed law needs a signed speed: with |u| as its input, it can accelerate a vehicle that rolls
+/// backward (runs_away_unsigned()). The sign is that of a predicted speed u, computed from the
+/// commanded force by the identified model:
 ///   m' u_dot = tau_speed - g1(u)
 /// The sensor corrects the magnitude of the prediction; the displacement along the heading verifies
 /// its sign. Rules:
@@ -18,6 +18,7 @@
 #include <stdint.h>
 
 #include "awmr/control/displacement.h"
+#include "awmr/control/feed_forward.h"
 #include "awmr/control/gps_sentence.h"
 #include "awmr/control/guidance/position.h"
 #include "awmr/control/measurement.h"
@@ -134,15 +135,24 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
   m.u_mps = math::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
 }
 
-/// True if the speed law, with |u| as its input, would accelerate a vehicle that rolls backward at
-/// the speed u = speed_mps > 0. At u_ref = 0 the law commands -m' mu_s sat(u/eps_s), which pushes
-/// such a vehicle further backward. This force exceeds the resistance if
-///   m' mu_s sat(u/eps_s) > g1(u)
-template <class T, class G>
-bool runs_away_unsigned(const G& surge, const T& mass_norm, const SpeedGains<T>& gains,
-                        const T& speed_mps) {
+/// Force, over F_max, with which the speed law pushes a vehicle further backward that rolls backward
+/// at the speed u = speed_mps > 0, if |u| is the law's input. At u_ref = 0 the law commands
+///   tau_speed = -(m' mu_s sat(u/eps_s) + f)
+/// f is the Coulomb friction that the law feeds forward: g1(w0) sat(u/w0) with
+/// w0 = feed_forward_rest_speed(), or 0 if g1 does not jump at rest. `surge`: g1 of the model.
+template <class T>
+T unsigned_push(const Resistance<T>& surge, const T& mass_norm, const SpeedGains<T>& gains,
+                const T& speed_mps) {
   const T correction = math::saturate(T(gains.mu / gains.epsilon * speed_mps), gains.mu);
-  return mass_norm * correction > surge(speed_mps);
+  return mass_norm * correction - fed_forward(feed_forward(surge), T(0.0), T(-speed_mps));
+}
+
+/// True if the speed law, with |u| as its input, would accelerate such a vehicle: unsigned_push()
+/// exceeds the resistance g1(u).
+template <class T>
+bool runs_away_unsigned(const Resistance<T>& surge, const T& mass_norm, const SpeedGains<T>& gains,
+                        const T& speed_mps) {
+  return unsigned_push(surge, mass_norm, gains, speed_mps) > surge(speed_mps);
 }
 
 }  // namespace awmr

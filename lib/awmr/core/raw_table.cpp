@@ -277,10 +277,9 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
   if (sparse && faults.empty()) drop_rows(parts, sources);
   if (faults.empty() && parts.lines.empty()) {
     faults.push_back({ErrorCode::kTooFewData, fmt::format("{}:{}:1", parts.file, parts.header_line),
-                      sparse
-                          ? "no row has a measurement after every command has had a value; record "
-                            "longer, or map other columns"
-                          : "there are no rows below the header"});
+                      sparse ? "no row has a value of a command or measurement; record these "
+                               "signals, or map other columns"
+                             : "there are no rows below the header"});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return CsvTable(std::move(parts));

@@ -219,18 +219,18 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const 
   const double tau_speed_max = vehicle.driven_wheels() * vehicle.wheel_force.hi;
   const double top_mps = steady_rate(plant.surge, tau_speed_max).value_or(0.0);
   constexpr int kSpeeds = 100;
-  for (int i = 1; i <= kSpeeds; ++i) {
-    const double u_mps = top_mps * i / kSpeeds;
+  for (int i = kSpeeds; i >= 0; --i) {
+    const double u_mps = i > 0 ? top_mps * i / kSpeeds : feed_forward_rest_speed<double>();
+    if (!(u_mps <= top_mps)) continue;
     if (!runs_away_unsigned(plant.surge, plant.mass_norm, gains.speed, u_mps)) continue;
     return Finding{
         file, 0, Severity::kWarning, "unsigned-speed-runs-away",
-        fmt::format(
-            "the correction of the speed law, m' mu_s sat(u/eps_s) = {:.3g}, exceeds the "
-            "resistance g1(u) = {:.3g} at {:.3g} m/s: with a speed sensor without a sign (GPS), "
-            "the vehicle can drive backward by itself. Set speed_unsigned in the sketch, as the "
-            "examples do",
-            plant.mass_norm * gains.speed.mu * std::min(u_mps / gains.speed.epsilon, 1.0),
-            plant.surge(u_mps), u_mps)};
+        fmt::format("with a speed sensor without a sign (GPS), the vehicle can drive backward by "
+                    "itself: at {:.3g} m/s the speed law pushes it backward with {:.3g} F_max, "
+                    "more than the resistance g1(u) = {:.3g}. Set speed_unsigned in the sketch, as "
+                    "the examples do",
+                    u_mps, unsigned_push(plant.surge, plant.mass_norm, gains.speed, u_mps),
+                    plant.surge(u_mps))};
   }
   return {};
 }

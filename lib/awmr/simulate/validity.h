@@ -31,9 +31,9 @@ std::optional<Finding> missing_intervals(const Model& model);
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
 /// Warning `unsigned-speed-runs-away`: with a speed sensor without a sign, such as a GPS, the speed
-/// law would accelerate a vehicle that rolls backward. This is so if m' mu_s sat(u/eps_s) > g1(u)
-/// at a speed that the vehicle can reach. `file`: name of the file of the gains. Absent if there is
-/// no such speed.
+/// law would accelerate a vehicle that rolls backward (runs_away_unsigned()) at a speed that the
+/// vehicle can reach. The finding names the highest such speed. `file`: name of the file of the
+/// gains. Absent if there is no such speed.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
                                               const Gains<double>& gains, const std::string& file);
 

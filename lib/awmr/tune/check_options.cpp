@@ -89,8 +89,8 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   if (!open.any()) return;
   if (options.nominal) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "`open` varies the randomly drawn vehicles, which nominal disables; remove "
-                      "one of the two"});
+                      "`open` varies the mass and wheel forces of randomly drawn vehicles, but "
+                      "`nominal` draws none; remove one of the two"});
     return;
   }
   for (const double factor : open.mass_factors) {

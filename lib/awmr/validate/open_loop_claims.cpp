@@ -39,7 +39,8 @@ Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double dura
   return run_or_failed(model, kPaperGains, scenario, mode);
 }
 
-/// The surge trial at the largest tau_speed: its speed is the paper's u_max.
+/// The surge trial at the largest tau_speed; null without surge trials. If its tau_speed is 2 (full
+/// thrust), its measured speed is u_max of claim C1.
 const TrialPoint* fastest_trial(const Model& model) {
   const TrialPoint* fastest = nullptr;
   for (const TrialPoint& trial : model.record.trials) {

@@ -32,8 +32,10 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// Selects the families, and back-EMF if it is significant. Adds the reports of all fits and the
-/// findings to `stage`.
+/// Selects the resistance families of surge and yaw, back-EMF if it is significant, and wheel slip
+/// or late commands (decide_slip()). Then checks the adequacy of the selected fit, which can
+/// withdraw intervals. Adds the reports of all fits and the findings to `stage`. `power_law`,
+/// `first`: as in choose_model().
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;

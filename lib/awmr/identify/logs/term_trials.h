@@ -1,4 +1,6 @@
-/// Fits with further terms free, compared by AIC. Private to identify/.
+/// Trial fits of the logs that also estimate further terms of the vehicle or sensor model, such as a
+/// delay, motor lag, smoothing or wheel slip. Each is compared by AIC with the fit without these
+/// terms. Private to identify/.
 #pragma once
 
 #include <optional>

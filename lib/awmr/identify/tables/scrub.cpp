@@ -192,13 +192,17 @@ void note_limits(Model& model, const TrialSet<TurningRow>& turning, const ScrubM
                      degrees(rates.lo), degrees(rates.hi), degrees(range->lo), degrees(range->hi)));
   }
   if (scrub.changing_m) {
-    const Interval moments = range_of(met.moments_m);
-    note(model, turning, "scrub-grows",
-         fmt::format("the tyre scrub of the differential turns changes with the yaw rate, from "
-                     "{:.3g} to {:.3g} m. The mean {:.3g} m is valid only in the middle of {:.3g} "
-                     "to {:.3g} deg/s; comparisons of modes use the whole range {:.3g} to {:.3g} m",
-                     moments.lo, moments.hi, scrub.moment_m, degrees(rates.lo), degrees(rates.hi),
-                     scrub.changing_m->lo, scrub.changing_m->hi));
+    const auto [slow, fast] = std::ranges::minmax_element(met.rates_radps);
+    const auto slowest = static_cast<std::size_t>(slow - met.rates_radps.begin());
+    const auto fastest = static_cast<std::size_t>(fast - met.rates_radps.begin());
+    note(
+        model, turning, "scrub-grows",
+        fmt::format("the scrub moment of the tyres (over F_max) changes with the yaw rate: {:.3g} "
+                    "to {:.3g} m in the differential turns at {:.3g} to {:.3g} deg/s. Simulations "
+                    "use the mean, {:.3g} m, at every yaw rate; compare --break-even also "
+                    "considers {:.3g} to {:.3g} m, the fitted line with its 95 % interval",
+                    met.moments_m[slowest], met.moments_m[fastest], degrees(rates.lo),
+                    degrees(rates.hi), scrub.moment_m, scrub.changing_m->lo, scrub.changing_m->hi));
   }
 }
 
