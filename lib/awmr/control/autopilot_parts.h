@@ -29,8 +29,8 @@ struct Observer {
 struct MotorCurve {
   float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
-  const RestBlock* rest;   ///< in flash on an AVR; null: none
-  uint8_t mode;            ///< YawMode for which the friction width of g3 is set
+  const RestBlock* rest;   ///< the parameters, in flash on an AVR; null: none of these features
+  uint8_t mode;            ///< YawMode for which RestingTable::rest_speed of g3 is set
 };
 
 /// Estimates the position from the fixes of a GPS receiver. Filter: see PositionEstimate.
@@ -125,8 +125,9 @@ inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) 
   force = with_dead_zone(force, part.dead_zone);
 }
 
-/// Sets the friction width of g3 to that of the mode when the mode changes, if MotorCurve is
-/// compiled in.
+/// If the mode changes and MotorCurve is compiled in, sets the friction width of the new mode in
+/// g3: the yaw rate below which Coulomb friction is fed forward smoothly
+/// (Gains::friction_width_at()).
 template <class G>
 AWMR_INLINE void use_friction_width(Disabled<MotorCurve>&, uint8_t, G&) {}
 template <class G>

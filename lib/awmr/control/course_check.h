@@ -16,8 +16,9 @@ class CourseCheck {
  public:
   void restart() { off_course_mrad_ = 0.0F; }
 
-  /// Processes the motion up to a fix. True: the integral exceeds its limit. `Limits`: GpsLimits, or
-  /// a type with the same names as constants.
+  /// Processes the motion up to a fix. True: the integral exceeds its limit. The integral restarts
+  /// at 0 while the commanded speed is 0, and at a new command (kNewCourse_rad). `Limits`:
+  /// GpsLimits, or a type with the same names as constants.
   template <class Limits>
   AWMR_CALLED_MEMBER bool is_off(const Limits& limits, const GpsMotion& motion,
                                  const GpsContext& at) {
@@ -35,8 +36,7 @@ class CourseCheck {
   }
 
  private:
-  /// A change of the commanded heading between two fixes by more than this, rad, is a new command:
-  /// the integral of the heading error (GpsLimits::off_course_mrad) then restarts at 0.
+  /// A change of the commanded heading between two fixes by more than this, rad, is a new command.
   static constexpr float kNewCourse_rad = 0.35F;
 
   float off_course_mrad_ = 0.0F;  // integral of the heading error beyond e0 over the distance

@@ -1,8 +1,8 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
-/// The speed law needs a signed speed: with |u| as its input, it can accelerate a vehicle that rolls
-/// backward (runs_away_unsigned()). The sign is that of a predicted speed u, computed from the
-/// commanded force by the identified model:
+/// The speed law needs a signed speed: with |u| as its input, it can accelerate a vehicle that
+/// rolls backward (runs_away_unsigned()). The sign is that of a predicted speed u, computed from
+/// the commanded force by the identified model:
 ///   m' u_dot = tau_speed - g1(u)
 /// The sensor corrects the magnitude of the prediction; the displacement along the heading verifies
 /// its sign. Rules:
@@ -135,8 +135,8 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
   m.u_mps = math::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
 }
 
-/// Force, over F_max, with which the speed law pushes a vehicle further backward that rolls backward
-/// at the speed u = speed_mps > 0, if |u| is the law's input. At u_ref = 0 the law commands
+/// Force, over F_max, with which the speed law, with |u| as its input, pushes a vehicle further
+/// backward that rolls backward at the speed u = speed_mps > 0. At u_ref = 0 the law commands
 ///   tau_speed = -(m' mu_s sat(u/eps_s) + f)
 /// f is the Coulomb friction that the law feeds forward: g1(w0) sat(u/w0) with
 /// w0 = feed_forward_rest_speed(), or 0 if g1 does not jump at rest. `surge`: g1 of the model.
@@ -147,8 +147,8 @@ T unsigned_push(const Resistance<T>& surge, const T& mass_norm, const SpeedGains
   return mass_norm * correction - fed_forward(feed_forward(surge), T(0.0), T(-speed_mps));
 }
 
-/// True if the speed law, with |u| as its input, would accelerate such a vehicle: unsigned_push()
-/// exceeds the resistance g1(u).
+/// True if unsigned_push() exceeds the resistance g1(u): the speed law, with |u| as its input,
+/// would accelerate a vehicle that rolls backward at the speed u = speed_mps.
 template <class T>
 bool runs_away_unsigned(const Resistance<T>& surge, const T& mass_norm, const SpeedGains<T>& gains,
                         const T& speed_mps) {

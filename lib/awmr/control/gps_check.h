@@ -101,7 +101,8 @@ class GpsCheck {
     uint32_t time_ms;
   };
 
-  /// Maximum increase of the fixes' latency above its smallest value, ms.
+  /// Maximum increase of the fixes' latency above its smallest value, ms; beyond it, fixes are
+  /// refused as kGpsOld.
   static constexpr int32_t kGpsLag_ms = 500;
   /// Displacement between two fixes that counts as noise, m.
   static constexpr float kNoise_m = 3.0F;

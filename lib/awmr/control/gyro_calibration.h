@@ -35,10 +35,10 @@ class GyroCalibration {
 
  private:
   static constexpr uint8_t kSamples = 100;
-  /// Largest difference of two readings at rest: six times the peak-to-peak noise of an MPU9250
-  /// with its 41 Hz filter.
+  /// Largest difference of two readings at rest, rad/s: six times the peak-to-peak noise of an
+  /// MPU9250 with its 41 Hz filter.
   static constexpr float kSpreadMax_radps = 0.05F;
-  /// Largest accepted zero-rate offset, 5.2 deg/s; the data sheet specifies at most 5 deg/s.
+  /// Largest accepted zero-rate offset, rad/s: 5.2 deg/s; the data sheet specifies at most 5 deg/s.
   static constexpr float kBiasMax_radps = 0.09F;
   /// Maximum change of the compass heading from first to last reading, rad: 3.4 deg, of which 1.4
   /// deg can be noise.

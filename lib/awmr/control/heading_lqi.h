@@ -30,7 +30,8 @@ struct LqiGains {
 };
 
 /// Computes the gains that minimise
-///   J = integral of (e/e_max)^2 + (e_dot/r_max)^2 + (z/z_max)^2 + (w/w_max)^2,  w_max = tau_max/I'z
+///   J = integral of (e/e_max)^2 + (e_dot/r_max)^2 + (z/z_max)^2 + (w/w_max)^2,
+///   w_max = tau_max/I'z
 /// With yaw resistance fed forward, tau_turn = g3(r) + I'z (psi_d_ddot + w), the plant of this law
 /// is linear at every yaw rate:
 ///   z_dot = e,  e_ddot = -w

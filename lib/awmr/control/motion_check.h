@@ -102,7 +102,7 @@ class MotionCheck : MotionLimits {
 
   /// Compares the displacement with the distance travelled, both since the window began:
   ///   |sum of ahead| <= 1.25 int |u| dt + kFurther_m
-  /// and at the end of a window that was driven in one direction
+  /// and at the end of a window (at u_ref = 0 only if it was shorter than kMoving_s)
   ///   |sum of ahead| + |sum of left| >= 0.25 int |u| dt
   /// The sum of left is included so that a compass error is not reported here but as kOffHeading.
   AWMR_CALLED_MEMBER void compare_with_speed() {

@@ -20,7 +20,7 @@ struct InputTimes {
 
 /// Limits of valid input. Part of ParameterBlock, so it has only 32-bit members.
 struct SafetyLimits {
-  float speed_max_mps;          ///< a measured |u| or |v| above it is invalid
+  float speed_max_mps;          ///< a measured |u| or |v|, or a |u_d|, above it is invalid
   float yaw_rate_max_radps;     ///< a measured |r| above it is invalid
   uint32_t heading_timeout_ms;  ///< maximum age of heading and yaw rate
   uint32_t speed_timeout_ms;    ///< maximum age of speed and position

@@ -9,7 +9,8 @@
 
 namespace awmr {
 
-/// Speed |u|, m/s, below which a vehicle that was commanded to stop counts as stopped.
+/// Speed |u|, m/s, below which a vehicle that obstacles leave no passage counts as stopped; its run
+/// then ends as RunEnd::kNoPassage.
 inline constexpr double kStopped_mps = 1e-3;
 
 /// The controller with the allocation form and the split that the scenario requests.

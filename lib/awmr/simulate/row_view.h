@@ -17,8 +17,8 @@
 
 namespace awmr {
 
-/// View for a single run (Row = T): gives access to the numbers themselves. T: double, or a scalar type
-/// of the same size, which tests/bench uses to count operations.
+/// View for a single run (Row = T): gives access to the numbers themselves. T: double, or a scalar
+/// type of the same size, which tests/bench uses to count operations.
 template <class T>
 struct OneRunOf {
   using Number = T;

@@ -87,8 +87,8 @@ Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, co
              noise ? &noise->speed : nullptr),
       gps_(seed.random(kGps)),
       motion_(2 + std::max({heading_.latency, yaw_rate_.latency, speed_.latency})),
-      // A fix is the position of the sample before it is taken, and arrives at the sample after
-      // its latency.
+      // A fix has the position of the last sample before the time at which it is taken, and arrives
+      // at the first sample after its latency.
       kept_(4 + whole_samples(sensors && sensors->gps ? sensors->gps->latency_s : 0.0,
                               sample_time_s)) {}
 
@@ -116,7 +116,7 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
 
 /// Sets the measured position to the last fix that has arrived. Before the first fix, this is the
 /// true initial position, as if a fix had been taken one GPS period before the start. A fix that is
-/// lost in a drop-out also takes its random numbers.
+/// lost in a drop-out takes its random numbers too, so that the other fixes keep their noise.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   if (k < kept_) true_m_.emplace_back();

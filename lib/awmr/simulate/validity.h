@@ -66,8 +66,8 @@ HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Mode
 Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                           std::span<Scenario> scenarios);
 
-/// Warning `heading-rate-not-limited` if the option is not given (`choice` is empty) and
-/// the model has no highest measured yaw rate.
+/// Warning `heading-rate-not-limited`: --heading-rate-limit is not given (`choice` is empty), and
+/// the model has no highest measured yaw rate to limit heading commands to. Else absent.
 std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
                                                 const Model& model);
 

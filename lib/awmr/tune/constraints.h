@@ -117,8 +117,8 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 /// so z is in [1 - k_s T_s, 1).
 ///
 /// Speed lag: the open loop k_s/(s (1 + tau s)), tau = T + latency + T_s/2, has the closed-loop
-/// polynomial tau s^2 + s + k_s, so zeta = 1/(2 sqrt(k_s tau)). T is the larger of the time constants
-/// of servo and motors.
+/// polynomial tau s^2 + s + k_s, so zeta = 1/(2 sqrt(k_s tau)). T is the larger of the time
+/// constants of servo and motors.
 ///
 /// An observer of bandwidth L is part of the sampled heading loop, and adds no gain on the measured
 /// heading. In the speed loop it replaces k_s by k_s + L: law and observer together command

@@ -18,8 +18,8 @@
 namespace awmr {
 namespace {
 
-/// The number of runs per batch is a multiple of this, because the batch engine simulates four or
-/// eight runs in one vector register.
+/// The number of runs per batch is a multiple of this: one vector register holds two (NEON), four
+/// (AVX2) or eight (AVX-512) runs.
 constexpr std::size_t kFour = 4;
 
 /// Number of runs per batch, small enough that every thread gets a batch. `count`: number of runs

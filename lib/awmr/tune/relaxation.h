@@ -29,9 +29,9 @@ struct RelaxedLimit {
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);
 
 /// Changes of one limit or one requested bound, each of which alone permits gains that meet the
-/// constraints that need no simulation: "`limits/late_damping` 0.55". Each is confirmed by the
-/// search for a start that tune() makes with the change. `nearest`: gains with the smallest
-/// violation, from which the searches start too.
+/// constraints that need no simulation: "`limits/late_damping` 0.55". Each is confirmed by a search
+/// for such gains, as tune() makes it for its start, but with fewer initial guesses. `nearest`:
+/// gains with the smallest violation, another initial guess.
 std::vector<std::string> single_changes(const Gains<double>& nearest,
                                         const ConstraintContext& context,
                                         const TuneOptions& requested);

@@ -199,11 +199,10 @@ constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 /// Bandwidths of the observer at starts of the search, rad/s.
 constexpr double kStartBandwidths[] = {0.5, 1.0, 2.0};
 
-/// Starts of the search: `first`, which meets the constraints, the other gains of `poles`, the
-/// first of them slowed down by each of kSlowerStarts, poles placed with each of kStartBandwidths
-/// if an observer is searched, and the baseline, if given. Each start but
-/// the first is replaced by gains that meet the constraints (feasible_start()), or left out if
-/// there are none.
+/// Starts of the search: `first`, which meets the constraints; the second of `poles`; the first of
+/// `poles` slowed down by each of kSlowerStarts; if an observer is searched, poles placed with each
+/// of kStartBandwidths; the baseline, if given. Each start but `first` is replaced by gains that
+/// meet the constraints (feasible_start()), or left out if there are none.
 std::vector<Gains<double>> starts_of(const TuneOptions& options, const ConstraintContext& context,
                                      const Gains<double>& first,
                                      std::span<const Gains<double>> poles) {

@@ -183,7 +183,8 @@ struct TuneOptions {
   int global_evaluations = 80;  ///< >= 1
   /// >= 0: budget of all local searches together; 0: no local search.
   int local_evaluations = 80;
-  /// Seed of the draws, their noise and the global search. Tune with other seeds to see how much the gains depend on chance.
+  /// Seed of the draws, their noise and the global search. Tune with other seeds to see how much
+  /// the gains depend on chance.
   std::uint64_t seed = 1;
   /// Each needs heading guidance and a unique name. Empty: default_tuning_scenarios().
   std::vector<Scenario> scenarios;

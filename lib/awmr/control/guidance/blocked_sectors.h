@@ -17,9 +17,11 @@ struct Obstacle {
 /// Parameters of the avoidance, with the symbols of obstacles.h.
 template <class T>
 struct Avoidance {
-  /// mmd_base, m, > 0: at least the vehicle's turning radius.
+  /// mmd_base, m, > 0: minimum manoeuvring distance MMD at speed 0; at least the vehicle's turning
+  /// radius.
   T mmd_base_m;
-  /// mmd_per_speed, s, >= 0: delay before a turn takes effect (servo, yaw inertia).
+  /// mmd_per_speed, s, >= 0: growth of MMD with the speed; about the delay before a turn takes
+  /// effect (servo, yaw inertia).
   T mmd_per_speed_s;
   /// sigma, rad, in [0, pi/2): extra angle beyond the tangent at D_obs = 0. Larger: a wider berth.
   T sigma_rad;
@@ -28,8 +30,8 @@ struct Avoidance {
   T vehicle_radius_m;
   /// clearance, m, > 0: free distance between that circle and the obstacle.
   T clearance_m;
-  /// m, >= 0: amount by which D_obs must exceed MMD before an obstacle stops counting. It prevents
-  /// the avoidance from switching on and off at the edge.
+  /// m, >= 0: while the heading is turned away from obstacles, an obstacle counts until D_obs
+  /// exceeds MMD by this. It prevents the avoidance from switching on and off at D_obs = MMD.
   T hysteresis_m;
   /// rad, >= 0: the side changes only if the other side is nearer by more than this.
   T side_hysteresis_rad;

@@ -1,5 +1,5 @@
-/// Changes of the reference after the guidance along the route: it is turned away from obstacles and
-/// smoothed. An overload for Disabled<Part> does nothing. Freestanding C++14.
+/// Changes the reference that the guidance along the route has computed: turns its heading away
+/// from obstacles and smooths it. The overloads for Disabled<Part> do nothing. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/flash.h"

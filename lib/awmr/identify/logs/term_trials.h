@@ -1,5 +1,5 @@
-/// Trial fits of the logs that also estimate further terms of the vehicle or sensor model, such as a
-/// delay, motor lag, smoothing or wheel slip. Each is compared by AIC with the fit without these
+/// Trial fits of the logs that also estimate further terms of the vehicle or sensor model, such as
+/// a delay, motor lag, smoothing or wheel slip. Each is compared by AIC with the fit without these
 /// terms. Private to identify/.
 #pragma once
 

@@ -7,8 +7,8 @@ namespace awmr {
 namespace lanes {
 
 /// Number of runs in a block (the runs that are simulated together), the same for every instruction
-/// set. A kernel processes Lanes::kCount of them at a time: sixteen with AVX-512, four with AVX2
-/// and NEON.
+/// set. A kernel processes Lanes::kCount of them at a time: eight with AVX-512, four with AVX2,
+/// two with NEON.
 constexpr int kLanes = 16;
 
 struct alignas(64) Row {
