@@ -34,11 +34,18 @@ HeadingSteps read_heading_steps(JsonObject& json) {
     step.reject_unknown_keys();
   }
   if (heading.steps.empty() || heading.steps.front().t_s > 0.0) {
-    json.fault(ErrorCode::kWrongOrder, "steps", "the first step must be at t_s = 0");
+    json.fault(ErrorCode::kWrongOrder, "steps",
+               fmt::format("the first step must be at t_s = 0, but {}; add a step at 0",
+                           heading.steps.empty()
+                               ? "there is none"
+                               : fmt::format("it is at {:g} s", heading.steps.front().t_s)));
   }
   for (std::size_t i = 1; i < heading.steps.size(); ++i) {
     if (heading.steps[i].t_s <= heading.steps[i - 1].t_s) {
-      json.fault(ErrorCode::kWrongOrder, "steps", "t_s must increase from step to step");
+      json.fault(ErrorCode::kWrongOrder, "steps",
+                 fmt::format("step {} (counted from 1) at {:g} s is not after the step before it, "
+                             "at {:g} s; sort the steps, or correct their t_s",
+                             i + 1, heading.steps[i].t_s, heading.steps[i - 1].t_s));
       break;
     }
   }
@@ -76,7 +83,8 @@ std::vector<Position<double>> read_points(JsonObject& json, const char* key, std
                "expected an array of points [[x, y], ...] in m, at least " + std::to_string(least));
   } else if (!in_range) {
     json.fault(ErrorCode::kOutOfRange, key,
-               fmt::format("the magnitude of a coordinate exceeds {:g} m", kCoordinate_m.max));
+               fmt::format("the magnitude of a coordinate exceeds {:g} m; give coordinates in m",
+                           kCoordinate_m.max));
   }
   return points;
 }

@@ -60,7 +60,8 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   const auto* timed = std::get_if<LissajousPath>(&scenario.guidance);
   if (timed && timed->closed_loop && scenario.speed_mps > 0.0) {
     json.fault(ErrorCode::kConflict, "speed_mps",
-               "must be 0 if closed_loop is true, because the path determines the speed");
+               "must be 0 if closed_loop is true, because the path determines the speed; set it to "
+               "0, or closed_loop to false");
   }
 }
 

@@ -1,6 +1,8 @@
 // Reads these parts of scenario.json: disturbance, faults, slippery, battery, sensors, estimator,
 // actuators, control, corner, tyres.
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 
@@ -15,12 +17,18 @@ namespace {
 constexpr NumberRule kShare{.min = 0.0, .max = 1.0};
 constexpr NumberRule kSag{.min = 0.0, .max = 10.0};
 
+/// Message for an end that is not after its start.
+std::string not_after(double from_s, double to_s) {
+  return fmt::format("the end, {:g} s, is not after from_s, {:g} s; exchange or correct them", to_s,
+                     from_s);
+}
+
 Window read_window(JsonObject& json) {
   Window window;
   window.from_s = json.optional_number("from_s", kTime_s).value_or(window.from_s);
   window.to_s = json.optional_number("to_s", kTime_s).value_or(window.to_s);
   if (!(window.to_s > window.from_s)) {
-    json.fault(ErrorCode::kWrongOrder, "to_s", "must be after from_s");
+    json.fault(ErrorCode::kWrongOrder, "to_s", not_after(window.from_s, window.to_s));
   }
   return window;
 }
@@ -111,7 +119,7 @@ Battery read_battery(JsonObject json) {
     battery.to_s = json.number("to_s", kDuration_s);
     battery.share_end = json.number("share_end", kShare);
     if (!(battery.to_s > battery.from_s)) {
-      json.fault(ErrorCode::kWrongOrder, "to_s", "must be after from_s");
+      json.fault(ErrorCode::kWrongOrder, "to_s", not_after(battery.from_s, battery.to_s));
     }
   }
   json.reject_unknown_keys();

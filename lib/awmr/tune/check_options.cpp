@@ -109,7 +109,8 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   }
   if (std::max(open.mass_factors.size(), open.wheel_forces.size()) > kMaxOpenValues) {
     faults.push_back({ErrorCode::kTooLarge, "",
-                      fmt::format("open: mass_factors or wheel_forces has more than {} values",
+                      fmt::format("open: mass_factors or wheel_forces has more than {} values; "
+                                  "give fewer",
                                   kMaxOpenValues)});
   }
   const auto fewest = static_cast<int>(open.combinations());
@@ -117,8 +118,8 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
        {std::pair("draws", options.draws), std::pair("judged_draws", options.evaluation_draws)}) {
     if (count >= fewest || (count == 0 && name == std::string_view("judged_draws"))) continue;
     faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("{}: {} does not cover all {} combinations of `open`; give a "
-                                  "multiple of {}",
+                      fmt::format("{}: {} does not cover all {} combinations of `open`; give {} "
+                                  "or a multiple of it",
                                   name, count, fewest, fewest)});
   }
 }
@@ -199,13 +200,14 @@ void check_goals(const TuneOptions& options, const Vehicle& vehicle, std::vector
   }
   if (options.evaluation_draws == 0) {
     faults.push_back({ErrorCode::kConflict, "",
-                      "goals are evaluated on newly drawn vehicles; their number judged_draws has "
-                      "to be above 0"});
+                      "goals are evaluated on newly drawn vehicles, so their number judged_draws "
+                      "has to be above 0; increase it, or remove the goals"});
   }
   if (options.goals.size() > kMaxGoals) {
     faults.push_back(
         {ErrorCode::kTooLarge, "",
-         fmt::format("goals: {} goals; at most {} are allowed", options.goals.size(), kMaxGoals)});
+         fmt::format("goals: {} goals are given, but at most {} are allowed; remove some",
+                     options.goals.size(), kMaxGoals)});
   }
   for (const TuningGoal& goal : options.goals) check_goal(goal, faults);
 }
@@ -230,7 +232,8 @@ Status check_options(const TuneOptions& options, const Vehicle& vehicle) {
     }
   }
   if (!has_weight(options.weights)) {
-    faults.push_back({ErrorCode::kOutOfRange, "", "weights: at least one has to be above 0"});
+    faults.push_back(
+        {ErrorCode::kOutOfRange, "", "weights: all weights are 0; give at least one above 0"});
   }
   check_open(options, faults);
   check_scenarios(options.scenarios, options.observer.has_value(), faults);

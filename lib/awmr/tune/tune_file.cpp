@@ -85,7 +85,8 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   }
   if (options.goals.size() > kMaxGoals) {
     json.fault(ErrorCode::kTooLarge, "goals",
-               fmt::format("{} goals; at most {} are allowed", options.goals.size(), kMaxGoals));
+               fmt::format("{} goals are given, but at most {} are allowed; remove some",
+                           options.goals.size(), kMaxGoals));
   }
   if (!options.goals.empty() && options.nominal) {
     json.fault(ErrorCode::kConflict, "goals",
@@ -93,7 +94,8 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   }
   if (!options.goals.empty() && options.evaluation_draws == 0) {
     json.fault(ErrorCode::kConflict, "judged_draws",
-               "goals are evaluated on newly drawn vehicles: give their number, above 0");
+               "goals are evaluated on newly drawn vehicles, so their number has to be above 0; "
+               "increase it, or remove the goals");
   }
 }
 

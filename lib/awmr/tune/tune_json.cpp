@@ -103,7 +103,8 @@ UnmodelledVariation read_open(JsonObject json) {
                                    std::pair("wheel_forces", open.wheel_forces.size())}) {
     if (count <= kMaxOpenValues) continue;
     json.fault(ErrorCode::kTooLarge, key,
-               fmt::format("{} values; at most {} are allowed", count, kMaxOpenValues));
+               fmt::format("{} values are given, but at most {} are allowed; remove some", count,
+                           kMaxOpenValues));
   }
   json.reject_unknown_keys();
   return open;
