@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <termios.h>
@@ -45,7 +46,10 @@ class Port : public Line {
     while (!bytes.empty()) {
       const ssize_t count = ::write(file_->number(), bytes.data(), bytes.size());
       if (count < 0 && errno != EINTR) {
-        return input_error(ErrorCode::kCannotWrite, path_.string(), std::strerror(errno));
+        return input_error(
+            ErrorCode::kCannotWrite, path_.string(),
+            fmt::format("cannot write to the port: {}; check the cable and the board",
+                        std::strerror(errno)));
       }
       if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
     }
@@ -58,7 +62,10 @@ class Port : public Line {
       const int timeout_ms = patience == Patience::kStart ? kStartTimeout_ms : kAnswerTimeout_ms;
       if (::poll(&waiting, 1, timeout_ms) <= 0) return std::optional<std::uint8_t>();
       const ssize_t count = ::read(file_->number(), buffer_, sizeof buffer_);
-      if (count <= 0) return input_error(ErrorCode::kCannotRead, path_.string(), "was closed");
+      if (count <= 0) {
+        return input_error(ErrorCode::kCannotRead, path_.string(),
+                           "the port was closed during the run; check the cable and the board");
+      }
       at_ = 0;
       count_ = static_cast<std::size_t>(count);
     }
@@ -99,7 +106,7 @@ Result<int> open_terminal() {
   const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal < 0 || ::grantpt(terminal) != 0 || ::unlockpt(terminal) != 0 ||
       !make_raw(terminal, 500000).value_or(false)) {
-    return program_fault("no pseudo-terminal can be made");
+    return program_fault(fmt::format("cannot create a pseudo-terminal: {}", std::strerror(errno)));
   }
   return terminal;
 }

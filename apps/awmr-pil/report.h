@@ -20,8 +20,8 @@ namespace awmr::pil {
 struct ChipRun {
   std::vector<LoopRow> rows;
   ChipFigures figures;
-  std::optional<Hostile>
-      hostile;  ///< absent without hostile steps, with an injection, for a real board
+  /// Absent without hostile steps, with an injection, and for a real board.
+  std::optional<Hostile> hostile;
   std::uint8_t start_fault = 0;   ///< fault of the firmware's check at its start; 0: none
   double real_time_factor = 0.0;  ///< simulated time over processor time (board: elapsed time)
 };

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "awmr/core/units.h"
@@ -15,6 +16,7 @@ namespace awmr::testing {
 namespace {
 
 using ::testing::Contains;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
@@ -107,6 +109,20 @@ TEST(Scrub, RefusesANegativeScrub) {
   const Model model = identified(data);
   EXPECT_FALSE(model.yaw_scrub);
   EXPECT_THAT(codes(model), Contains("negative-scrub"));
+}
+
+TEST(Scrub, NamesTheMomentsOfTheSlowestAndTheFastestTurn) {
+  TrialData data = synthetic(kTruth, 1e-6, 1);
+  for (const int i : {3, 6, 1, 4, 2, 5}) {
+    const double rate_radps = 0.05 * i;
+    data.turning->by_sides.push_back(by_sides(rate_radps, 0.07 - 0.2 * rate_radps, 1.0, 20 + i));
+  }
+  const Model model = identified(data);
+  const auto& findings = model.record.findings;
+  const auto grows = std::ranges::find(findings, "scrub-grows", &Finding::code);
+  ASSERT_NE(grows, findings.end());
+  EXPECT_THAT(grows->message,
+              HasSubstr("0.06 to 0.01 m in the differential turns at 2.86 to 17.2"));
 }
 
 TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {

@@ -122,7 +122,7 @@ TEST(Open, IsRefusedWhereTheDrawsDoNotTakeAllOfIt) {
   EXPECT_THAT(refused(options), HasSubstr("judged_draws: 1 does not cover"));
   options = short_search();
   options.nominal = true;
-  EXPECT_THAT(refused(options), HasSubstr("which nominal disables"));
+  EXPECT_THAT(refused(options), HasSubstr("`nominal` draws none"));
 }
 
 TEST(Open, RefusesVariationOutsideTheVehiclesRanges) {

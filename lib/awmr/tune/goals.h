@@ -20,7 +20,8 @@
 
 namespace awmr {
 
-inline constexpr std::size_t kRunFigures = 6;  ///< names in run_figure_names()
+/// Metrics of a run that goals can limit ("figures", with their names in tune.json).
+inline constexpr std::size_t kRunFigures = 6;  ///< number of names in run_figure_names()
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 

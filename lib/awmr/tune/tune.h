@@ -130,8 +130,8 @@ inline constexpr std::size_t kMaxOpenValues = 20;  ///< largest number of entrie
 
 /// Upper limit, 1e-9 to 1e9, of a run's metric (tune/goals.h), in the metric's unit.
 struct GoalLimit {
-  std::string figure;
-  double most = 0.0;
+  std::string figure;  ///< name of the metric, such as "settling_time_s"
+  double most = 0.0;   ///< the limit
 };
 
 /// Goal: at least this share of the draws meets every limit in all scenarios.
