@@ -135,8 +135,8 @@ Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, Compa
   return compare(inputs.model, inputs.gains, inputs.scenarios, options);
 }
 
-/// Prints the notice (not with --json), then ends the program by SIGINT, so that the caller sees the
-/// usual exit status.
+/// Prints the notice (not with --json), then ends the program by SIGINT, so that the caller sees
+/// the exit status of a program that Ctrl-C has ended.
 void end_interrupted(const std::string& notice) {
   print_notice(notice);
   std::signal(SIGINT, SIG_DFL);

@@ -26,8 +26,8 @@ constexpr std::string_view kIntro =
 /* tan(d_max/2) with d_max = AWMR_STEERING_MAX_RAD */
 #define AWMR_STEERING_MAX_TAN_HALF {}
 
-/* Largest measured speeds |u| (forward) and |v| (to the left), m/s, and yaw rates |r|, rad/s, that are
-   not a fault */
+/* Largest measured speeds |u| (forward) and |v| (to the left), m/s, and yaw rates |r|, rad/s, that
+   are not a fault */
 #define AWMR_SPEED_MAX_MPS {}
 #define AWMR_YAW_RATE_MAX_RADPS {}
 /* ms: largest age of heading and yaw rate, of speed and position, and of the last command; longest
@@ -36,14 +36,15 @@ constexpr std::string_view kIntro =
 #define AWMR_SPEED_TIMEOUT_MS {}UL
 #define AWMR_COMMAND_TIMEOUT_MS {}UL
 #define AWMR_STEP_TIMEOUT_MS {}UL
-/* Speed of the sketch WaypointFollowing, m/s: 1, or 60 % of the speed at full force if that is less */
+/* Speed of the sketch WaypointFollowing, m/s: 1, or 60 % of the speed at full force if that is
+   less */
 #define AWMR_ROUTE_SPEED_MPS {}
 /* Largest steady heading error that the sketches accept, rad: twice the error that motors with 16 %
    different forces cause with these gains, at least 15 and at most 45 deg */
 #define AWMR_ON_COURSE_RAD {}
-/* Limit of the integral of (heading error - AWMR_ON_COURSE_RAD) over the distance driven, m rad; beyond
-   it the sketches report fault 17. The limit is 10 plus the integral of the widest turn by 180 deg that
-   vehicle and gains allow, at most 90 */
+/* Limit of the integral of (heading error - AWMR_ON_COURSE_RAD) over the distance driven, m rad;
+   beyond it the sketches report fault 17. The limit is 10 plus the integral of the widest turn by
+   180 deg that vehicle and gains allow, at most 90 */
 #define AWMR_OFF_COURSE_MRAD {}
 /* AWMR_SAMPLE_TIME_S as text, for the header of logs */
 #define AWMR_SAMPLE_TIME_TEXT "{}"
@@ -52,9 +53,10 @@ constexpr std::string_view kIntro =
 )";
 
 constexpr std::string_view kTable = R"(
-/* {} resistance: {} straight lines (slope, offset): one from the origin, then {} per doubling of the speed, from {:g} to {:g} {}.
-   Largest error, measured in float32 at 64 places of each cell: {:.2e} {} where the resistance is below
-   {:g} (bound {:.2e}), {:.2e} relative to the resistance above (bound {:.2e}). */
+/* {} resistance: {} straight lines (slope, offset): one from the origin, then {} per doubling of
+   the speed, from {:g} to {:g} {}. Largest error, measured in float32 at 64 places of each cell:
+   {:.2e} {} where the resistance is below {:g} (bound {:.2e}), {:.2e} relative to the resistance
+   above (bound {:.2e}). */
 #define {}_COUNT {}
 #define {}_FIRST {}
 #define {}_MANTISSA_BITS {}
@@ -65,21 +67,22 @@ constexpr std::string_view kParts = R"(
 /* 1: this optional part is compiled in; awmr.h describes each */
 {}/* Guidance law for lines: {}, by its index in src/awmr/control/guidance/line_laws.h */
 #define AWMR_LINE_LAW {}
-/* Combined mode: 1: steering and wheel forces each make half of the yaw moment, and what one cannot make
-   at its limit is lost; 0: the other one makes it */
+/* Combined mode: 1: steering and wheel forces each make half of the yaw moment, and what one cannot
+   make at its limit is lost; 0: the other one makes it */
 #define AWMR_FIXED_HALF {}
 )";
 
 constexpr std::string_view kPosition = R"(
-/* Position estimate from the fixes of a GPS (src/awmr/control/position_estimate.h). Variance of a fix
-   along one axis, m^2: the square of noise/position_m in vehicle.json, else of 1.5 m. Time between a fix
-   and its sentence, ms: from latency_s/position, else 200 */
+/* Position estimate from the fixes of a GPS (src/awmr/control/position_estimate.h). Variance of a
+   fix along one axis, m^2: the square of noise/position_m in vehicle.json, else of 1.5 m. Time
+   between a fix and its sentence, ms: from latency_s/position, else 200 */
 #define AWMR_FIX_VARIANCE_M2 {}
 #define AWMR_FIX_LATENCY_MS {}UL
 /* Growth of the variance of the estimated position per step, m^2 */
 #define AWMR_DRIFT_M2 {}
 #define AWMR_SAMPLE_RATE_HZ {}
-/* Steps between two stored positions of the travelled path; steps over which a correction is spread */
+/* Steps between two stored positions of the travelled path; steps over which a correction is
+   spread */
 #define AWMR_TRAVELLED_STRIDE {}
 #define AWMR_TRAVELLED_STRIDE_INVERSE {}
 #define AWMR_CORRECTION_STEPS {}

@@ -16,8 +16,8 @@ constexpr std::string_view kCompassIntro =
     R"(/* awmr_compass.h, made by awmr {} from {}, SHA-256 {}:
    calibration of the compass of one vehicle. Put this file into src/ of the emitted library.
      c = S (field - centre),  heading = atan2(-c_left, c_ahead) - declination
-   Deviation of the field from the fitted ellipse: {:.2f} %. Heading error of the fit: {:.2f} deg (95 %).
-   95 % intervals in brackets. */
+   Standard deviation of the field's distance from the fitted ellipse: {:.2f} % of the field.
+   Heading error of the fit: {:.2f} deg (95 %). 95 % intervals in brackets. */
 #ifndef AWMR_COMPASS_H
 #define AWMR_COMPASS_H
 #define AWMR_COMPASS_CALIBRATED 1

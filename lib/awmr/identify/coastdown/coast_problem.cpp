@@ -250,7 +250,8 @@ void CoastProblem::solve() {
 }
 
 /// Also fits t0, the time of motors-off, of the runs with no or a short plateau before it. Keeps
-/// this fit if it is usable and lowers AIC; else restores the fit with t0 fixed at the first sample.
+/// this fit if it is usable and lowers AIC; else restores the fit with t0 fixed at the first
+/// sample.
 void CoastProblem::free_short_leads() {
   constexpr double kOfAic = 2.0;  // for each t0
   const std::vector<CoastInitialState> fixed = initial_;

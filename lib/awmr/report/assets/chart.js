@@ -1,10 +1,10 @@
-// Charts: converts a short description of a chart to a specification for Vega, which draws SVG. Colours
-// are CSS variables of the page, so that charts follow its light, dark and print styles.
+// Charts: converts a short description of a chart to a specification for Vega, which draws SVG.
+// Colours are CSS variables of the page, so that charts follow its light, dark and print styles.
 
 const allCharts = [];
 
-/// Margins around every plot, pixels. All charts have the same margins, so that the axes of charts one
-/// below the other are aligned.
+/// Margins around every plot, pixels. All charts have the same margins, so that the axes of charts
+/// one below the other are aligned.
 const margin = {left: 62, right: 14, top: 8, bottom: 40};
 
 const font = "system-ui, sans-serif";
@@ -41,7 +41,8 @@ const markOfKind = {
     y2: {signal: "scale('y', max(datum[0], domain_y[0]))"}, fill: colour}}),
 };
 
-/// Vega mark of one series. It is invisible if the signal `hidden` contains the index of the series.
+/// Vega mark of one series. It is invisible if the signal `hidden` contains the index of the
+/// series.
 function markOf(series, index) {
   const at = {x: {scale: "x", field: "0"}, y: {scale: "y", field: "1"}};
   const {update, ...mark} = {aria: true, ...markOfKind[series.kind](series, at,
@@ -54,7 +55,8 @@ const valuesOf = (s) => (s.kind === "shade" ? [[s.limit, 1e12], [-1e12, -s.limit
 
 /// Entry of the signal `hidden` that hides all circles of a chart.
 const circlesKey = "circles";
-/// Value of the Vega signal `hidden`: indices of the hidden series, and circlesKey if the circles are hidden.
+/// Value of the Vega signal `hidden`: indices of the hidden series, and circlesKey if the circles
+/// are hidden.
 const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])),
   ...(chart.circlesHidden ? [circlesKey] : [])];
 
@@ -76,8 +78,9 @@ const pointedRule = {type: "rule", interactive: false, aria: false, encode: {upd
   stroke: {value: "var(--dim)"}, strokeDash: {value: [2, 2]},
   opacity: {signal: "isNumber(pointed) && inrange(pointed, domain_x) ? 1 : 0"}}}};
 
-/// Vega specification of a chart: {title, x, y, series: [{name, kind: "line" | "points" | "band" | "shade",
-/// points: [[x, y, ...]], colour, ...}], equal, circles}. x, y: titles of the axes; equal: same scale on both.
+/// Vega specification of a chart: {title, x, y, series: [{name, kind: "line" | "points" | "band" |
+/// "shade", points: [[x, y, ...]], colour, ...}], equal, circles}. x, y: titles of the axes; equal:
+/// same scale on both.
 function specification(chart) {
   // With equal axes, x and y have the same scale, so the axis with more pixels gets a longer range.
   const domain = (axis, length) => (chart.equal
@@ -111,8 +114,8 @@ function specification(chart) {
   };
 }
 
-/// Ranges of both axes for the visible series, with a small margin. `zero` names the axes that include
-/// 0, `least` is the smallest length of the y range.
+/// Ranges of both axes for the visible series, with a small margin. `zero` names the axes that
+/// include 0, `least` is the smallest length of the y range.
 function extentOf({series, circles, zero = "", least = 0}) {
   const range = (values, room, most) => {
     let low = Infinity, high = -Infinity;
@@ -170,9 +173,9 @@ function framed(parent, chart) {
   return chart;
 }
 
-/// Adds a chart to `parent`. It is drawn when it comes near the visible area, or before printing. Charts of the
-/// same `group` share the x range, the cursor and the hidden series. With `legend` false, the chart has no legend of
-/// its own, because the group has one.
+/// Adds a chart to `parent`. It is drawn when it comes near the visible area, or before printing.
+/// Charts of the same `group` share the x range, the cursor and the hidden series. With `legend`
+/// false, the chart has no legend of its own, because the group has one.
 function plot(parent, options) {
   const series = options.series.filter((s) => s.kind === "shade" || s.points.length);
   if (!series.some((s) => s.kind !== "shade")) return undefined;

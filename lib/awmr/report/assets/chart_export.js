@@ -1,7 +1,7 @@
 // Saves a chart as SVG or PNG with its legend, in the colours that the page has on paper.
 
-/// Vega specification of a chart as it is shown now (zoom, hidden series), with a title and a legend. The
-/// page's style variables are replaced by colours.
+/// Vega specification of a chart as it is shown now (zoom, hidden series), with a title and a
+/// legend. The page's style variables are replaced by colours.
 function exported(chart) {
   const spec = chart.specification(chart);
   for (const signal of spec.signals) {
@@ -40,8 +40,8 @@ function exportedLegend(spec, shown) {
   };
 }
 
-/// Value of a colour variable in the light style, for paper: from the first rule of the style sheet (the rule
-/// for dark screens comes later), or from an element that contains the chart.
+/// Value of a colour variable in the light style, for paper: from the first rule of the style sheet
+/// (the rule for dark screens comes later), or from an element that contains the chart.
 function lightColour(chart, name) {
   const own = document.styleSheets[0].cssRules[0].style.getPropertyValue(name).trim();
   if (own) return own;

@@ -1,8 +1,9 @@
-// Section that compares the yaw-control modes: distribution of each metric over the samples, differences,
-// ranking.
+// Section that compares the yaw-control modes: distribution of each metric over the samples,
+// differences, ranking.
 
-/// Charts of the distribution of each metric by mode. Metrics that no run has are left out. Exception: a
-/// missing settling time in scenarios with heading steps is shown, because it means that no run settled.
+/// Charts of the distribution of each metric by mode. Metrics that no run has are left out.
+/// Exception: a missing settling time in scenarios with heading steps is shown, because it means
+/// that no run settled.
 function spreadCharts(parent, scenario, samples, count) {
   const byMode = Object.entries(scenario.modes);
   const names = distinct(byMode.flatMap(([, m]) => Object.keys(m.metrics)));
@@ -29,7 +30,8 @@ function spreadCharts(parent, scenario, samples, count) {
   }
 }
 
-/// Chart of the paired differences between two modes, in percent of the larger mean, with intervals.
+/// Chart of the paired differences between two modes, in percent of the larger mean, with
+/// intervals.
 function differences(parent, scenario) {
   const list = scenario.paired_differences.filter((d) => d.ci95);
   if (!list.length) return;

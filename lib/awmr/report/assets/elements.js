@@ -23,8 +23,8 @@ function drawIn(parent, tag, attributes, text) {
 }
 
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
-/// Text of a number with n significant digits, or with all digits before the decimal point if these are more.
-/// A dash for a missing value.
+/// Text of a number with n significant digits, or with all digits before the decimal point if these
+/// are more. A dash for a missing value.
 function digits(x, n = 3) {
   if (!isNumber(x)) return "–";
   const size = Math.abs(x);
@@ -37,7 +37,8 @@ const plural = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
 /// Number of decimals that shows two significant digits of a standard error, at most 8.
 const decimalsOf = (error) => Math.max(0, Math.min(8, 1 - Math.floor(Math.log10(error))));
 
-/// Texts for metrics that a run lacks because it did not settle or did not reach the end of its route.
+/// Texts for metrics that a run lacks because it did not settle or did not reach the end of its
+/// route.
 const absentWords = {settling_time_s: "never settled", finish_time_s: "not finished"};
 /// Text of a metric's value, with at most three decimals.
 function metricValue(name, x) {
@@ -49,8 +50,8 @@ function metricValue(name, x) {
 /// "settling_time_s" as "settling time, s"
 const metricWords = (name) => report.metric_words[name] || name.replaceAll("_", " ");
 
-/// Readable name of a scenario. Names of tuning scenarios contain the headings, and "led" if the heading rate is
-/// limited: heading_30_-30_led.
+/// Readable name of a scenario. Names of tuning scenarios contain the headings, and "led" if the
+/// heading rate is limited: heading_30_-30_led.
 function scenarioWords(name) {
   const own = (report.scenarios[name] || {}).name;
   const parts = /^heading((?:_-?\d+(?:\.\d+)?)+)(_[a-z_]+)?$/.exec(name);
@@ -103,8 +104,9 @@ function mark(parent, tone) {
 const lengthOf = (cell) => (cell instanceof Node ? cell.textContent : String(cell)).length;
 const isEmptyCell = (cell) => cell === "–" || cell === "" || cell === undefined;
 
-/// Adds a table. `head`: the name of each column, with a leading "#" if it has numbers. `rows`: arrays of
-/// text or nodes. `best(row, column)`: whether a cell is emphasised. Empty columns are left out.
+/// Adds a table. `head`: the name of each column, with a leading "#" if it has numbers. `rows`:
+/// arrays of text or nodes. `best(row, column)`: whether a cell is emphasised. Empty columns are
+/// left out.
 function table(parent, head, rows, best) {
   const columns = head.map((name, i) =>
     ({i, name: name.replace(/^#/, ""), numeric: name.startsWith("#")}))
@@ -139,15 +141,16 @@ function groupBy(list, key) {
   return groups;
 }
 
-/// Yaw-control modes in their order, each with its hue and line width. Thick lines are drawn first, so that
-/// coinciding lines are all visible.
+/// Yaw-control modes in their order, each with its hue and line width. Thick lines are drawn first,
+/// so that coinciding lines are all visible.
 const modes = ["differential", "steering", "combined"];
 const modeStyle = {
   differential: {colour: "var(--differential)", width: 4.5, opacity: 0.55},
   steering: {colour: "var(--steering)", width: 2.2},
   combined: {colour: "var(--combined)", width: 1.4},
 };
-/// Colour of a mode. The label can also be "combined with NAME", if there are several sets of gains.
+/// Colour of a mode. The label can also be "combined with NAME", if there are several sets of
+/// gains.
 const colourOf = (label) => (modeStyle[label.split(/[ ,]/)[0]] || {colour: "var(--dim)"}).colour;
 
 /// Line and mark of each set of gains, for every mode.

@@ -1,5 +1,5 @@
-// Section of the identification: trials with the fitted curve, its band and residuals; parameter values;
-// logs and drives.
+// Section of the identification: trials with the fitted curve, its band and residuals; parameter
+// values; logs and drives.
 
 /// Rows of trials are points in ink; rows with a warning are hollow diamonds.
 const measuredLook = {kind: "points", colour: "var(--ink)"};
@@ -18,8 +18,8 @@ function rowNote(model) {
 const findingsOfRow = (model, t) => model.findings.filter((f) => f.file === t.file
   && f.line === t.line);
 
-/// Chart of the steady runs with the fitted curve and its confidence band. Curve, band and residuals are computed
-/// by the program (drawn_fit.h), as for the print figures.
+/// Chart of the steady runs with the fitted curve and its confidence band. Curve, band and
+/// residuals are computed by the program (drawn_fit.h), as for the print figures.
 function fitChart(parent, model, fit, kind, height = 300) {
   if (!fit) return undefined;
   const rows = model.trials.filter((t) => t.kind === kind && isNumber(t.measured));
@@ -45,8 +45,8 @@ function fitChart(parent, model, fit, kind, height = 300) {
   return plot(parent, {title: `${kind} trials`, x, y, series, byPoint: true, zero: "xy", height});
 }
 
-/// Chart of the residuals in percent of the prediction, with the limits that contain 99 % of normally distributed
-/// residuals.
+/// Chart of the residuals in percent of the prediction, with the limits that contain 99 % of
+/// normally distributed residuals.
 function residualChart(parent, model, fit, kind) {
   if (!fit) return;
   const note = rowNote(model);
@@ -63,7 +63,8 @@ function residualChart(parent, model, fit, kind) {
     {name: "residual", ...measuredLook, points}]});
 }
 
-/// Chart of the coast-downs: the model m' du/dt = -g1(u) from each initial speed, and the measured stop times.
+/// Chart of the coast-downs: the model m' du/dt = -g1(u) from each initial speed, and the measured
+/// stop times.
 function coastdownChart(parent, model, coasts) {
   if (!coasts.length) return;
   const rows = model.trials.filter((t) => t.kind === "coastdown");
@@ -89,7 +90,8 @@ function estimateRows(rows) {
   });
 }
 const estimateHead = ["quantity", "#value", "#standard error", "95 % interval", "unit", "origin"];
-/// All quantities (objects with `value`) below `entry`, with their paths: [["surge.alpha", {...}], ...].
+/// All quantities (objects with `value`) below `entry`, with their paths: [["surge.alpha", {...}],
+/// ...].
 const leaves = (entry, path) => (entry && typeof entry === "object"
   ? ("value" in entry ? [[path, entry]]
   : Object.entries(entry).flatMap(([key, below]) => leaves(below, path ? `${path}.${key}` : key)))
@@ -125,7 +127,8 @@ function estimatorsTable(parent, estimates) {
     digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason.split(". ")[0]]));
 }
 
-/// Table with a row for each row of the trials: the change of the main values, in percent, if it is left out.
+/// Table with a row for each row of the trials: the change of the main values, in percent, if it is
+/// left out.
 function influenceTable(parent, estimates) {
   const left = estimates.filter((e) => Array.isArray(e.leave_one_out) && e.leave_one_out.length);
   if (!left.length) return;
@@ -143,8 +146,8 @@ function influenceTable(parent, estimates) {
   }
 }
 
-/// Result of the validation in a sentence. If it used only data of the fit, a note says that these do not show
-/// how well another drive is predicted.
+/// Result of the validation in a sentence. If it used only data of the fit, a note says that these
+/// do not show how well another drive is predicted.
 function validationWords(data) {
   const {validation} = data;
   if (!validation || !validation.verdict) return;
@@ -184,8 +187,8 @@ function identificationSection(data) {
   drivesPart(box, data.validation);
 }
 
-/// Tyres of the four-wheel plant fitted to logs, and the prediction errors of this plant and of the 3-DOF
-/// model on windows to which the tyres were not fitted.
+/// Tyres of the four-wheel plant fitted to logs, and the prediction errors of this plant and of the
+/// 3-DOF model on windows to which the tyres were not fitted.
 function tyresPart(parent, validation) {
   const {tyres} = validation || {};
   if (!tyres) return;

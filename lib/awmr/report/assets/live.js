@@ -1,5 +1,5 @@
-// Interactive part of the page: at every move of a slider, runs awmr's simulation and constraints, compiled to
-// WebAssembly (live/live.cpp).
+// Interactive part of the page: at every move of a slider, runs awmr's simulation and constraints,
+// compiled to WebAssembly (live/live.cpp).
 
 const liveColumns = ["t_s", "psi_rad", "psi_ref_rad", "u_mps", "force_left", "force_right",
   "steering_rad", "r_radps"];
@@ -17,14 +17,15 @@ const liveSliders = [
   {key: "heading_noise_deg", name: "heading noise, deg", low: 0, high: 5, log: false},
 ];
 
-/// Loads the WebAssembly module and passes the numbers of the setup. Returns a function that simulates the
-/// given slider settings and returns {columns, ended, constraints, metrics}; ended: false if it diverges.
+/// Loads the WebAssembly module and passes the numbers of the setup. Returns a function that
+/// simulates the given slider settings and returns {columns, ended, constraints, metrics}; ended:
+/// false if it diverges.
 async function liveModule(packed, numbers) {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
   const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   const wasm = await new Response(unpacked).arrayBuffer();
-  // The C library imports system functions that the simulation does not need. Every call returns 52, the
-  // error code for "not available" (ENOSYS).
+  // The C library imports system functions that the simulation does not need. Every call returns
+  // 52, the error code for "not available" (ENOSYS).
   const system = new Proxy({}, {get: () => () => 52});
   const {exports} = (await WebAssembly.instantiate(wasm,
     {wasi_snapshot_preview1: system})).instance;
@@ -81,7 +82,8 @@ function liveSlider(parent, slider, settings, changed) {
 
 const degreesOf = (list) => list.map((x) => x * 180 / Math.PI);
 const pairs = (x, y) => x.map((v, i) => [v, y[i]]);
-/// Reduces a long run to about 2 `most` points: the minimum and the maximum of each of `most` intervals.
+/// Reduces a long run to about 2 `most` points: the minimum and the maximum of each of `most`
+/// intervals.
 function thinned(points, most = 500) {
   const stretch = Math.ceil(points.length / most);
   if (stretch < 3) return points;
@@ -93,8 +95,8 @@ function thinned(points, most = 500) {
   return kept;
 }
 
-/// Adds charts of the run with the slider values, in the hue of its mode, and of the run with the tuned gains
-/// under the same conditions, in grey. Returns a function that updates them.
+/// Adds charts of the run with the slider values, in the hue of its mode, and of the run with the
+/// tuned gains under the same conditions, in grey. Returns a function that updates them.
 function liveCharts(parent, start) {
   const group = [];
   const line = (name, colour, width) => ({name, kind: "line", colour, width});

@@ -1,5 +1,5 @@
-// Builds the report from top to bottom. A section with invalid data shows an error in its place; the other
-// sections are not affected.
+// Builds the report from top to bottom. A section with invalid data shows an error in its place;
+// the other sections are not affected.
 const report = JSON.parse(document.getElementById("data").textContent);
 document.getElementById("report").textContent = "";
 document.title = `${report.model.vehicle.name}: awmr report`;

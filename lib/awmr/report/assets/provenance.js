@@ -1,5 +1,5 @@
-// Section of the firmware (result of awmr pil), and section of the provenance: inputs, options and versions of
-// all results.
+// Section of the firmware (result of awmr pil), and section of the provenance: inputs, options and
+// versions of all results.
 
 function firmwareSection(data) {
   const {pil} = data;

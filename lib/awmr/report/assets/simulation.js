@@ -1,5 +1,5 @@
-// Section of the simulations: each scenario in all modes. The charts of a scenario share one legend and one
-// cursor.
+// Section of the simulations: each scenario in all modes. The charts of a scenario share one legend
+// and one cursor.
 
 const signals = [
   {title: "heading", y: "heading ψ, deg", value: "psi_deg", reference: "psi_ref_deg"},
@@ -17,8 +17,8 @@ const nameOf = (run) => run.mode + (run.gains === "paper" ? ", the paper's gains
 const byMode = (a, b) => (a.gains === b.gains ? modes.indexOf(a.mode) - modes.indexOf(b.mode)
   : a.gains === "tuned" ? -1 : 1);
 
-/// Series of a run's column y over its column x. The mode determines the hue, the gains the dashes. Runs with
-/// the paper's gains are hidden at first.
+/// Series of a run's column y over its column x. The mode determines the hue, the gains the dashes.
+/// Runs with the paper's gains are hidden at first.
 function lineOf(run, x, y) {
   const points = run.columns[x].map((value, i) => [value, run.columns[y][i]]);
   const look = {name: nameOf(run), kind: "line", points, ...modeStyle[run.mode]};
@@ -36,8 +36,8 @@ function waypointsOf(scenario) {
   return guidance.from_m && guidance.to_m ? [guidance.from_m, guidance.to_m] : [];
 }
 
-/// Shade for yaw rates above the highest one at which yaw resistance was measured: a list with one series, or
-/// empty if it was not measured.
+/// Shade for yaw rates above the highest one at which yaw resistance was measured: a list with one
+/// series, or empty if it was not measured.
 function extrapolatedYawRates() {
   const limit = report.yaw_rate_measured_degps;
   return isNumber(limit) ? [{name: `extrapolated, beyond ±${digits(limit)} deg/s`, kind: "shade",

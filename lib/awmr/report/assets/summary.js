@@ -1,5 +1,5 @@
-// Summary, on one screen and one printed page: four tiles, the vehicle, its heading response, the gains, the
-// first findings and the next steps.
+// Summary, on one screen and one printed page: four tiles, the vehicle, its heading response, the
+// gains, the first findings and the next steps.
 
 function gainsTable(parent, gains) {
   const row = (name, set, objective) => [name, digits(set.heading.lambda), digits(set.heading.mu),
@@ -52,8 +52,8 @@ function nextSteps(data) {
   return steps;
 }
 
-/// Chart of the heading in every mode with the tuned gains, in the first scenario with heading steps, else in
-/// the first scenario. Without simulated runs: the trials, or a validated log.
+/// Chart of the heading in every mode with the tuned gains, in the first scenario with heading
+/// steps, else in the first scenario. Without simulated runs: the trials, or a validated log.
 function responseChart(parent, data) {
   const height = 210;
   const type = (run) => (((data.scenarios[run.scenario] || {}).guidance || {}).type || "");

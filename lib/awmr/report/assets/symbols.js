@@ -26,10 +26,12 @@ const symbolParts = (text) => text.replaceAll("<=", "≤").replaceAll(">=", "≥
 const plainSymbols = (text) => symbolParts(text).map((part) =>
   (symbols.get(part) || [part])[0]).join("");
 
-/// Symbols that the page has shown before. Only the first occurrence of a symbol can get the keyboard focus.
+/// Symbols that the page has shown before. Only the first occurrence of a symbol can get the
+/// keyboard focus.
 const metSymbols = new Set();
 
-/// Appends text to a node. Names of known symbols become their letter, with the meaning as a tooltip.
+/// Appends text to a node. Names of known symbols become their letter, with the meaning as a
+/// tooltip.
 function write(node, text) {
   for (const part of symbolParts(text)) {
     const symbol = symbols.get(part);

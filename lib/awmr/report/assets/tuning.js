@@ -1,16 +1,18 @@
-// Section of the tuning: constraints, search, and performance of the gains on drawn vehicles that were not
-// used for tuning.
+// Section of the tuning: constraints, search, and performance of the gains on drawn vehicles that
+// were not used for tuning.
 
 const gainsWords = {robust: "tuned", nominal: "nominal", baseline: "baseline",
   paper: "the paper's"};
 
-/// Name of the baseline, the gains whose objective is 1. In older files without `source` these are the paper's.
+/// Name of the baseline, the gains whose objective is 1. In older files without `source` these are
+/// the paper's.
 function baselineWords(gains) {
   const {source = "paper"} = gains.baseline || {};
   return {paper: "the paper's gains", "pole-placement": "pole placement"}[source] || source;
 }
 
-/// Describes the unmodelled variation (masses, wheel forces) of the drawn vehicles; empty if there is none.
+/// Describes the unmodelled variation (masses, wheel forces) of the drawn vehicles; empty if there
+/// is none.
 function openWords(open) {
   if (!open) return "";
   const masses = open.mass_factors ? [`m' and I'z times ${open.mass_factors.join(", ")}`] : [];
@@ -25,13 +27,13 @@ function constraintState({margin, required, limit}) {
   return [margin < 0.01 * Math.abs(limit) ? "at its limit" : "met", "good"];
 }
 
-/// Sense of a constraint, "at-most" or "at-least". Results of the interactive part lack it; it is then derived
-/// from value, limit and margin.
+/// Sense of a constraint, "at-most" or "at-least". Results of the interactive part lack it; it is
+/// then derived from value, limit and margin.
 const senseOf = ({sense, value, limit, margin}) => sense ||
   (Math.abs(limit - value - margin) <= Math.abs(value - limit - margin) ? "at-most" : "at-least");
 
-/// Bar chart of a constraint: a bar from 0 to the value, a line at the limit, the permitted side shaded. at(x)
-/// is the position of x in percent of the width.
+/// Bar chart of a constraint: a bar from 0 to the value, a line at the limit, the permitted side
+/// shaded. at(x) is the position of x in percent of the width.
 function constraintBar(constraint) {
   const {value, limit, margin} = constraint;
   const reach = 1.25 * Math.max(Math.abs(value), Math.abs(limit)) || 1;
@@ -68,7 +70,8 @@ function constraintsTable(parent, constraints) {
   }));
 }
 
-/// Chart of settling time against control variation: the Pareto front of the search, and the named gains.
+/// Chart of settling time against control variation: the Pareto front of the search, and the named
+/// gains.
 function tradeOffChart(parent, gains) {
   const {trade_off: tradeOff} = gains;
   if (!tradeOff) return;
@@ -87,7 +90,8 @@ function tradeOffChart(parent, gains) {
       zero: "xy", byPoint: true});
 }
 
-/// Table of the worst damping ratio and delay margin of the heading loop over the model's confidence set.
+/// Table of the worst damping ratio and delay margin of the heading loop over the model's
+/// confidence set.
 function certificateTable(parent, certificate) {
   if (!certificate) return;
   add(parent, "h3", "Certificate");
@@ -103,8 +107,8 @@ function certificateTable(parent, certificate) {
     modeCell(mode), digits(damping.min, 3), place(damping), margin(delay.min_s), place(delay)]));
 }
 
-/// Chart of the best objective so far over the number of evaluations, for the search of the tuned gains and,
-/// in older files, for the nominal search.
+/// Chart of the best objective so far over the number of evaluations, for the search of the tuned
+/// gains and, in older files, for the nominal search.
 function historyChart(parent, gains) {
   const own = (gains.search || {}).history, {nominal_history: nominal} = gains.robust || {};
   const searches = [["robust", own, 2.4], ["nominal", nominal, 1.6]].filter(([, h]) => h
@@ -165,8 +169,8 @@ function robustCharts(parent, robust) {
   }
 }
 
-/// One row of a quantile chart. A run that does not settle counts with its duration, so the median is a
-/// settling time only if at least half of the runs settle; else the row shows "never settled".
+/// One row of a quantile chart. A run that does not settle counts with its duration, so the median
+/// is a settling time only if at least half of the runs settle; else the row shows "never settled".
 function quantileRow(mode, name, set, figure) {
   const {median, q95} = set[figure], label = `${mode}, ${gainsWords[name]}`;
   const settled = `settled: ${percent(set.completed_share)}`;
@@ -178,8 +182,8 @@ function quantileRow(mode, name, set, figure) {
     note: `${label}\nmedian ${digits(median)}, 95 % ${digits(q95)}\n${settled}`};
 }
 
-/// Range charts of the metrics on drawn vehicles: median to 95 % quantile. The mode determines the hue of a
-/// row, the set of gains its line and mark.
+/// Range charts of the metrics on drawn vehicles: median to 95 % quantile. The mode determines the
+/// hue of a row, the set of gains its line and mark.
 function quantileCharts(parent, quantiles) {
   const grid = add(parent, "div", undefined, {class: "grid thirds"});
   for (const [figure, title] of robustFigures) {
@@ -190,7 +194,8 @@ function quantileCharts(parent, quantiles) {
   }
 }
 
-/// Sentence with the objectives of the tuned gains and the baseline, and the number of goals that are met.
+/// Sentence with the objectives of the tuned gains and the baseline, and the number of goals that
+/// are met.
 function objectiveWords(gains) {
   const {objective, baseline, goals = []} = gains;
   if (!objective) return "";
@@ -223,8 +228,8 @@ function tuningSection(data) {
   metricsTable(box, gains);
 }
 
-/// Table of the metrics in the objective, by mode and scenario: with the tuned gains and, in brackets, with
-/// the baseline.
+/// Table of the metrics in the objective, by mode and scenario: with the tuned gains and, in
+/// brackets, with the baseline.
 function metricsTable(parent, gains) {
   const base = (gains.baseline || {}).metrics || {};
   const rows = Object.entries(gains.metrics || {}).flatMap(([mode, scenarios]) =>

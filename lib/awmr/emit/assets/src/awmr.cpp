@@ -16,8 +16,8 @@
 
 #include "awmr/control/autopilot.h"
 
-// 1: the direction of travel is computed if awmr_input.speed_unsigned is 1. 0: saves flash, for a speed
-// sensor with a sign; speed_unsigned 1 is then a fault.
+// 1: the direction of travel is computed if awmr_input.speed_unsigned is 1. 0: saves flash, for a
+// speed sensor with a sign; speed_unsigned 1 is then a fault.
 #ifndef AWMR_WITH_DIRECTION
 #define AWMR_WITH_DIRECTION 1
 #endif
@@ -123,9 +123,9 @@ struct Parts {
 
 awmr::Autopilot<Resistance, Parts> autopilot;
 
-// The caller's C structs are read as C++ structs. The empty asm statements here and below are memory
-// barriers: without them the compiler could move the caller's writes across the call, because it assumes
-// that the two types do not alias.
+// The caller's C structs are read as C++ structs. The empty asm statements here and below are
+// memory barriers: without them the compiler could move the caller's writes across the call,
+// because it assumes that the two types do not alias.
 __attribute__((noinline)) void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
   // With an invalid acceptance radius, each step gives AWMR_FAULT_OUTPUT until the next route.
   static const awmr_point kNowhere = {__builtin_nanf(""), __builtin_nanf("")};

@@ -40,7 +40,8 @@
 #define AWMR_FAULT_SPEED_STALE 0x10     /* speed_ms is older than AWMR_SPEED_TIMEOUT_MS */
 #define AWMR_FAULT_COMMAND_TIMEOUT 0x20 /* command_ms is older than AWMR_COMMAND_TIMEOUT_MS */
 #define AWMR_FAULT_STEP_LATE 0x40       /* the last step was more than AWMR_STEP_TIMEOUT_MS ago */
-#define AWMR_FAULT_OUTPUT 0x80          /* a computed command was outside its limits or not finite */
+#define AWMR_FAULT_OUTPUT 0x80          /* a computed command was outside its limits, or not
+                                           finite */
 
 typedef struct awmr_input {
   uint8_t mode;            /* AWMR_DIFFERENTIAL, AWMR_STEERING or AWMR_COMBINED */
@@ -48,7 +49,8 @@ typedef struct awmr_input {
   float u_mps;             /* forward speed */
   float v_mps;             /* speed to the left; 0 if not measured */
   float r_radps;           /* yaw rate */
-  float x_m;               /* position: needed by guidance, by avoidance and if speed_unsigned is 1 */
+  float x_m;               /* position: needed by guidance, by avoidance and if
+                              speed_unsigned is 1 */
   float y_m;
   float psi_ref_rad;       /* heading to hold; guidance (awmr_follow, ...) replaces it */
   float psi_ref_rate_radps;
@@ -74,7 +76,8 @@ typedef struct awmr_output {
   uint8_t speed_limited;   /* 1: tau_speed was clipped */
   uint8_t steering_limited;   /* 1: the steering angle was clipped */
   uint8_t force_limited;      /* 1: a force was clipped */
-  uint8_t steering_powerless; /* 1: the wheel forces are too small to turn the vehicle by steering */
+  uint8_t steering_powerless; /* 1: the wheel forces are too small to turn the vehicle by
+                                 steering */
   float tau_speed;         /* force of all wheels that the speed law requests, before any limit */
   float tau_turn_m;        /* yaw moment that the heading law requests, m, before any limit */
   float psi_ref_rad;       /* heading reference in use: of the input, or of the guidance */
@@ -133,15 +136,16 @@ typedef struct awmr_avoidance {
   float vehicle_radius_m;  /* of the circle that encloses the vehicle */
   float clearance_m;       /* free distance between this circle and an obstacle, > 0 */
   float hysteresis_m;      /* avoidance ends this far beyond the manoeuvring distance, >= 0 */
-  float side_hysteresis_rad; /* the side on which an obstacle is passed changes only if the turn to the
-                                other side is smaller by this angle, >= 0 */
+  float side_hysteresis_rad; /* the side on which an obstacle is passed changes only if the turn
+                                to the other side is smaller by this angle, >= 0 */
   float brake_m;           /* free distance ahead below which the speed is reduced, > 0 */
 } awmr_avoidance;
 #endif
 
 #if AWMR_WITH_SHAPING
 typedef struct awmr_shaping {
-  float omega_radps;       /* bandwidth, > 0; above 0.5/AWMR_SAMPLE_TIME_S the reference overshoots */
+  float omega_radps;       /* bandwidth, > 0; above 0.5/AWMR_SAMPLE_TIME_S the reference
+                              overshoots */
   float rate_max_radps;    /* largest rate of the reference, > 0 */
   float accel_max_radps2;  /* largest acceleration of the reference, > 0 */
 } awmr_shaping;
@@ -176,8 +180,8 @@ void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
 void awmr_follow_skipping(const awmr_point* points, int16_t count, float acceptance_m);
 
 #if AWMR_WITH_POSITION_ESTIMATE
-/* Returns how often the position estimate was set to a fix since the start, at most 255. This happens
-   after five fixes in a row that were too far from the estimate. */
+/* Returns how often the position estimate was set to a fix since the start, at most 255. This
+   happens after five fixes in a row that were too far from the estimate. */
 uint8_t awmr_position_resets(void);
 #endif
 
@@ -201,14 +205,14 @@ void awmr_follow_path(const awmr_path* path);
 #endif
 
 #if AWMR_WITH_SLOW_DOWN
-/* Within distance_m of the last waypoint or of the line's end, reduces the speed in proportion to the
-   distance, at least to a tenth. 0: off. */
+/* Within distance_m of the last waypoint or of the line's end, reduces the speed in proportion to
+   the distance, at least to a tenth. 0: off. */
 void awmr_slow_down(float distance_m);
 #endif
 
 #if AWMR_WITH_AVOIDANCE
-/* Avoids `count` obstacles, with any guidance. `sectors`: working memory for `count` elements. Neither
-   array is copied. count 0: off. */
+/* Avoids `count` obstacles, with any guidance. `sectors`: working memory for `count` elements.
+   Neither array is copied. count 0: off. */
 void awmr_avoid(const awmr_avoidance* avoidance, const awmr_obstacle* obstacles, awmr_sector* sectors,
                 int16_t count);
 #endif
@@ -219,8 +223,9 @@ void awmr_shape(const awmr_shaping* shaping);
 #endif
 
 #if AWMR_WITH_OBSERVER
-/* Estimates a constant disturbance (slope, unequal motors) and compensates it. NULL: off. With gains that
-   were tuned with an observer (AWMR_OBSERVER_... in awmr_params.h), it is on from awmr_init() on. */
+/* Estimates a constant disturbance (slope, unequal motors) and compensates it. NULL: off. With
+   gains that were tuned with an observer (AWMR_OBSERVER_... in awmr_params.h), it is on from
+   awmr_init() on. */
 void awmr_observe(const awmr_observer* observer);
 #endif
 

@@ -5,8 +5,8 @@
      idle loop:                    awmr_log::drain(ring, file);
 
    The step copies 56 bytes and never waits. The loop computes check sums and writes to the card. If
-   the card blocks the loop for longer than the ring can buffer, rows are lost. `awmr log` detects the
-   loss, because the sequence numbers of these rows are missing in the file. */
+   the card blocks the loop for longer than the ring can buffer, rows are lost. `awmr log` detects
+   the loss, because the sequence numbers of these rows are missing in the file. */
 #ifndef AWMR_LOG_H
 #define AWMR_LOG_H
 
@@ -16,8 +16,8 @@
 
 namespace awmr_log {
 
-/* Eight blocks of 512 bytes: 4 KiB of a Mega's 8 KiB. They buffer 56 sample times during which the card
-   accepts no data: 0.56 s at 10 ms. The SD standard permits 0.25 s. */
+/* Eight blocks of 512 bytes: 4 KiB of a Mega's 8 KiB. They buffer 56 sample times during which the
+   card accepts no data: 0.56 s at 10 ms. The SD standard permits 0.25 s. */
 typedef awmr::LogRing<8> Ring;
 
 #define AWMR_LOG_COLUMN(name, type, scale) \
@@ -72,8 +72,8 @@ inline void put(awmr::LogRing<kBlocks>& ring, const awmr_input& in, const awmr_o
 }
 
 /* Writes a header. A file begins with two of them, so that one damaged byte does not make the file
-   unreadable: call it twice. A sink has size_t write(const uint8_t*, size_t), like Arduino's File and
-   Serial. False: the sink accepted fewer bytes. */
+   unreadable: call it twice. A sink has size_t write(const uint8_t*, size_t), like Arduino's File
+   and Serial. False: the sink accepted fewer bytes. */
 template <class Sink>
 bool write_header(Sink& sink) {
   bool good = true;
@@ -100,8 +100,9 @@ bool write_header(Sink& sink) {
 
 enum Drained { kNothing, kWritten, kFailed };
 
-/* Writes the oldest block of the ring if it is complete; with `rest`, also an incomplete block, before
-   the file is closed. Rows that the sink does not accept are lost, with the result kFailed. */
+/* Writes the oldest block of the ring if it is complete; with `rest`, also an incomplete block,
+   before the file is closed. Rows that the sink does not accept are lost, with the result
+   kFailed. */
 template <uint8_t kBlocks, class Sink>
 Drained drain(awmr::LogRing<kBlocks>& ring, Sink& sink, bool rest = false) {
   const uint8_t rows = ring.ready(rest);

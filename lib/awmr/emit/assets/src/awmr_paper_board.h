@@ -3,8 +3,8 @@
    without the card. Header-only, so that the library itself needs neither Wire nor SD; include it
    only in the sketch. Axes: x north, y west, z up; heading counter-clockwise from north.
 
-   All driving code runs in a timer interrupt (begin_steps): receive() and step(). loop() handles only the card, which can
-   block. */
+   All driving code runs in a timer interrupt (begin_steps): receive() and step(). loop() handles
+   only the card, which can block. */
 #ifndef AWMR_PAPER_BOARD_H
 #define AWMR_PAPER_BOARD_H
 
@@ -42,7 +42,8 @@ const float kServoUsPerRad = 573.0f; /* 10 us per degree of the wheels: measure 
 
 namespace awmr_board {
 
-/* Returns time_ms; before the first reading (is_taken false), a time that is older than timeout_ms. */
+/* Returns time_ms; before the first reading (is_taken false), a time that is older than
+   timeout_ms. */
 inline uint32_t time_or_old(bool is_taken, uint32_t time_ms, uint32_t now_ms, uint32_t timeout_ms) {
   return is_taken ? time_ms : now_ms - timeout_ms - 1;
 }
@@ -86,8 +87,8 @@ inline uint8_t sensor_fault(const Imu& imu, const Gps& gps) {
   return heading != awmr::kSensorGood ? heading : gps.fault();
 }
 
-/* One step of a sketch that uses the autopilot: reads the sensors, runs awmr_step(), disarms on a fault,
-   drives the motors and logs. Set mode and references of `input` before. */
+/* One step of a sketch that uses the autopilot: reads the sensors, runs awmr_step(), disarms on a
+   fault, drives the motors and logs. Set mode and references of `input` before. */
 inline void step(Imu& imu, Gps& gps, Command& command, Safety& safety, Log& card, awmr_input& input,
                  awmr_output& output) {
   gps.step(input.u_ref_mps, imu.psi_rad, output.psi_ref_rad, safety.is_armed());

@@ -20,15 +20,15 @@ struct Settings {
   float measure_s; /* averaging time */
   float coast_s;   /* maximum duration of a coast-down */
   float rest_mps; /* a coast-down also ends below this speed, once it has enough rows for a curve */
-  float
-      steady_share; /* a run is steady if the means of both halves of the averaging time differ by at
-                           most this fraction of the mean */
+  /* a run is steady if the means of the two halves of the averaging time differ by at most this
+     fraction of the mean of both */
+  float steady_share;
 };
 
 enum State { kWaiting, kSettling, kMeasuring, kCoasting, kDone };
 
-/* Event of a step. After kNotSteady, kLetGo, and kSensorLost while driving, the same run waits to be
-   driven again. */
+/* Event of a step. After kNotSteady, kLetGo, and kSensorLost while driving, the same run waits to
+   be driven again. */
 enum Event {
   kNothing,
   kRow,       /* a row of a surge or turning run, which is finished */
@@ -36,7 +36,8 @@ enum Event {
   kCoasted,   /* a coast-down is finished */
   kNotSteady, /* the means of the averaging time's halves differ, or a half has too few fixes */
   kLetGo,     /* the dead man's switch was released */
-  kSensorLost /* a sensor was rejected. A coast-down ends with the rows so far, and the next run waits */
+  kSensorLost /* a sensor was rejected. A coast-down ends with the rows so far, and the next run
+                 waits */
 };
 
 struct Measured {
@@ -95,7 +96,8 @@ class Recorder {
   } /* of the present run, from 0; `count` when all are done */
   const Trial& trial() const { return runs_[number_]; }
   const Row& row() const { return row_; }
-  /* Force of every wheel to command until the next step, over F_max: 0 while waiting or coasting. */
+  /* Force of every wheel to command until the next step, over F_max: 0 while waiting or
+     coasting. */
   float force() const { return state_ == kSettling || state_ == kMeasuring ? trial().force : 0.0f; }
   float steering_rad() const {
     return state_ == kWaiting || state_ == kDone ? 0.0f : trial().steering_rad;
@@ -132,8 +134,8 @@ class Recorder {
     state_ = kWaiting;
     return why;
   }
-  /* Ends a run after a sensor fault. A driven run waits to be repeated. A coast-down is over: its rows
-     are already in the table under its number, which no other curve may use. */
+  /* Ends a run after a sensor fault. A driven run waits to be repeated. A coast-down is over: its
+     rows are already in the table under its number, which no other curve may use. */
   Event lose() {
     if (state_ != kCoasting) return give_up(kSensorLost);
     next();

@@ -1,6 +1,6 @@
 // Guides through the bring-up list of README.md after a first flash. Wheels off the ground. Over
-// Serial (115200 baud) it announces each motion; the line "y" starts this motion, any other line is a
-// no. The first no ends the bring-up, with the motors off until a reset: fix the fault and start
+// Serial (115200 baud) it announces each motion; the line "y" starts this motion, any other line is
+// a no. The first no ends the bring-up, with the motors off until a reset: fix the fault and start
 // again. Forces are at most kForce, a motion lasts two seconds, and any character during a motion
 // also ends it.
 #include <Wire.h>
@@ -16,8 +16,8 @@ Stream* gps_port;
 awmr::RmcReader gps_reader;
 volatile bool has_fix = false;
 
-// Commands for the step. setup() sets them with interrupts off, because the timer interrupt could read a
-// float of which only some of the four bytes are new.
+// Commands for the step. setup() sets them with interrupts off, because the timer interrupt could
+// read a float of which only some of the four bytes are new.
 struct Wanted {
   float left, right, steering_rad;
   bool by_autopilot; // true: instead of these, the autopilot holds the heading, with at most kForce
@@ -123,7 +123,8 @@ void show(float left, float right, float steering_rad, const __FlashStringHelper
   prompt(question);
 }
 
-// Waits until the gyroscope is calibrated, which takes a second at rest; after 10 s ends the bring-up.
+// Waits until the gyroscope is calibrated, which takes a second at rest; after 10 s ends the
+// bring-up.
 void wait_still() {
   const uint32_t start_ms = millis();
   while (imu.fault() == awmr::kGyroNotCalibrated) {

@@ -1,5 +1,5 @@
-// Drives along waypoints on the source paper's hardware, and stops at the last one. Waypoints are in m
-// north (x) and west (y) of the first GPS fix. Over Serial, 115200 baud, one command per line:
+// Drives along waypoints on the source paper's hardware, and stops at the last one. Waypoints are
+// in m north (x) and west (y) of the first GPS fix. Over Serial, 115200 baud, one command per line:
 //   ARM     enables the motors    G   drive the route from its first point on
 //   KEEP    continue: without a command for AWMR_COMMAND_TIMEOUT_MS the motors stop
 //   STOP    motors off, at once

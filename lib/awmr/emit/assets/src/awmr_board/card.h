@@ -1,5 +1,5 @@
-/* The log on the card: LOG00.AWL and following, for `awmr log` and `awmr identify --log`. On a board
-   without a card, begin() returns false and the sketch reports that there is no log. */
+/* The log on the card: LOG00.AWL and following, for `awmr log` and `awmr identify --log`. On a
+   board without a card, begin() returns false and the sketch reports that there is no log. */
 #ifndef AWMR_BOARD_CARD_H
 #define AWMR_BOARD_CARD_H
 
@@ -11,8 +11,8 @@
 namespace awmr_board {
 
 #if AWMR_BOARD_HAS_CARD
-/* Creates the first file of NAME00 to NAME99 that does not exist. name_and_extension: "LOG00.AWL". Returns
-   an invalid File if all exist. */
+/* Creates the first file of NAME00 to NAME99 that does not exist. name_and_extension: "LOG00.AWL".
+   Returns an invalid File if all exist. */
 inline File next_file(const char* name_and_extension) {
   char name[13];
   strncpy(name, name_and_extension, sizeof name - 1);
@@ -40,8 +40,8 @@ class Log {
     awmr_log::put(ring_, in, out, step_number(), reset_cause(), sensor_fault);
   }
 
-  /* Call in loop(): writes a complete block, which can wait for the card. Every 16th block (1.3 s at 10 ms)
-     also flushes the file, so that the data so far survive a loss of power. */
+  /* Call in loop(): writes a complete block, which can wait for the card. Every 16th block (1.3 s
+     at 10 ms) also flushes the file, so that the data so far survive a loss of power. */
   void drain() {
     if (!file_ || awmr_log::drain(ring_, file_) != awmr_log::kWritten) return;
     if (++blocks_ % kBlocksPerFlush == 0) file_.flush();

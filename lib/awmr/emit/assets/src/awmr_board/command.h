@@ -1,6 +1,6 @@
 /* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. The sketch's
-   receive() reads them in the timer interrupt; loop() prints the answers, because printing to a full
-   port waits and would delay the control step. */
+   receive() reads them in the timer interrupt; loop() prints the answers, because printing to a
+   full port waits and would delay the control step. */
 #ifndef AWMR_BOARD_COMMAND_H
 #define AWMR_BOARD_COMMAND_H
 
@@ -49,8 +49,8 @@ class Command {
     return false;
   }
 
-  /* Call in receive() or the step: queues an answer for loop(). fault, cause: the autopilot's fault bits
-     and the sensor fault to print, if not 0. If the queue is full, the answer is lost. */
+  /* Call in receive() or the step: queues an answer for loop(). fault, cause: the autopilot's fault
+     bits and the sensor fault to print, if not 0. If the queue is full, the answer is lost. */
   void answer(Answer what, uint8_t fault = 0, uint8_t cause = 0) {
     const uint8_t next = static_cast<uint8_t>((written_ + 1) % kWaiting);
     if (next == read_) return;

@@ -1,5 +1,5 @@
-/* GPS: reads $--RMC sentences from the board's port. Configure the receiver for 5 Hz or more; for an Uno,
-   whose port is slow, switch all other sentences off. */
+/* GPS: reads $--RMC sentences from the board's port. Configure the receiver for 5 Hz or more; for
+   an Uno, whose port is slow, switch all other sentences off. */
 #ifndef AWMR_BOARD_GPS_H
 #define AWMR_BOARD_GPS_H
 
@@ -30,11 +30,12 @@ struct GpsLimits {
   static constexpr bool spreads_work = AWMR_SPREADS_FIXES;
 };
 
-/* Members of the base class: x_m, y_m, m north and west of the origin, which is the first fix; speed_mps,
-   without a sign; time_ms of the last accepted fix. All are valid once has_fix(). */
+/* Members of the base class: x_m, y_m, m north and west of the origin, which is the first fix;
+   speed_mps, without a sign; time_ms of the last accepted fix. All are valid once has_fix(). */
 class Gps : public awmr::GpsReceiver<GpsLimits> {
  public:
-  /* Opens the port. After power-on, forgets the origin of x and y; after any other reset, keeps it. */
+  /* Opens the port. After power-on, forgets the origin of x and y; after any other reset, keeps
+     it. */
   void begin() {
     port_ = &begin_gps_port();
     if ((reset_cause() & kSwitchedOn) != 0 || !is_kept()) forget_origin();
@@ -59,8 +60,8 @@ class Gps : public awmr::GpsReceiver<GpsLimits> {
   }
 
  private:
-  /* Converts latitude and longitude to m north and west of the origin, in the tangent plane at the origin.
-     The first fix becomes the origin. */
+  /* Converts latitude and longitude to m north and west of the origin, in the tangent plane at the
+     origin. The first fix becomes the origin. */
   struct Projection {
     float west_m_per_e7 = 0.0f; /* m per 1e-7 deg of longitude, at the origin's latitude */
 
@@ -79,7 +80,8 @@ class Gps : public awmr::GpsReceiver<GpsLimits> {
               static_cast<float>(kept_origin.lon_e7 - fix.lon_e7) * west_m_per_e7};
     }
   };
-  static constexpr float kMetresPerE7 = 0.0111319491f; /* m per 1e-7 deg on a circle of radius 6378137 m */
+  /* m per 1e-7 deg on a circle of radius 6378137 m */
+  static constexpr float kMetresPerE7 = 0.0111319491f;
   static constexpr float kRadPerE7 = 1.74532925e-9f;
   Stream* port_ = 0;
   Projection projection_;

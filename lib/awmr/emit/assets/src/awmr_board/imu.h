@@ -1,4 +1,5 @@
-/* MPU9250: gyroscope about z, magnetometer in x and y, without tilt compensation: the board must be level. */
+/* MPU9250: gyroscope about z, magnetometer in x and y, without tilt compensation: the board must be
+   level. */
 #ifndef AWMR_BOARD_IMU_H
 #define AWMR_BOARD_IMU_H
 
@@ -28,7 +29,8 @@ namespace awmr_board {
 
 class Imu {
  public:
-  float psi_rad = 0.0f; /* heading, counter-clockwise from true north, in (-pi, pi]; valid once has_heading() */
+  /* heading, counter-clockwise from true north, in (-pi, pi]; valid once has_heading() */
+  float psi_rad = 0.0f;
   float r_radps = 0.0f; /* yaw rate, counter-clockwise positive */
   uint32_t time_ms = 0; /* of the last accepted reading, valid once has_heading() */
   float field_ahead = 0.0f; /* the last magnetic field forward, raw counts of the sensor */
@@ -58,12 +60,12 @@ class Imu {
     check_.turn.begin(kRadpsPerWord, AWMR_SAMPLE_TIME_S);
   }
 
-  /* Call after awmr_step() with the yaw moment that is commanded until the next step, over F_max, m; 0 if
-     the motors are off. read() checks the sign of the yaw rate with it. */
+  /* Call after awmr_step() with the yaw moment that is commanded until the next step, over F_max,
+     m; 0 if the motors are off. read() checks the sign of the yaw rate with it. */
   void note_moment(float tau_turn_m) { moment_m_ = tau_turn_m; }
 
-  /* Call in the step: integrates the gyroscope and corrects it by the magnetometer (time constant 2 s).
-     The first 100 readings at rest calibrate the gyroscope. */
+  /* Call in the step: integrates the gyroscope and corrects it by the magnetometer (time constant 2
+     s). The first 100 readings at rest calibrate the gyroscope. */
   void read(float dt_s) {
     const uint32_t now_ms = millis();
     const bool has_field = read_field(now_ms);
@@ -98,7 +100,8 @@ class Imu {
   static constexpr float kRadpsPerWord = 500.0f / 32768.0f * 0.0174532925f;
   static constexpr float kCorrection_s = 2.0f;
   awmr::HeadingCheck check_;
-  float sensitivity_[2] = {0.0f, 0.0f}; /* factors of the magnetometer's x and y, read_sensitivity() */
+  float sensitivity_[2] = {0.0f, 0.0f}; /* factors of the magnetometer's x and y, by
+                                           read_sensitivity() */
   bool has_heading_ = false;
   uint8_t steps_ = 0;
   float moment_m_ = 0.0f;
@@ -106,8 +109,8 @@ class Imu {
   static int16_t word(uint8_t high, uint8_t low) {
     return static_cast<int16_t>(static_cast<uint16_t>(high) << 8 | low);
   }
-  /* Reads the magnetic field. True if the reading is new, within the sensor's range and not zero; else
-     the last field is kept. */
+  /* Reads the magnetic field. True if the reading is new, within the sensor's range and not zero;
+     else the last field is kept. */
   bool read_field(uint32_t now_ms) {
     uint8_t bytes[7];
     if (!request(kMag, 0x02, bytes, 1) || (bytes[0] & 0x01) == 0) return false;
@@ -116,14 +119,15 @@ class Imu {
     const int16_t y = word(bytes[3], bytes[2]);
     if (x == 0 && y == 0) return false;
     check_.take_field(x, y, word(bytes[5], bytes[4]), now_ms);
-    /* The magnetometer AK8963 is mounted with its x along the board's y and its y along the board's x. */
+    /* The magnetometer AK8963 is mounted with its x along the board's y and its y along the board's
+       x. */
     field_ahead = sensitivity_[1] * y;
     field_left = sensitivity_[0] * x;
     field_ms = now_ms;
     return true;
   }
-  /* Returns the heading, counter-clockwise from magnetic north: the angle of the vector (a, -l), where
-     (a, l) = S (field - centre) is the calibrated field ahead and to the left. */
+  /* Returns the heading, counter-clockwise from magnetic north: the angle of the vector (a, -l),
+     where (a, l) = S (field - centre) is the calibrated field ahead and to the left. */
   float magnetic_heading() const {
     const float ahead = field_ahead - AWMR_COMPASS_AHEAD_0;
     const float left = field_left - AWMR_COMPASS_LEFT_0;

@@ -19,8 +19,8 @@ inline Stream& begin_gps_port() {
 
 inline void set_servo(uint16_t half_us) { OCR4A = half_us; }
 
-/* half_us: pulse width in units of 0.5 us. Timer 4, fast PWM to ICR4, clock/8: a count is 0.5 us, a period
-   20 ms. */
+/* half_us: pulse width in units of 0.5 us. Timer 4, fast PWM to ICR4, clock/8: a count is 0.5 us, a
+   period 20 ms. */
 inline void begin_servo(uint16_t half_us) {
   pinMode(kServoPin, OUTPUT);
   TCCR4A = _BV(COM4A1) | _BV(WGM41);

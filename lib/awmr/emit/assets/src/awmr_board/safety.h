@@ -13,9 +13,9 @@ class Safety {
   bool is_armed() const { return arming_.is_armed(); }
   awmr::DisarmReason reason() const { return arming_.reason; }
 
-  /* Call in receive(). Handles ARM, STOP and KEEP, and refuses all other commands while disarmed. True:
-     the sketch has to act, either because the vehicle was just armed (`armed_now` is true) or because
-     command.word is a command for the sketch. Call again until the result is false. */
+  /* Call in receive(). Handles ARM, STOP and KEEP, and refuses all other commands while disarmed.
+     True: the sketch has to act, either because the vehicle was just armed (`armed_now` is true) or
+     because command.word is a command for the sketch. Call again until the result is false. */
   bool read(Command& command, bool& armed_now) {
     armed_now = false;
     while (command.read()) {
@@ -51,15 +51,16 @@ class Safety {
     command.answer(kDisarmed);
   }
 
-  /* Call before awmr_step(): while disarmed, makes the time of the last command older than the command
-     time-out, so that awmr_step() switches the motors off. */
+  /* Call before awmr_step(): while disarmed, makes the time of the last command older than the
+     command time-out, so that awmr_step() switches the motors off. */
   void guard(awmr_input& input) const {
     if (is_armed()) return;
     input.command_ms = input.now_ms - AWMR_COMMAND_TIMEOUT_MS - 1;
     input.u_ref_mps = 0.0f;
   }
 
-  /* Call after awmr_step() with its fault bits and the sensor fault (`cause`): any of them disarms. */
+  /* Call after awmr_step() with its fault bits and the sensor fault (`cause`): any of them
+     disarms. */
   void observe(uint8_t fault, uint8_t cause, Command& command) {
     fault_ = fault;
     cause_ = cause;
@@ -68,7 +69,8 @@ class Safety {
 
  private:
   awmr::Arming arming_;
-  uint8_t fault_ = 0xFF; /* fault bits of the last step; all bits until the first step, so ARM is refused */
+  /* fault bits of the last step; all bits until the first step, so that ARM is refused */
+  uint8_t fault_ = 0xFF;
   uint8_t cause_ = 0;
 };
 

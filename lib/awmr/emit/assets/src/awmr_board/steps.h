@@ -16,8 +16,8 @@ const uint8_t kSwitchedOn = 1, kResetButton = 2, kBrownOut = 4, kWatchdog = 8;
 
 static uint8_t kept_reset_cause __attribute__((section(".noinit")));
 
-/* Stores the reset cause and switches the watchdog off. Runs before main() and before RAM is cleared:
-   after a watchdog reset the watchdog is still active and would reset the chip again. */
+/* Stores the reset cause and switches the watchdog off. Runs before main() and before RAM is
+   cleared: after a watchdog reset the watchdog is still active and would reset the chip again. */
 static void keep_reset_cause() __attribute__((naked, used, section(".init3")));
 static void keep_reset_cause() {
   kept_reset_cause = MCUSR;
@@ -36,8 +36,8 @@ static volatile uint32_t the_step_number;
 static uint16_t ticks_left; /* until the next sample time */
 static uint16_t ticks_per_step;
 
-/* Returns the shortest watchdog time that is at least 250 ms and at least four sample times (at most 4 s).
-   So a single skipped step causes no reset. */
+/* Returns the shortest watchdog time that is at least 250 ms and at least four sample times (at
+   most 4 s). So a single skipped step causes no reset. */
 inline uint8_t watchdog_time() {
   return 4.0f * AWMR_SAMPLE_TIME_S <= 0.25f  ? WDTO_250MS
          : 4.0f * AWMR_SAMPLE_TIME_S <= 0.5f ? WDTO_500MS
@@ -46,8 +46,8 @@ inline uint8_t watchdog_time() {
                                              : WDTO_4S;
 }
 
-/* Starts the timer interrupt. It calls `receive` every few ms, which has to read the serial lines before
-   their buffers overflow, and `step` every AWMR_SAMPLE_TIME_S, after `receive`. Other
+/* Starts the timer interrupt. It calls `receive` every few ms, which has to read the serial lines
+   before their buffers overflow, and `step` every AWMR_SAMPLE_TIME_S, after `receive`. Other
    interrupts stay enabled for the sensor bus, the serial lines and millis(). If a step is still
    running when the next one is due, it continues and the next one is skipped. The watchdog resets a
    chip on which no step ends. */
@@ -60,8 +60,8 @@ inline void begin_steps(Function receive, Function step) {
   wdt_enable(watchdog_time());
 }
 
-/* Number of the sample time to which the running step belongs, from 1; skipped steps count. Call only in
-   the step. */
+/* Number of the sample time to which the running step belongs, from 1; skipped steps count. Call
+   only in the step. */
 inline uint32_t step_number() { return the_step_number; }
 
 }  // namespace awmr_board
