@@ -76,8 +76,8 @@ bool has_rows(const fs::path& path, Check& check) {
          std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
 }
 
-/// Returns a parameter that this kind of trial identifies; messages describe the trial by it
-/// (trial_of()).
+/// Returns one of the parameters that this kind of trial identifies. Messages describe the trial by
+/// trial_of() of this parameter.
 ParameterId shown_by(TrialKind kind) {
   switch (kind) {
     case TrialKind::kTurning:
@@ -135,8 +135,9 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   check.notes.push_back(
       {project.vehicle.string() + ":/sway_alpha", 0, Severity::kNote, "assumed-sway",
        fmt::format(
-           "not given ({}): identify assumes the value of common tyres, which can be wrong by a "
-           "factor of {:.1f}. Give a driving log with sway_mps, or this key, if sideslip matters",
+           "sway_alpha ({}) is not given: identify assumes the value of common tyres, which can be "
+           "wrong by a factor of {:.1f}. If sideslip matters, give a driving log with sway_mps, or "
+           "this key of vehicle.json",
            info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 

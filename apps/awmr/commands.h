@@ -65,8 +65,8 @@ struct LiveCommand {
   std::optional<fs::path> record = {};  ///< file of the recording; default: next to the model
   double every_s = 5.0;                 ///< interval between two updates of the display, > 0
   double budget_s = 5.0;                ///< time limit of an interim fit, > 0
-  double enough = 0.1;                  ///< half width of an interval that is small enough
-                                        ///< (precision.h), > 0
+  double enough = 0.1;                  ///< largest half width of a 95 % interval that is small
+                                        ///< enough (Precision::half_width), > 0
   bool until_enough = false;            ///< end the recording when every half width is at most
                                         ///< `enough`
   double duration_s = 0.0;              ///< end the recording after this time; 0: no limit
@@ -121,7 +121,8 @@ struct ValidateCommand {
   AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
   TrialOptions trials = {};    ///< column mappings and used time spans of the logs
-  bool other_columns = false;  ///< true: mappings that name other files are accepted and ignored
+  bool other_columns = false;  ///< true: column mappings for files that are not among `logs` are
+                               ///< ignored; false: they are errors
   double horizon_s = 10.0;     ///< length of the windows over which logs are predicted
   double log_tolerance = 0.3;  ///< largest accepted NRMSE of a channel over a window
   bool tyres = false;          ///< also fit the tyres of the four-wheel plant to the logs

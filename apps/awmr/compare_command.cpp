@@ -192,7 +192,7 @@ void add_preferences(CLI::App& command, Texts& texts) {
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
-      "heading commands limited to {:.3g} deg/s, the highest yaw rate of the turning trials\n"
+      "heading commands limited to {:.3g} deg/s, the highest measured yaw rate\n"
       "(--heading-rate-limit {}: only the limits in the scenarios)\n",
       *measured_yaw_rate_degps(model), kNoRate);
 }

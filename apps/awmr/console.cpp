@@ -107,7 +107,7 @@ std::string origin(const Estimate& estimate) {
   return fmt::format("{}, {}", name_in(kSourceNames, estimate.source), estimate.method);
 }
 
-/// Formats an error with two significant digits: 0.0099, 160.
+/// Formats a standard error with two significant digits: 0.0099, 160.
 std::string two_digits(double error) {
   if (!(error > 0.0)) return fmt::format("{:g}", error);
   const double digit = std::pow(10.0, std::floor(std::log10(error)) - 1.0);

@@ -24,7 +24,7 @@ struct Explanation {
   std::string remedy;
 };
 
-/// Cells of a Markdown table row, without code marks.
+/// Cells of a Markdown table row, without backticks.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::string cell;

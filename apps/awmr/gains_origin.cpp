@@ -55,8 +55,8 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
 
 void note_unstable(const Gains<double>& gains, double sample_time_s,
                    const std::filesystem::path& gains_file, std::vector<Finding>& findings) {
-  constexpr double kMax = 2.0;  // a sampled first-order loop is unstable if rate times sample time
-                                // is 2 or more
+  // A sampled first-order loop is unstable if its rate times the sample time is 2 or more.
+  constexpr double kMax = 2.0;
   const double heading = gains.heading.lambda + gains.heading.mu / gains.heading.epsilon;
   const double speed = gains.speed.mu / gains.speed.epsilon;
   for (const auto& [name, rate] : {std::pair("lambda + mu/epsilon of the heading", heading),

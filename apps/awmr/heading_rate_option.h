@@ -19,7 +19,8 @@ inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
   command
       .add_option("--heading-rate-limit", choice,
                   fmt::format("Rate limit of heading commands in closed-loop scenarios, deg/s; "
-                              "'measured': the highest yaw rate of the turning trials; 'none': "
+                              "'measured': the highest measured yaw rate (yaw_rate_max_degps of "
+                              "vehicle.json, else of turning trials and fitted logs); 'none': "
                               "only the shaping in the scenarios (default: {})",
                               by_default))
       ->check(CLI::Validator(fault_of_rate, "measured, none or deg/s", ""));
@@ -38,7 +39,7 @@ inline std::string words_of_rate(const HeadingRateChoice& choice) {
   if (choice == kNoRate) return {};
   if (choice == kMeasuredRate)
     return "heading commands limited to the highest yaw rate of the "
-           "turning trials\n";
+           "turning trials and fitted logs, or to yaw_rate_max_degps of vehicle.json\n";
   return fmt::format("heading commands limited to {} deg/s\n", choice);
 }
 

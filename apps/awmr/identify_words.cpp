@@ -45,7 +45,7 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
       ->check(one_of(names_in(kMethodNames)));
   sub.add_option("--noise", words.noise,
                  "Quantity with the measurement error in the nonlinear fit: force, speed or time "
-                 "(default: the measured one)")
+                 "(default: time if every run was timed, else speed)")
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,
@@ -58,7 +58,8 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
                  "with less weight for large errors, huber, cauchy or tukey")
       ->check(one_of(names_in(kLossNames)));
   sub.add_flag("--joint", words.command.identify.joint,
-               "Fit a1, b1 and m' together from the surge runs and the coast-down curves");
+               "Fit the surge resistance (a1, b1) and m' (mass over F_max) together to the surge "
+               "runs and the coast-down curves");
   sub.add_option("--fit", words.requested,
                  "Parameters to fit, e.g. surge.alpha,mass_norm; for logs also all, "
                  "input_delay_s, bias.yaw_rate_radps, ...")
@@ -108,7 +109,7 @@ void add_reading_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_option(
          "--prefer", words.prefer,
          "If a row's speed or yaw rate disagrees with the one computed from its time: use the "
-         "printed (default) or the timed value")
+         "value printed in the row (default) or the timed one, computed from the time")
       ->check(one_of(names_in(kPreferenceNames)));
   sub.add_option("--column", words.columns.columns, kColumnHelp);
   add_file(sub, "--columns-file", words.columns.file, kColumnsFileHelp);

@@ -37,8 +37,8 @@ constexpr NameTable<LiveEnd, 6> kLiveEndWords{
      {"enough was recorded", LiveEnd::kEnough},
      {"the recording has reached its maximum size", LiveEnd::kFull}}};
 
-/// During this time from the start, updates come every second, so that a wrong unit is reported
-/// early.
+/// In the first kAtFirst_s seconds, the display is updated every second, so that a wrong unit is
+/// reported early.
 constexpr double kAtFirst_s = 20.0;
 
 std::vector<fs::path> inputs_of(const LiveCommand& command) {

@@ -22,7 +22,8 @@ struct LiveUpdate {
   bool out_of_time = false;         ///< true: the fit was too slow; `model` is the previous one
   std::string next = {};            ///< the manoeuvre that would improve the model most
   double enough = 0.1;              ///< sufficient half width of the intervals
-  std::vector<ParameterId> requested = {};  ///< parameters whose intervals count; empty: all
+  std::vector<ParameterId> requested = {};  ///< parameters whose intervals must be sufficient;
+                                            ///< empty: all
 };
 
 /// Half widths of the 95 % intervals as text: "surge.alpha +-0.12 %, yaw.beta +-0.012", or "-" if

@@ -51,7 +51,7 @@ std::string first_line(const std::string& text) {
 std::string head(const CommandInfo& command, const std::string& purpose) {
   std::string title = page_name(command);
   for (char& c : title) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  // No date, so that the output is reproducible.
+  // Without a date, so that the same program writes the same bytes.
   return fmt::format(".TH {} 1 \"\" \"awmr {}\" \"awmr manual\"\n.SH NAME\n{} \\- {}\n",
                      roff(title), version(), roff(page_name(command)), roff(purpose));
 }

@@ -125,7 +125,7 @@ struct PilOptions {
   /// Goal of the compiler. Absent: small size if the scenario has a timed path, obstacles, or two
   /// or more optional parts (the position estimate counts as one); else few cycles.
   std::optional<Optimize> optimize;
-  /// Largest permitted number of clock cycles of a control step. Absent: 12,000 with resistance
+  /// Largest permitted number of clock cycles of a control step. Absent: 13,000 with resistance
   /// tables, 24,000 with powf; with optional parts or the position estimate, 75 % of the sample
   /// time.
   std::optional<unsigned> cycles_max;

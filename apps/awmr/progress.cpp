@@ -17,7 +17,7 @@ namespace {
 
 std::atomic<bool> drawn_on_terminal = true;
 std::atomic<bool> progress_in_lines = true;
-/// The Working object that is displayed.
+/// The Working object whose line is displayed; null: none.
 std::atomic<const Working*> seen = nullptr;
 
 bool is_terminal() {

@@ -101,8 +101,8 @@ void add_runs(CLI::App& sub, RecoverCommand& command) {
 
 void add_estimator(CLI::App& sub, RecoverWords& words) {
   sub.add_option("--plan", words.plan,
-                 "tables (default): the model's own trials; curve: with a coast-down curve; log: a "
-                 "driving log alone")
+                 "Simulated trials. tables (default): those of the model; curve: these, with a "
+                 "coast-down curve instead of stop times; log: only a driving log")
       ->check(one_of(names_in(kPlans)));
   sub.add_option("--method", words.method, "Estimator under test, as in identify")
       ->check(one_of(names_in(kMethodNames)));

@@ -119,8 +119,8 @@ void add_suggest(CLI::App& app, Session& session) {
   add_file(*sub, "--model", command.model, "model.json from identify")->required();
   sub->add_option("--parameter", command.parameter,
                   "Parameter to improve, or with --gains and --scenario one of the metrics "
-                  "heading_iae_degs, overshoot_deg, speed_drop_mps (default: all parameters, "
-                  "A-optimal)");
+                  "heading_iae_degs, overshoot_deg, speed_drop_mps (default: all parameters "
+                  "together)");
   add_file(*sub, "--gains", command.gains, "gains.json of the closed loop");
   add_file(*sub, "--scenario", command.scenario, "scenario.json of the closed loop");
   add_choice(*sub, "--mode", command.mode, kYawModeNames,

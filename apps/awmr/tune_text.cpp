@@ -17,8 +17,8 @@ std::string gains_line(const char* name, const Gains<double>& gains, double obje
       gains.heading.reaching_time_constant_s(), objective);
 }
 
-/// Describes the constraints whose limits keep the objective from improving (active constraints),
-/// and the ranges of gains with practically the same objective.
+/// Describes the active constraints, whose limits keep the objective from improving, and the ranges
+/// of mu and mu_s with practically the same objective.
 std::string active_text(const Tuning& tuning) {
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
@@ -28,7 +28,7 @@ std::string active_text(const Tuning& tuning) {
   return fmt::format(
       "  active limits  {}\n"
       "  equally good   mu {:.4g} to {:.4g} at the same mu/epsilon, mu_s {:.4g} to {:.4g} at the "
-      "same mu_s/eps_s (smallest used)\n",
+      "same mu_s/eps_s (the smallest are used)\n",
       held.empty() ? "none" : held, tuning.mu_as_good.lo, tuning.mu_as_good.hi,
       tuning.speed_mu_as_good.lo, tuning.speed_mu_as_good.hi);
 }

@@ -170,7 +170,8 @@ void add_model_options(CLI::App& sub, ValidateCommand& command) {
   add_file(sub, "--model", command.model, "model.json from identify")->required();
   add_file(sub, "--gains", command.gains, "gains.json: also check the claims on the closed loop");
   sub.add_option("--tolerance", command.validate.tolerance,
-                 "Largest accepted RMS relative error of a kind of trial (default 0.15)")
+                 "Largest accepted relative error (RMS) of the predictions for one kind of trial "
+                 "(default 0.15)")
       ->check(within(1e-9, 1e6));
 }
 

@@ -43,9 +43,11 @@ std::optional<Fault> beyond_bounds(const std::string& file, std::string_view tex
     if ((c == ']' || c == '}') && depth > 0) --depth;
     if (c == ',' || c == '[' || c == '{') ++values;
     if (depth > kMaxJsonDepth) {
-      return Fault{ErrorCode::kTooLarge, place_of(file, text, i),
-                   fmt::format("arrays and objects are nested more than {} deep; give another file",
-                               kMaxJsonDepth)};
+      return Fault{
+          ErrorCode::kTooLarge, place_of(file, text, i),
+          fmt::format("this is no file of awmr: its arrays and objects are nested more than "
+                      "{} deep; give another file",
+                      kMaxJsonDepth)};
     }
     if (values > kMaxJsonValues) {
       return Fault{

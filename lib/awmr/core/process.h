@@ -35,8 +35,8 @@ std::optional<std::filesystem::path> find_program(std::string_view name);
 /// Variables that would change the compiler's behaviour, such as CPATH, are left out.
 std::vector<std::string> plain_environment(const std::filesystem::path& temporary);
 
-/// Runs a program to its end or its time limit, with an empty stdin and without open files of this
-/// process. Then kills processes that the program has started and left running. Errors (input): the
+/// Runs a program to its end or its time limit. Its stdin is empty, and it inherits no open files
+/// of this process. Then kills processes that the program has started and left running. Errors (input): the
 /// program cannot be started.
 Result<ProgramEnd> run_program(const ProgramCall& call);
 

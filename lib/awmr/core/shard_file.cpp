@@ -31,7 +31,7 @@ PartOrigin read_part(const ShardKind& kind, JsonObject& json) {
       .version = json.string("version")};
   json.string(kHashKey);
   json.ignore("command");
-  json.ignore("stopped");  // of older files
+  json.ignore("stopped");  // only in files of older versions
   kind.read(json);
   json.reject_unknown_keys();
   return origin;

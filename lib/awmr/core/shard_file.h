@@ -40,8 +40,8 @@ struct Part {
 };
 
 /// Reads the parts in the directories, checks that they are all parts of one job, and returns them
-/// by shard index. Errors (input): a part that is missing or given twice; parts that
-/// differ in kind, program version, number of parts, options, inputs, arithmetic or payload.
+/// by shard index. Errors (input): a part that is missing or given twice; parts that differ in kind,
+/// program version, number of parts, options, inputs, arithmetic or payload.
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories);
 
@@ -67,8 +67,8 @@ Status check_items(const ShardKind& kind, const Part& part, std::string_view nam
 
 /// Merges the rows of all parts into the order that a job without shards has. `parts`: the rows of
 /// each part, by shard index. The rows of a part are one or more blocks; each block has all items
-/// of the part in order. `items`: number of items of the whole job.
-/// Errors (input): the parts have different numbers of blocks.
+/// of the part in order. `items`: number of items of the whole job. Errors (input): the parts have
+/// different numbers of blocks.
 template <class Row>
 Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items) {
   std::size_t rows = 0;

@@ -15,8 +15,8 @@ namespace {
 constexpr std::string_view kIntro =
     R"(/* awmr_autopilot_params.h, made by awmr {}: tables of the resistances, limits of the safety
    checks, values for the sketches, and a check sum. Values of the model and the gains are in
-   awmr_params.h. The check sum covers the tables, the safety limits and the controller's parameters of
-   both files: awmr_init() reports if one of them was edited. */
+   awmr_params.h. The check sum covers the tables, the safety limits and the controller's parameters
+   of both files: awmr_init() reports if one of them was edited. */
 #ifndef AWMR_AUTOPILOT_PARAMS_H
 #define AWMR_AUTOPILOT_PARAMS_H
 

@@ -1,4 +1,5 @@
-/// Calibration of a compass (magnetometer) whose ahead and left axes are level in the vehicle.
+/// Calibration of a compass (magnetometer) in a level vehicle, with two horizontal axes: one ahead
+/// and one to the left.
 #pragma once
 
 #include "awmr/core/interval.h"

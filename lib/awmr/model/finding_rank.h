@@ -15,7 +15,7 @@ enum class Effect {
   kContradiction,  ///< a file contradicts itself or another in units, signs or left and right
   kDoubt,          ///< any other warning
   kAssumption,     ///< a value that is not supported by data
-  kNote,           ///< information that does not change any number
+  kNote,           ///< any other note
 };
 
 /// The effect of a finding, by its severity and code. An error is kRefusal. A warning has the

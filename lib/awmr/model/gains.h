@@ -17,10 +17,10 @@ struct HeadingGains {
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
-  /// w0, rad/s, >= 0.02: friction width of the steering mode; used only with Coulomb friction in
-  /// yaw. The other modes have the width of Gains::friction_width_at().
+  /// w0, rad/s, >= 0.02: friction width of the steering mode (Gains::friction_width_at(), which also
+  /// gives that of the other modes). No effect without Coulomb friction in yaw.
   T friction_width_radps = feed_forward_rest_speed<T>();
-  /// Friction width of the combined mode, rad/s, >= 0.02, or 0: w0/2, but at least 0.02. Unused
+  /// Friction width of the combined mode, rad/s, >= 0.02. 0: the larger of w0/2 and 0.02. Not used
   /// with an observer.
   T combined_friction_width_radps = T(0.0);
 

@@ -45,7 +45,8 @@ Gains<double> gains_from_file(JsonObject& root) {
   for (const std::string_view key :
        {"command", "version", "mode", "options", "inputs", "time_constants", "constraints",
         "limits", "certificate", "trade_off", "examined", "objective", "metrics", "robust", "goals",
-        "search", "baseline", "findings", "sensitivity"}) {  // the last: of older files
+        "search", "baseline", "findings",
+        "sensitivity"}) {  // the last key: only in files of older versions
     root.ignore(key);
   }
   root.reject_unknown_keys();

@@ -1,7 +1,7 @@
-/// Names, in /estimates of model.json, of the vehicle and sensor errors that a fit of logs can
-/// estimate: steering trim, largest rate of the servo, imbalance of left and right motors,
-/// saturation of the forces, Stribeck friction, slope of the ground, delay, filter time constant,
-/// smoothing and wheel slip of a sensor.
+/// Names, in /estimates of model.json, of the effects that the model lacks and that a fit of logs
+/// can estimate: of the steering (trim, dead band, asymmetry, largest rate of the servo), of the
+/// motors (imbalance of left and right, nonlinear force), forces on the vehicle (Stribeck friction,
+/// slope of the ground, ...), and of the sensors (delay, filter, smoothing, wheel slip, mounting).
 #pragma once
 
 #include <array>
@@ -17,9 +17,10 @@ inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
-/// Stribeck friction and its speed scale, of the speed and of the yaw rate; acceleration by a
-/// slope; surge resistance in turns; excess of forces against the motion, of backward
-/// forces, and of the surge resistance backward.
+/// Further forces: Stribeck friction (larger friction at low speed) with its speed scale, in surge
+/// and in yaw; acceleration by a slope along x and y; additional surge resistance in turns, with
+/// its exponents; relative excess of forces against the motion (braking), of backward forces, and
+/// of the surge resistance in backward motion.
 inline constexpr std::array<std::string_view, 12> kExtraForceNames = {
     "surge.stribeck",
     "surge.stribeck_speed_mps",

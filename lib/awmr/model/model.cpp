@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// Value that Model::plant_as_known() uses for a parameter without a value.
+/// Number that Model::plant_as_known() puts in place of a missing value.
 double none_of(ParameterId id) {
   switch (id) {
     case ParameterId::kSurgeBeta:

@@ -51,7 +51,7 @@ struct Estimate {
                                     ///< determine it
   std::optional<double> std_error;  ///< in the same unit, > 0; absent for a given value, or with
                                     ///< too few data
-  std::optional<Interval> ci95;     ///< 95 % confidence interval; absent as `std_error`
+  std::optional<Interval> ci95;     ///< 95 % confidence interval; absent if `std_error` is
   Source source = Source::kGiven;
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
   /// Quantiles of the uncertainty if it is not normal about `value`: the ends of the 95 % interval,

@@ -123,7 +123,8 @@ void put_estimates(Json& json, const Model& model) {
   if (model.yaw_family != Family::kPower) json["yaw"]["family"] = name_of(model.yaw_family);
 }
 
-/// Writes /si: SI values for the user, computed from the rest of the file. They are not read back.
+/// Writes /si, the SI values for the user, which are computed from the rest of the file. The reader
+/// ignores them.
 void put_si(Json& json, const Model& model) {
   for (const SiQuantity& quantity : si_quantities(model)) {
     json["si"][Json::json_pointer(quantity.pointer)] =

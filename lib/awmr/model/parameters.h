@@ -53,7 +53,7 @@ inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";
 /// The table, in the order of ParameterId.
 const std::array<ParameterInfo, kParameterCount>& parameter_table();
 const ParameterInfo& info(ParameterId id);
-/// The parameter with this name ("surge.alpha"); none if there is none.
+/// The parameter with this name ("surge.alpha"); absent if no parameter has it.
 std::optional<ParameterId> parameter_by_name(std::string_view name);
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
 /// Consistency checks of a vehicle's numbers before any trial: implausible sizes, masses and
-/// angles, and the unit in which they were probably given. Plausible are:
+/// angles, and the unit in which they were probably given. The plausible ranges are:
 ///
 ///     mass over the footprint m/(length width)    1 to 5000 kg/m^2: from a toy to a mining truck
 ///     length over width                           1/5 to 10

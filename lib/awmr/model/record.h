@@ -13,7 +13,7 @@ namespace awmr {
 
 /// Severity of a finding.
 enum class Severity {
-  kNote,     ///< information: rows excluded, a choice that was made
+  kNote,     ///< information, for example about excluded rows or a choice that was made
   kWarning,  ///< doubtful: the result can be wrong
   kError,    ///< a request could not be fulfilled
 };

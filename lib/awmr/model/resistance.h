@@ -45,8 +45,8 @@ struct Resistance {
     using math::select;
     const T magnitude = abs(speed);
     if (!MaskOf<T>::kOneLane) {
-      // A batch has one vehicle per lane and therefore no branches. The quotient is the same in
-      // every step, so that the compiler can compute it once for several calls.
+      // A batch has one vehicle per lane and therefore no branches. The quotient 1/chord is the same
+      // in every step, so that the compiler can compute it once for several calls.
       const T chord = larger(rest_speed, T(1e-30));
       const T sign = select(speed < T(0.0), T(-1.0), T(1.0));
       const T share = select(magnitude < chord, T(speed * (T(1.0) / chord)), sign);

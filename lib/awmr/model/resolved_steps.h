@@ -97,9 +97,9 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Step step, M
   return blend(halved, end, from);
 }
 
-/// Makes one step of h seconds if fastest_rate() times h is at
-/// most kMaxRateTimesStep at both ends of the step; else two steps of half the length. Lanes
-/// outside `requested` are undefined.
+/// Makes one step of h seconds if fastest_rate() times h is at most kMaxRateTimesStep at both ends
+/// of the step; else two steps of half the length. The result is undefined in lanes outside of
+/// `requested`.
 template <class Body, class T, class Step>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution) {

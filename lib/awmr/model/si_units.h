@@ -26,8 +26,8 @@ struct SiQuantity {
 /// the quantiles of p and m'. There is no standard error if p or m' was estimated but the model has
 /// no covariance of it.
 ///
-/// F_max is the force of one of four wheels: if one motor drives both wheels of a side, its largest
-/// force is twice F_max.
+/// F_max is the largest force of one driven wheel: if one motor drives both wheels of a side, the
+/// largest force of this motor is twice F_max.
 std::vector<SiQuantity> si_quantities(const Model& model);
 
 }  // namespace awmr

@@ -6,7 +6,7 @@
 ///     logarithmic:  coordinate = ln value     d value / d coordinate = value
 ///
 /// Positive quantities have the logarithmic coordinate. The linear coordinate is for exponents,
-/// which have a fixed range, and for terms of a resistance family, which can be exactly zero.
+/// which have a fixed range, and for optional terms, which can be exactly zero.
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,8 @@ namespace awmr {
 
 enum class Scale { kLinear, kLogarithmic };
 
-/// Linear: the exponents b1 and b3, and the terms of only some families (Coulomb, quadratic, dead
-/// zone). Logarithmic: all other parameters.
+/// Linear: the exponents b1 and b3, and the optional terms (ParameterInfo::term: Coulomb, quadratic,
+/// dead zone, back-EMF). Logarithmic: all other parameters.
 inline Scale scale_of(ParameterId id) {
   const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
   return exponent || info(id).term ? Scale::kLinear : Scale::kLogarithmic;
