@@ -45,7 +45,7 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
       ->check(one_of(names_in(kMethodNames)));
   sub.add_option("--noise", words.noise,
                  "Quantity with the measurement error in the nonlinear fit: force, speed or time "
-                 "(default: time if every run was timed, else speed)")
+                 "(default with --method nonlinear: time if every run was timed, else speed)")
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,

@@ -89,8 +89,8 @@ Controller<float> float_controller(const Plant<double>& plant, const Model& mode
   return controller;
 }
 
-/// Returns the block without the shapes of the tables and the largest speeds, which depend on the
-/// tables.
+/// Returns the parameter block. The shapes of the resistance tables and the largest speeds are
+/// missing in it: add_tables() computes the tables, on which they depend.
 ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Gains<double>& gains,
                         const EmitOptions& options) {
   const auto estimate = [&](ParameterId id) { return single(*model[id].value); };

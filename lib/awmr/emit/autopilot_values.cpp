@@ -55,10 +55,12 @@ struct Autopilot {
     const double value = f(source.model.plant_as_known());
     if (!(value > 0.0) || !std::isfinite(value)) {
       return leave_out(name,
-                       "by the model, the motors do not overcome friction at its operating point");
+                       "according to the model, the motors do not overcome friction at the "
+                       "operating point of this parameter");
     }
     if (usual && !usual->contains(value)) {
-      derivation += fmt::format(", outside of the documented [{:g}, {:g}]", usual->lo, usual->hi);
+      derivation += fmt::format(", outside of [{:g}, {:g}], the range in the autopilot's manual",
+                                usual->lo, usual->hi);
     }
     ExportedValue one{.name = name,
                       .value = value,
@@ -78,7 +80,7 @@ struct Autopilot {
   }
 };
 
-constexpr const char* kNoGains = "it follows from the gains, which were not given (option --gains)";
+constexpr const char* kNoGains = "it is computed from gains, which were not given (option --gains)";
 constexpr const char* kNoMass = "the model lacks mass_norm";
 constexpr const char* kNoInertia = "the model lacks inertia_norm";
 constexpr const char* kNoYaw = "the model lacks the yaw law";

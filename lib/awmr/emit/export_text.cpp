@@ -117,7 +117,7 @@ std::string autopilot_text(std::string text, const AutopilotValues& found, const
 
 constexpr std::string_view kFirstDrive =
     "# Computed from the model, as initial values: drive first with the wheels lifted, then "
-    "slowly, with a hand on the switch.\n"
+    "slowly, with a hand on the power switch.\n"
     "# Intervals are from the model's covariance, to first order.\n";
 
 Result<std::string> ardupilot_text(const ExportSource& source) {

@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// Permitted range of a macro's value: > 0, >= 0, or any.
+/// Permitted range of a macro's value: above 0, at least 0, or any number.
 enum class MacroRange { kPositive, kNotNegative, kAnySign };
 
 struct Macro {

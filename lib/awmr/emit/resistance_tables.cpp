@@ -18,8 +18,8 @@ constexpr int kLowestExponent = -20;  ///< the first entry is at 2^-20 = 1e-6 m/
 constexpr int kMaxLines = 1024;       ///< per table: 8 KiB of flash
 constexpr int kSamplesPerCell = 64;
 
-/// Returns the straight line through the law at the speeds `from` and `to`. At 0 it goes through
-/// the origin, also if the law has Coulomb friction.
+/// Returns the straight line through the points of the law at the speeds `from` and `to`. If `from`
+/// is 0, the line begins at the origin, even if the law has Coulomb friction.
 ResistanceLine chord(const ResistanceLaw& law, double from, double to) {
   const double start = from > 0.0 ? law(from) : 0.0;
   const double slope = (law(to) - start) / (to - from);

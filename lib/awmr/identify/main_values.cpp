@@ -123,8 +123,8 @@ void set_given(const Vehicle& vehicle, Model& model) {
   if (vehicle.back_emf_s_per_m) {
     model[ParameterId::kBackEmf] = given(*vehicle.back_emf_s_per_m, "vehicle");
   }
-  // A vehicle without steering has no servo. Any fixed time constant keeps the fits from estimating
-  // one.
+  // A vehicle without steering has no servo. With a fixed time constant, whatever its value, no fit
+  // estimates one.
   constexpr double kAny_s = 1.0;
   model[ParameterId::kSteeringTimeConstant] =
       given(vehicle.has_steering() ? vehicle.steering_time_constant_s : kAny_s, "vehicle");

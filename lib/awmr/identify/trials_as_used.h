@@ -1,4 +1,5 @@
-/// Measured rows of the tables with their predictions, for the model file. Private to identify/.
+/// The rows of the trial tables, each with the model's prediction, for model.json. Private to
+/// identify/.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
-/// Data for the identification charts of the page and the figures: the curve through steady runs
-/// with its confidence band, residuals, and modelled coast-downs. Private to report/.
+/// Data for the charts of the identification, in the page and in the print figures: the curve
+/// through steady runs with its confidence band, residuals, and modelled coast-downs. Private to
+/// report/.
 #pragma once
 
 #include <cstddef>

@@ -50,7 +50,7 @@ Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   context.motor_time_constant_s = robust.number("motor_time_constant_s", kNonNegative);
   if (!(latest_s < (kMaxLatencySamples + 1e-9) * context.sample_time_s)) {
     robust.fault(ErrorCode::kTooLarge, "latency",
-                 "is longer than 20 sample times, more than awmr tune accepts; tune again");
+                 "is longer than 20 sample times, which awmr tune does not accept; tune again");
   }
   Draws draws{static_cast<int>(robust.integer("draws", 0, 1000)),
               static_cast<std::uint64_t>(robust.integer("seed", 0, 4'294'967'295L))};

@@ -85,7 +85,8 @@ Result<std::optional<Finding>> foreign_run(const std::filesystem::path& director
   return foreign;
 }
 
-/// Findings for the page, each once, those with the largest effect on the results first.
+/// The findings for the page, without repetitions, those with the largest effect on the results
+/// first.
 Json shown_findings(const std::vector<Finding>& findings) {
   std::vector<Finding> order;
   for (const Finding* finding : by_effect(findings)) {

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Largest number of rows that all runs together have in the page. A row takes about 100 bytes, and
-/// the page must be smaller than 3 MB.
+/// Maximum number of rows of all runs together, and of one run, in the page. A row takes about 100
+/// bytes, and the page must be smaller than 3 MB.
 constexpr std::size_t kMaxRows = 20000;
 constexpr std::size_t kMaxRowsOfRun = 1500;
 constexpr std::size_t kMinRowsOfRun = 100;

@@ -19,8 +19,8 @@ void add_curve_figures(EstimatorReport& report, const CoastFit& fit);
 /// standard errors (quantile of Student's t).
 EstimatorParameter by_logarithm(std::string name, double value, double error, double half);
 
-/// Estimates m'/a1, and those of b1, c1/a1 and q1/a1 that the family has, from coast-down curves
-/// alone. Family: the requested one; for `auto` the one with the smallest AICc; else the power law.
+/// Estimates m'/a1 and, if the family has them, b1, c1/a1 and q1/a1 from coast-down curves alone.
+/// Family: the requested one; for `auto` the one with the smallest AICc; else the power law.
 /// Returns `result` with these values and with the reason why m' itself is not identified. Without
 /// curves or a usable fit, it has only the reason.
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,

@@ -51,7 +51,7 @@ CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   return fit;
 }
 
-/// Those of b1, c1/a1 and q1/a1, the parameters of the curve g1/a1, that are free in a family.
+/// The free parameters of the curve g1/a1 in a family: b1, c1/a1 and q1/a1, as far as it has them.
 std::vector<TransformedParameter> shapes_of(Family family) {
   const FamilyTerms terms = terms_of(family);
   std::vector<TransformedParameter> shapes;
@@ -61,8 +61,8 @@ std::vector<TransformedParameter> shapes_of(Family family) {
   return shapes;
 }
 
-/// Initial guess of g1/a1: ln a1 = 0, b1 = 0.8 within its range (1 if fixed), and 0.1 for those of
-/// c1/a1 and q1/a1 that the family has.
+/// Initial guess of g1/a1: ln a1 = 0; b1 = 0.8, limited to its range, or 1 if the family fixes it;
+/// c1/a1 and q1/a1: 0.1 if the family has them, else 0.
 TransformedParameters start_of(Family family, const Interval& beta_range) {
   constexpr double kTermOverAlpha = 0.1;
   const FamilyTerms terms = terms_of(family);
@@ -127,7 +127,7 @@ CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit) {
   constexpr double kStandardErrors = 3.0;
-  constexpr double kShare = 0.5;  // of the predicted rise
+  constexpr double kShare = 0.5;  // smallest accepted rise, as a fraction of the predicted one
   const bool terms = surge.law().coulomb > 0.0 || surge.law().quadratic > 0.0;
   double best = 0.0;
   for (const std::vector<double>& run : fit.residuals) {

@@ -36,8 +36,8 @@ struct FittedLag {
 ///   u(t)^(1-b) = u0^(1-b) - (1-b) (a/m') t,   u = u0 exp(-(a/m') t) for b -> 1       [paper (58)]
 /// for a power law, with a = a1, b = b1 and the time t since motors-off; other families are
 /// integrated numerically. If the speed has passed a low-pass filter, the curve is that of its
-/// output. Each run has its own u0. A run whose record begins before motors-off
-/// also has its own time of motors-off.
+/// output. Each run has its own u0. A run whose record begins before motors-off also has its own
+/// time of motors-off.
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
   double variance = 0.0;       ///< variance of log_mass_norm by the noise of the curves alone
@@ -66,10 +66,10 @@ struct CoastFit {
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
                    const CoastStart& start);
 
-/// Checks the standard error of ln m' of a fit with a filter: the sum of squares at 3 standard
-/// errors from the optimum, minimised over the other parameters, must rise at least half as much as
-/// its curvature predicts. Returns ln m' and the filter of the lower one of both points if it does
-/// not.
+/// Checks the standard error of ln m' of a fit with a filter. With ln m' fixed at 3 standard errors
+/// below or above the optimum and the other parameters fitted, the sum of squares must rise by at
+/// least half of what its curvature at the optimum predicts. Empty if it does on both sides; else
+/// ln m' and the filter on the side with the smaller rise.
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit);
 

@@ -12,17 +12,18 @@
 namespace awmr {
 namespace {
 
-/// Difference of AICc that decides: the likelihoods differ by a factor of 150.
+/// Models whose AICc differ by less than this are close. At this difference, the likelihoods differ
+/// by a factor of 150.
 constexpr double kClose = 10.0;
 
 /// The data of all candidates.
 struct CoastData {
   const std::vector<CoastCurve>& curves;
   const SteadyFit& surge;
-  double sensor_mps = 0.0;  ///< white noise of the readings
+  double sensor_mps = 0.0;  ///< standard deviation of the readings' white noise
 };
 
-/// One model with its best parameters.
+/// A model of the curves, with or without a filter, and its best parameters.
 struct CoastCandidate {
   CoastStart at;
   ChannelNoise noise;
@@ -99,8 +100,8 @@ CoastStart fast_filter(const CoastData& data, const CoastStart& plain) {
           kFast * fall_time_s(data.curves, data.surge.law(), plain.log_mass)};
 }
 
-/// Fits a filter from two starts: a fast filter, and the optimum found from there with the filter
-/// and the motion exchanged. Returns the better fit first.
+/// Fits a filter from two starts: a fast filter, and the optimum found from there with the time
+/// constants of filter and motion exchanged. Returns the better fit first.
 std::vector<CoastCandidate> fit_filters(const CoastData& data, const CoastStart& plain) {
   CoastCandidate fast = fit_candidate(data, fast_filter(data, plain));
   const double found_s = fall_time_s(data.curves, data.surge.law(), fast.at.log_mass);
@@ -115,12 +116,16 @@ bool is_slow(const CoastStart& at, const CoastData& data) {
   return at.lag_s > fall_time_s(data.curves, data.surge.law(), at.log_mass);
 }
 
-/// Another m' and filter that describe the curves nearly as well as `best`, if any:
-///   - the other optimum, if its AICc is close and tyres can give its deceleration;
-///   - no filter in place of a slow one, if the residuals are correlated;
-///   - the optimum `best` if that under the surge law as given, `fixed`, has filter and motion
+/// Another m' and filter that describe the curves nearly as well as the reported ones, if any. The
+/// fit `fixed`, which is reported, starts at the optimum `best` and keeps the surge law as given.
+///   - `other`, the optimum from the other start, if its AICc is close and tyres can give its
+///     deceleration;
+///   - `plain`, without a filter, if the filter of `best` is slower than the motion and the
+///     residuals are correlated;
+///   - `best`, if `fixed` ended at another m' with the time constants of filter and motion
 ///     exchanged;
-///   - a value of ln m' at which the sum of squares is lower than its curvature predicts.
+///   - a point at which the sum of squares is lower than the standard error of ln m' predicts
+///     (flat_direction()).
 std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCandidate& other,
                                      const CoastCandidate& best, const CoastFit& fixed,
                                      const CoastData& data) {

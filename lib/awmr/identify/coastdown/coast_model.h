@@ -25,11 +25,11 @@ struct CoastModel {
   bool withdraws_intervals() const { return other || noise.overwhelms_sensor(longest_s); }
 };
 
-/// Fits the curves without and with a filter of the speed. The filter is kept if its AICc is lower
-/// by 4 or more, 10 for a filter slower than the motion, and its time constant significant (2
-/// standard errors). About 2 of 100 trials without a filter get one. The noise in AICc may have a
-/// drift, and the surge law may differ from `surge` at the cost of its likelihood, so that neither
-/// a disturbance nor an error of the law counts as a filter.
+/// Fits the curves without and with a filter of the speed. The filter is kept if it lowers AICc by
+/// at least 4, or 10 if it is slower than the motion, and if its time constant is above 2 standard
+/// errors. Of simulated trials without a filter, about 2 of 100 get one. For AICc, the noise may
+/// have a drift, and the surge law may differ from `surge` at the cost of its likelihood, so that
+/// neither a disturbance nor an error of the law counts as a filter.
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge);
 
 /// The finding `model-inadequate`, if there is a model error.

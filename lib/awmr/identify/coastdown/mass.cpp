@@ -133,8 +133,7 @@ std::optional<MassEstimate> by_curves(const SteadyFit& surge, const std::vector<
   if (fit.autocorrelated) {
     result.findings.push_back({file, 0, Severity::kNote, "coloured-residuals",
                                "neighbouring residuals of the coast-down are correlated, and the "
-                               "interval of mass_norm is "
-                               "wider for this reason"});
+                               "interval of mass_norm is wider for this reason"});
   }
   return estimate;
 }
@@ -308,8 +307,8 @@ Finding assumed_back_emf(const std::string& file) {
       file, 0, Severity::kNote, "back-emf-assumed",
       "mass_norm assumes that at a constant command the force of a motor does not fall with the "
       "speed. For voltage-driven motors that coast at a command of 0, m' is too large by the "
-      "factor "
-      "1 + 4 k_e u/g1. Set motor.back_emf_s_per_m (k_e) in the vehicle file (0 for motors with a "
+      "factor 1 + 4 k_e u/g1 (u: speed, g1: surge resistance over F_max). Set "
+      "motor.back_emf_s_per_m (k_e) in the vehicle file (0 for motors with a "
       "constant force), or identify it from a log with driven and coasting sections"};
 }
 

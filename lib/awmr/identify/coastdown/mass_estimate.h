@@ -37,7 +37,7 @@ MassEstimate from_curve(const CoastFit& fit);
 MassEstimate combined(const MassEstimate& a, const MassEstimate& b, const SteadyFit& surge);
 
 /// The warning `estimates-disagree` if the estimates a and b differ significantly (p < 0.01 by a
-/// two-sided normal test); else empty.
+/// two-sided normal test); else no finding.
 std::vector<Finding> disagreement(const MassEstimate& a, const MassEstimate& b,
                                   const SteadyFit& surge, const std::string& file);
 

@@ -302,8 +302,8 @@ ScrubPlan scrub_plan(const Model& model) {
   return plan;
 }
 
-/// The vehicle rolls without slip about a centre on the line of the rear axle, with a wheelbase of
-/// 2 l_f (tyres.h):
+/// Assumes that the vehicle rolls without slip about a centre on the line of the rear axle, with a
+/// wheelbase of 2 l_f (tyres.h):
 ///   r = u tan(d_r)/(2 l_f),   u r <= 0.2 g
 std::optional<CoastingTurn> coasting_turn(const Model& model) {
   const Vehicle& vehicle = model.vehicle;

@@ -29,8 +29,9 @@ struct ScrubPlan {
   std::string about;  ///< see Suggestion::about_scrub
 };
 /// Plans differential turns at 1/3, 2/3 and 1 times the highest measured yaw rate. The mean wheel
-/// force is that of straight driving at half the highest speed. Plans only the turns that the wheel
-/// forces reach at the smallest possible scrub.
+/// force is that of straight driving at half the highest speed of the surge trials; without these,
+/// the middle of the force range. Plans only the turns that the wheel forces reach at the smallest
+/// possible scrub.
 ScrubPlan scrub_plan(const Model& model);
 
 /// Plans the turn with motors off. Its speed is half of the highest speed of the surge trials or,

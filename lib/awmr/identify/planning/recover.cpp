@@ -1,4 +1,5 @@
-// Runs of `awmr recover`: simulates trials at the model's values and identifies them.
+// The runs of `awmr recover`: each simulates trials with the model's values and identifies a model
+// from them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -218,8 +219,8 @@ OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyO
   return run;
 }
 
-/// Simulates and identifies the runs of a part, in order. `progress` is called on this thread; its
-/// last call has the number of all runs of the part.
+/// Executes the runs of the part `shard`, in order: simulates the trials and identifies them.
+/// `progress` is called on this thread; its last call has the number of all runs of the part.
 std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOptions& options,
                                    const Shard& shard, const std::vector<RecoverTruth>& truths,
                                    const std::function<void(int)>& progress) {

@@ -18,8 +18,8 @@
 namespace awmr {
 namespace {
 
-/// Degrees of freedom of the yaw fit to a table. If g3 is from logs: 10,000, with which Student's t
-/// is nearly the normal distribution.
+/// Degrees of freedom of g3, the fitted yaw resistance: those of the fit to the table. If g3 is from
+/// logs: 10,000, with which Student's t is nearly the normal distribution.
 double degrees_of_law(const Model& model) {
   constexpr double kOfALog = 1e4;
   for (const EstimatorReport& report : model.record.reports) {

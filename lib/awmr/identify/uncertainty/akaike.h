@@ -6,10 +6,12 @@
 
 namespace awmr {
 
-/// Decrease of AIC above which another resistance family, or back-EMF, replaces the power law in a
-/// log fit, unless the user selects a family. Twice the usual threshold of 10, because near rest
-/// the simulation replaces the resistance, except Coulomb friction, by a straight line, which also
-/// changes the AIC. For coast-down curves it is the threshold of `power-law-inadequate`.
+/// Decrease of AIC above which a log fit uses another resistance family instead of the power law, or
+/// an extension of the model (back-EMF, Stribeck friction, another timing of the commands), unless
+/// the user selects one. Twice the usual threshold of 10, because near
+/// rest the simulation replaces the resistance, except Coulomb friction, by a straight line, which
+/// also changes the AIC. The finding `power-law-inadequate` of coast-down curves has the same
+/// threshold.
 inline constexpr double kFamilyAicThreshold = 20.0;
 
 /// AICc of a fit with n normal residuals, their sum of squares SSE and k = free + 1 estimated

@@ -61,7 +61,7 @@ function differences(parent, scenario) {
 function ranking(parent, scenario) {
   if (!scenario.ranking.length) return;
   table(parent, ["#rank", "mode", "#score relative to the first", "95 % interval", "#completed",
-    "#first by weights", "#first by samples"],
+    "#first, share of weightings", "#first, share of samples"],
     scenario.ranking.map((r) => [r.rank,
       modeCell(r.mode, r.tied_with.length ? `, tied with ${r.tied_with.join(", ")}` : ""),
         digits(r.score), interval(r.behind_ci95),

@@ -120,7 +120,7 @@ function estimatorsTable(parent, estimates) {
   small(box, "The paper's log-linear fit assumes errors on the logarithm of the force. But the " +
     "force is a command, which is exact; the time is measured.");
   table(box, ["of", "estimator", "noise on", "estimates", "#AICc", "#residual std", "#rows",
-    "stopped because"], estimates.map((r) => [r.subject,
+    "why the search stopped"], estimates.map((r) => [r.subject,
     [r.estimator, r.family].filter(Boolean).join(", "), r.noise,
       r.parameters.map((p) =>
         `${p.name} ${digits(p.value)} ± ${digits(p.std_error, 2)}`).join("; "),

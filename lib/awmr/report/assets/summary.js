@@ -17,8 +17,9 @@ function gainsTable(parent, gains) {
   table(parent, shown, rows.map((r) => r.slice(0, shown.length)), (k, i) => k === 0 && i > 0
     && i < 6);
   write(add(parent, "p", undefined, {class: "small"}),
-    "lambda: slope of the sliding surface, T1 = 1/lambda. mu: reaching gain. " +
-    "epsilon: boundary layer, T2 = epsilon/(2 mu). mu_s, epsilon_s: the same for the speed law.");
+    "lambda: slope of the sliding surface, T1 = 1/lambda. mu: largest corrective acceleration. " +
+    "epsilon: half width of the boundary layer, T2 = epsilon/(2 mu). mu_s, epsilon_s: the same for " +
+    "the speed law.");
   if (observer) {
     small(parent, `With a disturbance observer of ${digits(observer.bandwidth_radps)} rad/s, ` +
       `which compensates up to ` +
@@ -35,8 +36,8 @@ function nextSteps(data) {
     steps.push("Record the trial that the finding “not-identifiable” names: the model is " +
       "incomplete.");
   }
-  if (data.header) steps.push("Include awmr_params.h (next to this page) in your sketch, or let awmr " +
-    "emit write a sketch with the controller.");
+  if (data.header) steps.push("Include awmr_params.h (next to this page) in your sketch, or use " +
+    "the sketches with the controller that awmr emit writes.");
   if (!gains) steps.push("Tune gains: awmr tune.");
   if (!data.pil && gains) steps.push("Run the firmware on the emulated chip before it drives: " +
     "awmr pil, with its result as pil.json next to this page.");

@@ -2,12 +2,12 @@
 const symbols = new Map(Object.entries({
   lambda: ["λ", "lambda, 1/s: slope of the sliding surface. On it, the heading error decays with " +
     "T1 = 1/λ"],
-  mu: ["μ", "mu, rad/s²: reaching gain of the heading law, the angular acceleration towards the " +
-    "surface"],
-  epsilon: ["ε", "epsilon, rad/s: boundary layer. Within it, the heading law is linear and does " +
-    "not chatter"],
-  mu_s: ["μₛ", "mu_s, m/s²: reaching gain of the speed law"],
-  epsilon_s: ["εₛ", "epsilon_s, m/s: boundary layer of the speed law"],
+  mu: ["μ", "mu, rad/s²: largest corrective yaw acceleration, with which the heading law drives " +
+    "towards the sliding surface"],
+  epsilon: ["ε", "epsilon, rad/s: half width of the boundary layer. In it, the heading law is " +
+    "linear and does not chatter"],
+  mu_s: ["μₛ", "mu_s, m/s²: largest corrective acceleration of the speed law"],
+  epsilon_s: ["εₛ", "epsilon_s, m/s: half width of the speed law's boundary layer"],
   T1: ["T1", "T1 = 1/λ: time constant of the heading error on the sliding surface"],
   T2: ["T2", "T2 = ε/(2 μ): time constant with which the sliding surface is reached; below T1"],
   delta: ["δ", "delta: steering angle of the front wheels, left positive"],

@@ -1,6 +1,6 @@
 /// Input of the page's interactive part (live.cpp, WebAssembly) as a list of numbers. `awmr report`
-/// writes the list from model.json and gains.json. The interactive part reads it with the same
-/// code. Private to report/.
+/// writes the list from model.json and gains.json, and the interactive part reads it; both visit
+/// the numbers in the order of visit_numbers(). Private to report/.
 #pragma once
 
 #include <vector>
