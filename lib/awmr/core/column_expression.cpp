@@ -35,7 +35,7 @@ bool continues_name(char c) { return begins_name(c) || is_digit(c) || c == '.'; 
 struct Formula {
   std::vector<std::string> names = {};  ///< columns, in order of first use
   std::string text = {};                ///< the rewritten formula
-  /// One entry for each bracket that is still open: true if it encloses a function's arguments.
+  /// One entry for each bracket that is not closed yet: true if it encloses a function's arguments.
   std::vector<bool> open = {};
 };
 

@@ -1,4 +1,5 @@
-/// Reduces a time series to the rows that its chart needs, and rounds the numbers. Not installed.
+/// Reduces a time series to the rows that its chart needs, and rounds numbers for charts. Not
+/// installed.
 #pragma once
 
 #include <cstddef>

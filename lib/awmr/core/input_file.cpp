@@ -10,7 +10,7 @@
 namespace awmr {
 namespace {
 
-/// Hashes of the bytes last read from each file, by the path that the user gave.
+/// For each file, by the path that the user gave, the hash of the bytes that were last read from it.
 class Notes {
  public:
   void put(const std::string& path, std::string sha256) {

@@ -6,10 +6,10 @@
 namespace awmr {
 namespace {
 
-/// Recorded in place of the keys of an object with arbitrary keys.
+/// Key that stands for all keys of an object with arbitrary keys.
 constexpr std::string_view kAnyKey = "*";
 
-/// True if the run `way` uses all of these names; `picks` is as Way::picks.
+/// True if in the run `way` the choices have the names `picks` (Way::picks).
 bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   return std::all_of(picks.begin(), picks.end(), [&](const auto& pick) {
     const auto taken = way.picks.find(pick.first);

@@ -18,7 +18,7 @@
 
 namespace awmr {
 
-/// Settings of one run of the reader: which keys a document would have in this run.
+/// Settings of one run of the reader: the kind of document that the run assumes.
 struct Way {
   bool present = true;  ///< true: all optional keys are present; false: none is
   /// Index of the name that each JsonObject::choice() returns, by the choice's JSON pointer. A

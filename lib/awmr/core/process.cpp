@@ -26,8 +26,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kOutputBytes = 65536;
 constexpr int kPoll_ms = 20;
 
-/// Programs that run_program() waits for, by process group. `may_start` is false after
-/// end_running_programs().
+/// Process groups of the programs that run_program() waits for. After end_running_programs(),
+/// `may_start` is false, and no further program is started.
 std::mutex running_mutex;
 std::set<pid_t> running;
 bool may_start = true;

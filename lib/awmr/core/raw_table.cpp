@@ -279,7 +279,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     faults.push_back({ErrorCode::kTooFewData, fmt::format("{}:{}:1", parts.file, parts.header_line),
                       sparse ? "no row has a value of a command or measurement; record these "
                                "signals, or map other columns"
-                             : "there are no rows below the header"});
+                             : "there are no rows below the header; add at least one"});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   return CsvTable(std::move(parts));

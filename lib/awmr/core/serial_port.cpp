@@ -58,7 +58,9 @@ Result<Descriptor> open_serial_port(const std::filesystem::path& path, unsigned 
   }
   ::fcntl(port.number(), F_SETFL, ::fcntl(port.number(), F_GETFL) & ~O_NONBLOCK);
   AWMR_ASSIGN_OR_RETURN(const bool raw, make_raw(port.number(), baud));
-  if (!raw) return input_error(ErrorCode::kWrongFile, path.string(), "this is not a serial port");
+  if (!raw)
+    return input_error(ErrorCode::kWrongFile, path.string(),
+                       "this is not a serial port; give one, such as /dev/ttyUSB0");
   return port;
 }
 

@@ -142,14 +142,18 @@ Status check_macros(const std::vector<Macro>& macros) {
     if (!is_zero_or_normal_float(macro.value)) {
       faults.push_back({ErrorCode::kOutOfRange, macro.place,
                         fmt::format("{} = {:g} does not fit a 32-bit float, whose "
-                                    "magnitudes go from 1.18e-38 to 3.40e+38",
+                                    "magnitudes go from 1.18e-38 to 3.40e+38; correct it",
                                     macro.name, macro.value)});
     } else if (macro.range == MacroRange::kPositive && macro.value <= 0.0) {
       faults.push_back({ErrorCode::kOutOfRange, macro.place,
-                        fmt::format("{} = {:g} has to be above 0", macro.name, macro.value)});
+                        fmt::format("{} = {:g} has to be above 0; correct it, or make this file "
+                                    "again",
+                                    macro.name, macro.value)});
     } else if (macro.range == MacroRange::kNotNegative && macro.value < 0.0) {
       faults.push_back({ErrorCode::kOutOfRange, macro.place,
-                        fmt::format("{} = {:g} may not be below 0", macro.name, macro.value)});
+                        fmt::format("{} = {:g} may not be below 0; correct it, or make this file "
+                                    "again",
+                                    macro.name, macro.value)});
     }
   }
   if (!faults.empty()) return input_errors(std::move(faults));

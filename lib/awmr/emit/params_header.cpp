@@ -108,12 +108,15 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
   std::vector<Fault> faults;
   if (!(static_cast<float>(vehicle.wheel_force.lo) < static_cast<float>(vehicle.wheel_force.hi))) {
     faults.push_back({ErrorCode::kWrongOrder, file_name(model) + ":/vehicle/wheel_force",
-                      fmt::format("min = {:g} has to be below max = {:g}", vehicle.wheel_force.lo,
-                                  vehicle.wheel_force.hi)});
+                      fmt::format("min = {:g} has to be below max = {:g}; correct vehicle.json and "
+                                  "identify again",
+                                  vehicle.wheel_force.lo, vehicle.wheel_force.hi)});
   }
   if (!(static_cast<float>(radians(vehicle.steering_max_deg)) < 1.57079633F)) {
     faults.push_back({ErrorCode::kOutOfRange, file_name(model) + ":/vehicle/steering/max_deg",
-                      fmt::format("{:g} deg has to be below 90 deg", vehicle.steering_max_deg)});
+                      fmt::format("{:g} deg has to be below 90 deg; correct vehicle.json and "
+                                  "identify again",
+                                  vehicle.steering_max_deg)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
 

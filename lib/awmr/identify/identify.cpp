@@ -48,9 +48,11 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
                      const IdentifyOptions& options) {
   for (const ParameterId id : options.requested) {
     if (has(vehicle, id) || options.requested_all) continue;
-    return input_error(ErrorCode::kUnsupported, option_text("fit"),
-                       fmt::format("a vehicle with drive \"{}\" has no steering, so it has no {}",
-                                   name_in(kDriveNames, vehicle.drive), info(id).name));
+    return input_error(
+        ErrorCode::kUnsupported, option_text("fit"),
+        fmt::format("a vehicle with drive \"{}\" has no steering, so it has no {}; request "
+                    "other parameters",
+                    name_in(kDriveNames, vehicle.drive), info(id).name));
   }
   AWMR_RETURN_IF_ERROR(check_back_emf(vehicle, data, options));
   if (data.surge && vehicle.driven_wheels() != 4 &&

@@ -308,7 +308,8 @@ std::vector<Fault> self_contradictions(const Model& model) {
     if (!estimate.value || !estimate.ci95 || estimate.ci95->contains(*estimate.value)) continue;
     faults.push_back(
         {ErrorCode::kContradiction, fmt::format("{}:{}/ci95", model.file, parameter.pointer),
-         fmt::format("[{:g}, {:g}] does not contain the value {:g}; write null for no interval",
+         fmt::format("[{:g}, {:g}] does not contain the value {:g}; identify again, or write null "
+                     "for no interval",
                      estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
   }
   add_vehicle_contradictions(model, faults);
@@ -323,7 +324,7 @@ std::vector<Fault> self_contradictions(const Model& model) {
     }
     faults.push_back({ErrorCode::kContradiction, model.file + ":/covariance",
                       fmt::format("the variance of {} is {:g}, which is not the square of its "
-                                  "std_error {:g}",
+                                  "std_error {:g}; identify again",
                                   parameter.name, variance, *std_error)});
   }
   return faults;

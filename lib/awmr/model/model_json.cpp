@@ -90,14 +90,16 @@ void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& 
     if (!(m[i][i] >= 0.0)) {
       json.fault(
           ErrorCode::kOutOfRange, "matrix",
-          fmt::format("the variance [{0}][{0}] is {1}; it must not be negative", i, m[i][i]));
+          fmt::format("the variance [{0}][{0}] is {1}, but a variance is not negative; identify "
+                      "again",
+                      i, m[i][i]));
     }
     for (std::size_t j = 0; j < i; ++j) {
       const double scale = std::max(std::abs(m[i][j]), std::abs(m[j][i]));
       if (std::abs(m[i][j] - m[j][i]) > kSymmetryTolerance * scale) {
         json.fault(ErrorCode::kContradiction, "matrix",
                    fmt::format("the matrix must be symmetric, but [{0}][{1}] is {2} and "
-                               "[{1}][{0}] is {3}",
+                               "[{1}][{0}] is {3}; identify again",
                                i, j, m[i][j], m[j][i]));
       }
     }
@@ -116,7 +118,7 @@ EstimatorParameter parameter_from_json(JsonObject json) {
   parameter.name = json.string("name");
   if (!parameter.name.empty() && !is_estimated_name(parameter.name)) {
     json.fault(ErrorCode::kUnknownName, "name",
-               fmt::format("no parameter is called '{}'", parameter.name));
+               fmt::format("no parameter is called '{}'; identify again", parameter.name));
   }
   parameter.value = json.nullable_number("value").value_or(kNaN);
   parameter.std_error = json.nullable_number("std_error", kNonNegative);
@@ -257,7 +259,7 @@ Covariance covariance_from_json(JsonObject json) {
     const auto id = parameter_by_name(name);
     if (!id) {
       json.fault(ErrorCode::kUnknownName, "parameters",
-                 fmt::format("no parameter is called '{}'", name));
+                 fmt::format("no parameter is called '{}'; identify again", name));
     } else if (std::count(names.begin(), names.end(), name) > 1) {
       json.fault(ErrorCode::kGivenTwice, "parameters",
                  fmt::format("'{}' is listed twice; remove one", name));

@@ -26,8 +26,8 @@ Interval beta_range_from_json(JsonObject& json, std::string_view key, Interval a
                            range.lo, range.hi));
   } else if (range.hi > kExponent.max) {
     json.fault(ErrorCode::kOutOfRange, key,
-               fmt::format("an exponent is at most {}, found [{}, {}]", kExponent.max, range.lo,
-                           range.hi));
+               fmt::format("found [{1}, {2}], but an exponent is at most {0}; lower the upper end",
+                           kExponent.max, range.lo, range.hi));
   } else if (range.lo == range.hi) {
     json.fault(ErrorCode::kWrongOrder, key,
                fmt::format("the lower end must be below the upper end, found [{}, {}]", range.lo,

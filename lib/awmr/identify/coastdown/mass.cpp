@@ -286,9 +286,11 @@ void add_joint(const SteadyProblem& surge, const SteadyFit& law,
   if (fit.coast.usable) {
     result.joint = std::move(fit);
   } else {
-    result.findings.push_back(
-        {curves.front().file, 0, Severity::kWarning, "not-converged",
-         "the joint fit of the surge runs and the coast-down failed: " + fit.coast.stop_reason});
+    result.findings.push_back({curves.front().file, 0, Severity::kWarning, "not-converged",
+                               "the joint fit of the surge runs and the coast-down failed, so the "
+                               "values are those of the "
+                               "separate fits: " +
+                                   fit.coast.stop_reason});
   }
 }
 
