@@ -72,7 +72,8 @@ std::vector<Explanation> explanations() {
   return all;
 }
 
-/// Breaks a text into lines of at most `width` bytes, all but the first indented.
+/// Breaks a text into lines of at most `width` bytes. All lines but the first begin with `indent`
+/// spaces.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
   std::string result;
   std::size_t column = indent;

@@ -1,4 +1,4 @@
-/// Command-line options of a fit, shared by `identify` and `live`; `validate` shares
+/// Command-line options of a fit, shared by `identify` and `live`. `validate` uses only
 /// add_end_options().
 #pragma once
 

@@ -11,7 +11,7 @@
 
 namespace awmr::cli {
 
-/// Which kinds of progress display are enabled.
+/// The kinds of progress display that are enabled.
 struct ProgressManner {
   bool on_terminal = true;  ///< a redrawn line on a terminal; false with `--quiet`
   bool in_lines = true;     ///< lines of `live` without a terminal; false with `--quiet`, `--json`

@@ -20,8 +20,8 @@
 #pragma GCC diagnostic ignored "-Wattributes"
 #endif
 
-/// A function that an AVR compiler must not inline, and must optimise for size: for functions
-/// without tight time limits.
+/// Attribute of a function that an AVR compiler must not inline and must optimise for size: for
+/// functions without tight time limits.
 #ifdef __AVR__
 #define AWMR_CALLED __attribute__((noinline, optimize("Os")))
 /// As AWMR_CALLED, for member functions. They must also not be cloned for one object: code with

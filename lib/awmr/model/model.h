@@ -131,7 +131,7 @@ struct Model {
   /// trial that identifies it.
   Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
 
-  /// The plant for all motions that the trials in the record measured. Errors: as plant().
+  /// The plant for all motions that the trials in `record` have measured. Errors: as plant().
   Result<Plant<double>> plant_of_trials() const;
 
   /// The plant without checks. Parameters without a value are replaced: a resistance by 0, an
@@ -139,8 +139,8 @@ struct Model {
   /// contain these parameters.
   Plant<double> plant_as_known() const;
 
-  /// The most general motion for which the model can be simulated: kStraight if a parameter of
-  /// turning is unknown.
+  /// The most general motion for which the model can be simulated: kPlanar, or kStraight if one of
+  /// its parameters has no value.
   Motion simulated_motion() const;
 };
 

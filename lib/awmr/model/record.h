@@ -85,7 +85,7 @@ struct Diagnostic {
 /// The estimates without one row of a table.
 struct LeaveOneOut {
   std::string file;
-  int line = 0;                ///< 0: a whole log, in older files
+  int line = 0;                ///< 0 in files of older versions: a log that was left out as a whole
   std::vector<double> values;  ///< in the order of EstimatorReport::parameters
 };
 

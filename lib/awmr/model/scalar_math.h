@@ -10,14 +10,15 @@
 #include "awmr/model/float_bearing.h"
 #include "awmr/model/float_math.h"
 
-/// A helper that is always inlined on the chip (the AVR microcontroller of the firmware).
+/// Attribute of a helper that is always inlined on the chip (the AVR microcontroller of the
+/// firmware).
 #ifdef __AVR__
 #define AWMR_NO_CALL inline __attribute__((always_inline))
 #else
 #define AWMR_NO_CALL inline
 #endif
 
-/// A template that is rarely called and must not be inlined.
+/// Attribute of a function template that is rarely called: it is not inlined into its callers.
 #define AWMR_COLD __attribute__((noinline, cold))
 
 namespace awmr {

@@ -13,10 +13,11 @@
 namespace awmr {
 namespace {
 
-/// Computes d x / d theta for the free coordinates theta of the surge law. J is the Jacobian of the
-/// residuals e by x: ln m', the filter if there is one, and the initial states. At the optimum
-/// J^T e = 0 for every theta, so d x/d theta = -J^+ d e/d theta. The dead zone has no effect:
-/// motors off.
+/// Computes d x / d theta: how the fitted numbers x (ln m', the filter's time constant if there is
+/// a filter, and the initial states) change with the free coordinates theta of the surge law, which
+/// the fit keeps fixed. J is the Jacobian of the residuals e by x. At the optimum J^T e = 0 for
+/// every theta, so to first order d x/d theta = -J^+ d e/d theta. The dead zone has no effect,
+/// because the motors are off.
 std::optional<Eigen::MatrixXd> by_surge_law(CoastProblem& problem, const Eigen::MatrixXd& j,
                                             const SteadyFit& surge) {
   Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(j.cols(), rows_of(surge.free));

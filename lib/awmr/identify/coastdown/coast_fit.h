@@ -27,8 +27,8 @@ struct TermOverAlpha {
 /// Time constant T of a low-pass filter that the speed of the curves has passed.
 struct FittedLag {
   double value_s = 0.0;
-  double variance = 0.0;     ///< by the noise of the curves alone
-  Eigen::VectorXd by_surge;  ///< d T / d theta, as CoastFit::by_surge
+  double variance = 0.0;     ///< variance of T, s^2, by the noise of the curves alone
+  Eigen::VectorXd by_surge;  ///< d T / d theta, theta as in CoastFit::by_surge
 };
 
 /// Fit of coast-down curves to

@@ -1,5 +1,5 @@
-/// Whether the speed of coast-down curves has passed a low-pass filter, and whether the model
-/// describes the curves. Private to identify/.
+/// Decides whether the speed of coast-down curves has passed a low-pass filter, and whether the
+/// model describes the curves. Private to identify/.
 #pragma once
 
 #include <optional>

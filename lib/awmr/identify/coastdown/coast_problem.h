@@ -44,7 +44,7 @@ class CoastProblem {
   double* block(TransformedParameter c) { return &theta_[at(c)]; }
   double* log_mass() { return &at_.log_mass; }
   double* lag_s() { return &at_.lag_s; }
-  /// ln m', and T if there is a filter.
+  /// Parameter blocks of ln m' and, if there is a filter, of its time constant T.
   std::vector<double*> own_blocks();
   const TransformedParameters& theta() const { return theta_; }
 

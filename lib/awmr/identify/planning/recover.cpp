@@ -128,7 +128,7 @@ double top_speed_mps(const Model& model) {
   return top;
 }
 
-/// Errors of the rows of the simulated tables. Errors (input): those of row_error().
+/// Measurement errors that the rows of the simulated tables get. Errors (input): as row_error().
 Result<RowNoise> noise_of(const Model& model, const TablePlan& plan,
                           const RecoverOptions& options) {
   constexpr double kStopWatch_s = 0.02;

@@ -93,8 +93,8 @@ struct Suggestion {
 /// with the derivatives J of its measurements by the coordinates, and the inverse variances W of
 /// its errors. A parameter without a value is reported as missing, and trials that measure it are
 /// not ranked. Errors (input): every parameter of the model was given, so that no trial can improve
-/// it; the target is unknown or has no value; the effect of a trial is not finite; that of
-/// check_replay().
+/// it; the target is unknown or has no value; the effect of a trial is not finite; a time constant
+/// that is too short for check_replay().
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// Content of suggest.json.

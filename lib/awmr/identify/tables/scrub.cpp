@@ -145,7 +145,8 @@ std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& mod
   return range_of(ends);
 }
 
-/// Differential turns in which the vehicle stood still. `force` excludes the wheels' dead zone.
+/// Differential turns in which the vehicle stood still. SteadyPoint::force is their yaw moment after
+/// subtracting the wheels' dead zone.
 std::vector<SteadyPoint> standing_turns(const TrialSet<TurningRow>& turning, const Model& model) {
   return turning_points(turning.standing, *model[ParameterId::kWheelDeadZone].value);
 }

@@ -48,7 +48,8 @@ async function liveModule(packed, numbers) {
   };
 }
 
-/// The gains as JSON for --gains. `observer`: the tuned observer, if there is one.
+/// The gains as JSON for --gains. `observer`: the tuned observer, if there is one, from which the
+/// limits are taken.
 function gainsDocument(s, observer) {
   const gains = {schema: "awmr.gains/1", heading: {lambda: s.lambda, mu: s.mu, epsilon: s.epsilon},
     speed: {mu: s.speed_mu, epsilon: s.speed_epsilon}};
