@@ -157,7 +157,7 @@ struct CompareCommand {
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
   PlantChoice plant = {.checks_other = true};
-  ShardChoice shard = {};  ///< set if `--shard` was given; then equal to `compare.shard`
+  ShardChoice shard = {};  ///< the part of `--shard`, the same as in `compare`; empty: all runs
   InputNames names = {};
 };
 Result<Outcome> execute(const CompareCommand& command);

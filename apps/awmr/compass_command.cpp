@@ -26,7 +26,7 @@ std::string summary_of(const CompassCalibration& c) {
          line_of("centre left", c.centre_left, "") +
          line_of("gain ahead", c.gain_ahead, "soft iron") +
          line_of("gain cross", c.gain_cross, "") + line_of("gain left", c.gain_left, "") +
-         line_of("field", c.field, "strength in the plane") +
+         line_of("field", c.field, "strength of the horizontal field") +
          fmt::format(
              "  turned {:.0f} deg; largest angle without a measurement {:.1f} deg\n"
              "  heading error of the fit {:.2f} deg (95 %); residuals {:.2f} % of the "

@@ -25,7 +25,7 @@ struct Outcome {
   std::string summary = {};  ///< text for stdout: results first, at most one screen
   /// printed below the summary with `--verbose`; the output files contain the same numbers
   std::string details = {};
-  std::string closing = {};            ///< last line of the output: the files written
+  std::string closing = {};            ///< last line of the output, which names the files written
   std::string brief = {};              ///< short summary that `run` prints instead
   std::vector<Finding> findings = {};  ///< printed on stderr
   bool refused = false;                ///< true: the command ran, with a negative result (exit code

@@ -143,8 +143,8 @@ Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
       "Correct vehicle.json and identify again, or give " + option_text("as-is"));
 }
 
-/// Warns of weak gains, and reports the accuracy of the resistance tables (not with powf, which
-/// needs none).
+/// Warns of weak gains, and reports the accuracy of the resistance tables. With powf there are no
+/// tables.
 Status add_parameters(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
                       const EmitCommand& command, Outcome& outcome) {
   AWMR_ASSIGN_OR_RETURN(const auto parameters,
@@ -227,7 +227,7 @@ void add_emit(CLI::App& app, Session& session) {
   add_file(*sub, "--gains", command->gains, "gains.json from tune")->required();
   sub->add_flag("--header-only", command->header_only,
                 "Write only awmr_params.h, without the library");
-  sub->add_flag("--as-is", command->as_is, "Accept contradictory vehicle sizes");
+  sub->add_flag("--as-is", command->as_is, "Accept implausible dimensions of the vehicle");
   add_emit_options(*sub, command->emit);
   add_line_law(*sub, command->emit);
   add_output_directory(*sub, command->output, "Directory for awmr_params.h and the library");

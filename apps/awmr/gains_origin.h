@@ -16,9 +16,9 @@ namespace awmr::cli {
 /// Adds a warning if the gains were tuned for another model or another mode.
 /// `gains-of-another-model`: the gains file lists the SHA-256 of its inputs, and that of the model
 /// is not among them. `gains-of-another-mode`: the gains were tuned for one mode and are used in
-/// another. `mode`: the mode in which they are used; absent: all modes. Gains written by hand list
-/// no inputs and have no finding; nor has a pipe, which can be read only once. Errors: as
-/// read_json_file().
+/// another. `mode`: the mode in which they are used; absent: all modes. No warning for gains that
+/// were written by hand, because they list no inputs, and for gains from a pipe, which can be read
+/// only once. Errors: as read_json_file().
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings, std::optional<YawMode> mode = {});
 

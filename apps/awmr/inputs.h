@@ -20,11 +20,11 @@ inline constexpr const char* kColumnHelp =
     "(V*0.2778), from several ((left + right)/2*0.1; names with other characters in backticks) "
     "or from a constant (steering_deg=0); may be repeated";
 
-/// Names of input files in output files, by the path of the input file.
+/// The names with which output files list their input files, by the path of the input file.
 using InputNames = std::map<std::filesystem::path, std::string>;
 
-/// Returns for each path its name relative to the project file's directory, as the project file has
-/// it.
+/// Returns for each path its name relative to the directory of the project file, as in the project
+/// file itself.
 InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project);
 

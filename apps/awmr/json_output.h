@@ -23,11 +23,13 @@ struct JsonResult {
   std::string document = {};  ///< JSON content of the output file; empty: none
 };
 
-/// `{"schema", "command", "version", "exit_code", "written", "findings", "result"}`; findings as in
-/// model.json, `result` is the document or null.
+/// Text of the object `{"schema", "command", "version", "exit_code", "written", "findings",
+/// "result"}`. The findings are as in model.json; `result` is JsonResult::document, or null if that
+/// is empty.
 std::string result_text(const JsonResult& result);
 
-/// `{"schema", "version", "exit_code", "errors": [{"code", "place", "message"}]}` with all faults.
+/// Text of the object `{"schema", "version", "exit_code", "errors": [{"code", "place",
+/// "message"}]}`, with one entry of `errors` for each fault.
 std::string error_text(const Error& error);
 
 // JSON Schemas of the objects of result_text() and error_text().

@@ -168,11 +168,13 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   outcome.findings.insert(outcome.findings.end(), damaged.begin(), damaged.end());
   if (command.until_enough && !has_enough(last)) {
     outcome.refused = true;
-    outcome.findings.push_back({"", 0, Severity::kError, "not-enough",
-                                fmt::format("{} before every half width of a 95 % interval was "
-                                            "within {:g} %: {}",
-                                            name_in(kLiveEndWords, followed.end),
-                                            100.0 * command.enough, widths_text(last))});
+    outcome.findings.push_back(
+        {"", 0, Severity::kError, "not-enough",
+         fmt::format("the recording ended ({}) before every half width of a 95 % "
+                     "interval was within {:g} %: {}. Record a longer drive, with "
+                     "the trials that awmr suggest lists",
+                     name_in(kLiveEndWords, followed.end), 100.0 * command.enough,
+                     widths_text(last))});
   }
   return outcome;
 }

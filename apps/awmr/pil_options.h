@@ -44,11 +44,11 @@ enum class Injection {
   kCompassFrozen,      ///< raw values repeat
   kCompassJump,        ///< offset of 57 deg
   kCompassStuck,       ///< the heading at the start of the failure is kept, with noise
-  kGyroSilent,         ///< no raw value
+  kGyroSilent,         ///< no reading arrives
   kGyroFrozen,         ///< raw value repeats
   kGyroRange,          ///< the sensor switches to another measuring range
   kGyroDrift,          ///< offset of 8.6 deg/s
-  kGpsSilent,          ///< no sentence
+  kGpsSilent,          ///< no sentence arrives
   kGpsNoFix,           ///< sentences without a fix
   kGpsEmpty,           ///< sentences with empty fields
   kGpsDamaged,         ///< sentences with a wrong checksum
@@ -64,11 +64,11 @@ enum class Injection {
   kServoReversed,      ///< the servo turns the wrong way
   kCompassTurning,     ///< the measured heading drifts by 2.5 deg/s
   // Failures of the operator's line, read as the sketches do (control/command_line.h).
-  kCommandSilence,        ///< no command
+  kCommandSilence,        ///< no command arrives
   kCommandNoise,          ///< characters without a line end
   kCommandUnknown,        ///< unknown commands
   kCommandRepeatedFrame,  ///< one command frame, over and over
-  kStop,                  ///< STOP
+  kStop,                  ///< the operator sends STOP
   kStopInNoise            ///< STOP within other characters, without a line end
 };
 inline constexpr NameTable<Injection, 40> kInjectionNames{

@@ -25,8 +25,8 @@ struct PlantChoice {
   std::optional<PlantKind> kind = {};  ///< plant of every scenario; empty: each scenario's own
   /// validation.json whose tyres override the scenarios' and the defaults.
   std::optional<std::filesystem::path> tyres_file = {};
-  bool checks_other = false;  ///< true (`compare`): if `kind` is empty, also tests the ranking on
-                              ///< the other plant
+  bool checks_other = false;  ///< true (only `compare`): if `kind` is empty, the ranking is also
+                              ///< tested on the other plant
   bool runs_other() const { return checks_other && !kind; }
 };
 

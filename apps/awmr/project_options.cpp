@@ -46,8 +46,8 @@ constexpr ProjectKey kKeys[] = {
     {"compare", "scenario", "compare/scenarios"},
 };
 
-/// Text of the option `option` ("family surge=...", as marked by option_text()) for a user of
-/// project.json: its key, or its command and name.
+/// Text for a user of project.json that replaces the option `option` (as marked by option_text():
+/// "family surge=..."): its key in project.json or tune.json, else its command and name.
 std::string project_text(std::string_view command, std::string_view option) {
   std::string name(option.substr(0, option.find(' ')));
   std::ranges::replace(name, '_', '-');

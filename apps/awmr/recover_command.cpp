@@ -152,7 +152,7 @@ void add_recover(CLI::App& app, Session& session) {
   auto words = std::make_shared<RecoverWords>();
   CLI::App* sub = add_command(
       app, session, "recover",
-      "Simulate trials at the model's values, identify them, compare: bias and coverage",
+      "Simulate trials of the model, identify them, compare: bias and interval coverage",
       "awmr recover --model model.json --runs 200 -o recover.json", [words]() -> Result<Outcome> {
         AWMR_ASSIGN_OR_RETURN(const RecoverCommand command, command_of(*words));
         return execute(command);

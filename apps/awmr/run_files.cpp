@@ -40,7 +40,8 @@ std::string scenario_name(const fs::path& scenario) {
   return fmt::format("scenario_{}.json", scenario.stem().string());
 }
 
-/// Simulates one run and writes it to `csv`, with its side file. Returns the paths of both.
+/// Simulates one run and writes it to `csv`, and its origin to the side file (.csv.json). Returns
+/// the paths of both files.
 Result<std::vector<fs::path>> write_run(const Model& model, const NamedSet& gains,
                                         const Scenario& scenario, YawMode mode,
                                         const std::vector<fs::path>& inputs,

@@ -117,8 +117,8 @@ Result<Provenance> provenance_of(const SimulateCommand& command, const Scenario&
   return Provenance{"simulate", std::move(options), std::move(inputs)};
 }
 
-/// True if a side file (.csv.json) is written with the run, that is, unless the output is a pipe or
-/// a device.
+/// True if a side file (.csv.json, with the origin of the run) is written too: if the output is
+/// neither a pipe nor a device.
 bool has_side_file(const fs::path& output) {
   std::error_code ignored;
   const fs::file_status status = fs::status(output, ignored);

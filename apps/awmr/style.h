@@ -8,7 +8,7 @@
 namespace awmr::cli {
 
 /// Adds terminal colours to text for a stream. Leaves text unchanged if the stream is not a
-/// terminal, if NO_COLOR is set [no-color.org] or if TERM is dumb.
+/// terminal, if the environment variable NO_COLOR is not empty [no-color.org] or if TERM is "dumb".
 class Style {
  public:
   explicit Style(std::FILE* stream);

@@ -47,7 +47,7 @@ std::size_t parse_plain_number(std::string_view text, std::optional<double>& val
 
 }  // namespace
 
-/// Skips a byte within a line.
+/// Skips one byte, which is not a line end.
 inline void CsvScanner::step() {
   character_ += begins_character(rest_.front()) ? 1 : 0;
   rest_.remove_prefix(1);

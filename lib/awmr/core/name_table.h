@@ -14,7 +14,7 @@
 
 namespace awmr {
 
-/// A value and its external name.
+/// A value of the enumeration and its name in files, options and messages.
 template <class T>
 struct Named {
   std::string_view name;

@@ -30,7 +30,7 @@ bool has_own_rate(const ColumnSource& source) {
   return source.column.empty == EmptyCells::kHeld || source.column.empty == EmptyCells::kAbsent;
 }
 
-/// True if the table has signals of different rates ("sparse").
+/// True if the table is sparse, that is, has signals of different rates (kSparseShare).
 bool is_sparse(const RawTable& raw, const ColumnSources& sources) {
   if (raw.joined) return true;
   const double rows = static_cast<double>(raw.lines.size());

@@ -16,9 +16,9 @@ namespace awmr {
 /// A resistance as a function of a speed >= 0: g1(u) with u in m/s, or g3(r) with r in rad/s.
 using ResistanceLaw = std::function<double(double)>;
 
-/// Returns the top speed of a table: the smallest power of two, from 1 to 64 m/s or rad/s, at which
-/// g is at least 1.5 times the largest force or moment (`full_scale`), so that the vehicle cannot
-/// reach this speed. 64 if g is smaller up to there.
+/// Returns the top speed of a table of `law`: the smallest power of two, from 1 to 64 m/s or rad/s,
+/// at which the law is at least 1.5 times the largest force or moment (`full_scale`), so that the
+/// vehicle cannot reach this speed. 64 if the law is smaller even there.
 double table_top(const ResistanceLaw& law, double full_scale);
 
 /// Returns the smallest table of `law` up to the speed `top` (m/s or rad/s) whose error, in the

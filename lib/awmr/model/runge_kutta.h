@@ -5,7 +5,7 @@
 
 namespace awmr {
 
-/// s + h d: the state after h seconds with the rates d.
+/// s + h d: the state s after h seconds at the constant rates d.
 template <class T>
 State<T> moved(const State<T>& s, const State<T>& d, const T& h) {
   return {s.x_m + h * d.x_m,

@@ -69,8 +69,8 @@ Sliding sliding(const FrictionRates<T>& friction, const State<T>& s, const State
           slides(value_of(s.r_radps), value_of(rates.r_radps), value_of(friction.yaw_radps2))};
 }
 
-/// True if friction holds one motion, surge or yaw: there is friction, and the sliding direction
-/// `way` is 0.
+/// True if friction holds a motion (surge or yaw) at rest: there is friction, and the sliding
+/// direction `way` is 0.
 inline bool is_held(double way, double friction) { return friction > 0.0 && way == 0.0; }
 
 /// Adds friction in the directions `way` to `rates` without friction. The acceleration of a motion

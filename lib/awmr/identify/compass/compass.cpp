@@ -130,7 +130,8 @@ double heading_error_rad(const Known& known) {
   return known.half * std::sqrt(worst);
 }
 
-/// Value of a function of the ellipse with its 95 % interval, by central differences.
+/// Value of `function` at the fitted ellipse, with its 95 % interval. Its derivatives by the
+/// parameters of the ellipse are central differences.
 template <class Function>
 WithInterval with_interval(const Known& known, const Function& function) {
   Parameters gradient;

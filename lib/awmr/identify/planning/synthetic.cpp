@@ -35,7 +35,8 @@ class NoiseSource {
   bool first_ = true;
 };
 
-/// Force, rate and time of a row with its error. The time is that of a given distance or angle.
+/// Force, rate (speed or yaw rate) and time of a simulated row, with its measurement error. The time
+/// is that for a given distance or angle at this rate.
 struct NoisyRow {
   double force;
   double rate;
