@@ -333,8 +333,8 @@ TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
 }
 
 /// Steering trim, rad, force imbalance, saturation, the logarithms of its sharpness and of the
-/// exponent of the forces, the servo's largest rate, rad/s, and dead band, rad, and asymmetry of the
-/// steering.
+/// exponent of the forces, the servo's largest rate, rad/s, and dead band, rad, and asymmetry of
+/// the steering.
 constexpr std::size_t kErrors = 8;
 using CommandErrors = std::array<double, kErrors>;
 
@@ -342,15 +342,17 @@ using CommandErrors = std::array<double, kErrors>;
 std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors& errors) {
   constexpr double kStep_s = 0.004;
   const LogSignals signals(log);
-  const CommandPath path{.steering_trim = OffsetColumn{errors[0], 0},
-                         .steering_dead_band = OffsetColumn{errors[6], 6},
-                         .steering_asymmetry = OffsetColumn{errors[7], 7},
-                         .servo_rate = OffsetColumn{errors[5], 5},
-                         .imbalance = OffsetColumn{errors[1], 1},
-                         .exponent = OffsetColumn{std::exp(errors[4]), 4},
-                         .saturation = OffsetColumn{errors[2], 2},
-                         .full_command = 0.3,
-                         .sharpness = OffsetColumn{std::exp(errors[3]), 3}};
+  CommandPath path{.steering_trim = OffsetColumn{errors[0], 0},
+                   .servo_rate = OffsetColumn{errors[5], 5},
+                   .imbalance = OffsetColumn{errors[1], 1},
+                   .exponent = OffsetColumn{std::exp(errors[4]), 4},
+                   .saturation = OffsetColumn{errors[2], 2},
+                   .full_command = 0.3,
+                   .sharpness = OffsetColumn{std::exp(errors[3]), 3}};
+  if (log.steering_command_rad) {
+    path.steering_dead_band = OffsetColumn{errors[6], 6};
+    path.steering_asymmetry = OffsetColumn{errors[7], 7};
+  }
   Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), kStep_s,
                                       Drive::kFourWheel, Friction::kNone);
   plant.steering_max_rate_radps = errors[5];
@@ -450,7 +452,8 @@ TEST(WheelSlip, OfAStandingWheelIsZero) {
 using ForceCoordinates = std::array<double, kExtraForceCount>;
 
 /// The motion with these forces as the only columns.
-std::vector<LinearMotion> with_forces(const DrivingLog& log, const ForceCoordinates& coordinates) {
+std::vector<LinearMotion> with_forces(const DrivingLog& log, const ForceCoordinates& coordinates,
+                                      Friction friction) {
   constexpr double kStep_s = 0.004;
   const LogSignals signals(log);
   ExtraForces extra;
@@ -461,8 +464,8 @@ std::vector<LinearMotion> with_forces(const DrivingLog& log, const ForceCoordina
     extra[force] = is_speed ? std::exp(coordinates[i]) : coordinates[i];
     extra.columns.push_back({force, i, is_speed ? extra[force] : 1.0});
   }
-  const Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), kStep_s,
-                                            Drive::kFourWheel, Friction::kCoulomb);
+  const Plant<double> plant =
+      plant_by_hand(log.steering_command_rad.has_value(), kStep_s, Drive::kFourWheel, friction);
   LinearStepper stepper(plant, kExtraForceCount, {}, {}, 0.0, extra);
   std::vector<LinearMotion> motions;
   const LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
@@ -472,38 +475,48 @@ std::vector<LinearMotion> with_forces(const DrivingLog& log, const ForceCoordina
   return motions;
 }
 
-TEST(LinearReplay, OfExtraForcesHasTheDerivativesOfCentralDifferences) {
+/// Expects that the derivatives by the forces from `first` on are those of central differences, up
+/// to a share of the largest one.
+void expect_derivatives_by_forces(const ForceCoordinates& at, Friction friction, std::size_t first,
+                                  double share) {
   constexpr double kApart = 1e-6;
   const DrivingLog log = commands(true);
-  // At the first coordinates, no force acts. Where the vehicle stops within a step, derivatives and
-  // differences agree less exactly.
-  for (const ForceCoordinates& at :
-       {ForceCoordinates{0.0, -2.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0},
-        ForceCoordinates{0.04, -2.0, 0.01, -1.0, 0.06, -0.1, 0.1, 0.8, 0.6, 0.3, -0.2, 0.25}}) {
-    const std::vector<LinearMotion> here = with_forces(log, at);
-    for (std::size_t column = 0; column < kExtraForceCount; ++column) {
-      ForceCoordinates more = at;
-      ForceCoordinates less = at;
-      more[column] += kApart;
-      less[column] -= kApart;
-      const std::vector<LinearMotion> after = with_forces(log, more);
-      const std::vector<LinearMotion> before = with_forces(log, less);
-      for (const LogChannel channel : kChannels) {
-        if (channel == LogChannel::kSteering) continue;  // no force acts on the steering
-        double largest = 1e-9;
-        double apart = 0.0;
-        for (std::size_t row = 0; row < here.size(); ++row) {
-          const double slope =
-              (channel_of(after[row].state, channel) - channel_of(before[row].state, channel)) /
-              (2.0 * kApart);
-          const double by_hand = here[row].row(channel, kExtraForceCount)[column];
-          largest = std::max(largest, std::abs(by_hand));
-          apart = std::max(apart, std::abs(by_hand - slope));
-        }
-        EXPECT_LT(apart, 3e-3 * largest) << info(channel).name << " by column " << column;
+  const std::vector<LinearMotion> here = with_forces(log, at, friction);
+  for (std::size_t column = first; column < kExtraForceCount; ++column) {
+    ForceCoordinates more = at;
+    ForceCoordinates less = at;
+    more[column] += kApart;
+    less[column] -= kApart;
+    const std::vector<LinearMotion> after = with_forces(log, more, friction);
+    const std::vector<LinearMotion> before = with_forces(log, less, friction);
+    for (const LogChannel channel : kChannels) {
+      if (channel == LogChannel::kSteering) continue;  // no force acts on the steering
+      double largest = 1e-6;
+      double apart = 0.0;
+      for (std::size_t row = 0; row < here.size(); ++row) {
+        const double slope =
+            (channel_of(after[row].state, channel) - channel_of(before[row].state, channel)) /
+            (2.0 * kApart);
+        const double by_hand = here[row].row(channel, kExtraForceCount)[column];
+        largest = std::max(largest, std::abs(by_hand));
+        apart = std::max(apart, std::abs(by_hand - slope));
       }
+      EXPECT_LT(apart, share * largest) << info(channel).name << " by column " << column;
     }
   }
+}
+
+TEST(LinearReplay, OfExtraForcesHasTheDerivativesOfCentralDifferences) {
+  // Where friction stops the vehicle within a step, derivatives and differences agree less exactly.
+  constexpr double kWithStops = 1e-2;
+  const ForceCoordinates none{0.0, -2.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
+  const ForceCoordinates all{0.04, -2.0, 0.01, -1.0, 0.06, -0.1, 0.1, 0.8, 0.6, 0.3, -0.2, 0.25};
+  expect_derivatives_by_forces(none, Friction::kCoulomb, 0, kWithStops);
+  expect_derivatives_by_forces(all, Friction::kCoulomb, 0, kWithStops);
+  ForceCoordinates without_friction = all;
+  without_friction[at(ExtraForce::kSurgeStribeck)] = 0.0;
+  without_friction[at(ExtraForce::kYawStribeck)] = 0.0;
+  expect_derivatives_by_forces(without_friction, Friction::kNone, at(ExtraForce::kSlopeX), 1e-4);
 }
 
 TEST(ProductSums, EqualTheSumsOfAllRowsAndOfTheTriangle) {

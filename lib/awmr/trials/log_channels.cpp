@@ -103,8 +103,8 @@ void note_changes_only(LogChannel channel, const DrivingLog& log,
                    about.column, rows.size(), log.rows(), resolution / about.to_si)});
 }
 
-std::vector<std::size_t> rows_from(std::size_t first, std::size_t end) {
-  std::vector<std::size_t> rows(end - first);
+std::vector<std::size_t> rows_between(std::size_t first, std::size_t last) {
+  std::vector<std::size_t> rows(last + 1 - first);
   std::iota(rows.begin(), rows.end(), first);
   return rows;
 }
@@ -127,11 +127,11 @@ std::vector<double> held_between(const std::vector<std::size_t>& rows, std::vect
 Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings) {
-  const bool is_sparse = rows.size() + rows.front() < log.rows();
+  const bool is_sparse = !rows.empty() && rows.size() < rows.back() + 1 - rows.front();
   const double resolution = is_sparse ? resolution_of_changes(picked(values, rows)) : 0.0;
   if (resolution > 0.0) {
     note_changes_only(channel, log, rows, resolution, findings);
-    return measured_of(channel, log, rows_from(rows.front(), log.rows()),
+    return measured_of(channel, log, rows_between(rows.front(), rows.back()),
                        held_between(rows, std::move(values)), findings);
   }
   ChannelQuality quality = quality_in(rows, channel, log, values);

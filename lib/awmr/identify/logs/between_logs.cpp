@@ -189,9 +189,14 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
   return {{term->name(), p_value, by_log.files, by_log.coordinates, true}};
 }
 
-bool is_of_slope(std::string_view name) {
-  return name == kExtraForceNames[at(ExtraForce::kSlopeX)] ||
-         name == kExtraForceNames[at(ExtraForce::kSlopeY)];
+/// True for errors of the commands, and for the forces of extra_forces.h except Stribeck friction.
+bool invalidates_all(std::string_view name) {
+  constexpr std::string_view kOfCommands[] = {kSteeringTrimName, kSteeringDeadBandName,
+                                              kSteeringAsymmetryName, kForceImbalanceName,
+                                              kForceSaturationName};
+  const auto first = kExtraForceNames.begin() + static_cast<int>(ExtraForce::kSlopeX);
+  return std::ranges::find(kOfCommands, name) != std::end(kOfCommands) ||
+         std::find(first, kExtraForceNames.end(), name) != kExtraForceNames.end();
 }
 
 LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOptions& options,
@@ -237,8 +242,7 @@ LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& commo
   }
   LogComparison found{disagreement_on_missing(logs, files, options, common.fit), std::nullopt};
   for (LogDisagreement& one : disagreements_of(files, fits, common)) {
-    one.withdraws = one.name == kSteeringTrimName || one.name == kForceImbalanceName ||
-                    one.name == kForceSaturationName || is_of_slope(one.name);
+    one.withdraws = invalidates_all(one.name);
     found.disagreements.push_back(std::move(one));
   }
   return found;

@@ -45,9 +45,9 @@ struct LogComparison {
 /// The common fit may lack a delay or command error that differs between the logs, for example a
 /// steering trim that was changed between two logs. A score test of each such term is therefore
 /// made on every log. The term whose results differ most between the logs is fitted to each log, if
-/// they differ by more than three standard errors. If the logs disagree on this term, or on a
-/// steering trim, force imbalance or saturation of the common fit, all intervals of the common fit
-/// are invalid, because the other quantities absorb the effect.
+/// they differ by more than three standard errors. If the logs disagree on this term, or on an
+/// error of the commands or a force of extra_forces.h (except Stribeck friction) of the common fit,
+/// all intervals of the common fit are invalid, because the other quantities absorb the effect.
 ///
 /// A single log of 20 s or more is split: a fit of its first half predicts its second half and its
 /// last fifth (held_out.h). If both are predicted (p > 0.05), there is no disagreement. Otherwise

@@ -199,11 +199,13 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
   for (const FoundTerm& band : found_terms(fit, FreeQuantity::Kind::kSteeringDeadBand)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "steering-dead-band",
-         fmt::format("steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and "
-                     "larger ones move them by that much less. The fit compensates this, but "
-                     "simulations and gains do not; reduce the play of the linkage, or add {:.2f} "
-                     "deg to every command before it is sent",
-                     degrees(band.value), degrees(band.error), degrees(band.value))});
+         fmt::format(
+             "steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and "
+             "larger ones move them by that much less. The fit compensates this, but "
+             "simulations and gains do not; reduce the play of the linkage, or increase the "
+             "magnitude of every command by {:.2f} deg before it is sent, and log the "
+             "commands before that",
+             degrees(band.value), degrees(band.error), degrees(band.value))});
   }
   for (const FoundTerm& asymmetry : found_terms(fit, FreeQuantity::Kind::kSteeringAsymmetry)) {
     findings.push_back(

@@ -1,6 +1,6 @@
-/// Forces that a log fit can find, but that the model does not contain: Stribeck friction, the slope
-/// of the ground, more resistance in turns or backward, and motors that brake or reverse with another
-/// force than they drive forward. Private to identify/.
+/// Forces that a log fit can find, but that the model does not contain: Stribeck friction, the
+/// slope of the ground, more resistance in turns or backward, and motors that brake or reverse with
+/// another force than they drive forward. Private to identify/.
 ///
 /// Stribeck friction is larger at low speed than the Coulomb friction c. At the speed or yaw rate w
 /// the resistance is
@@ -19,8 +19,9 @@
 /// Driving backward, g1 is 1 + e_g times as large as forward.
 ///
 /// A wheel force against the motion is 1 + e_b times its command, a negative (backward) wheel force
-/// 1 + e_r times. The motion is that of the wheel's side (u - d r left, u + d r right) or, if left
-/// and right commands are equal, as with one motor, that of the vehicle (u).
+/// 1 + e_r times. The motion is that of the wheel's side (u - d r left, u + d r right) if the
+/// commands of left and right differ in the log, else that of the vehicle (u). Near rest, e_b fades
+/// in (scale_by_excess() in linear_rates.cpp).
 #pragma once
 
 #include <array>
@@ -58,6 +59,7 @@ struct ExtraForces {
   std::array<double, kExtraForceCount> values{0.0, 1.0, 0.0, 1.0, 0.0, 0.0,
                                               0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
   std::vector<ExtraColumn> columns{};
+  bool has_motor_per_side = false;  ///< left and right commands differ
 
   double operator[](ExtraForce force) const { return values[static_cast<std::size_t>(force)]; }
   double& operator[](ExtraForce force) { return values[static_cast<std::size_t>(force)]; }

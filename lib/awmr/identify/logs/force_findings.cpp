@@ -138,7 +138,8 @@ std::vector<Finding> force_excess_findings(const LogFit& fit, const std::string&
     if (!excess) return;
     findings.push_back(
         {file, 0, Severity::kWarning, std::string(code),
-         fmt::format("{} push {:.1f} +- {:.1f} % {} than {}. The fit compensates this, but "
+         fmt::format("{} push {:.1f} +- {:.1f} % {} than {} (in logs that only drive forward, "
+                     "braking and negative forces are the same). The fit compensates this, but "
                      "simulations and gains do not; divide such commands by {:.3g} before they are "
                      "sent to the motors, and log the undivided ones",
                      which, 100.0 * std::abs(excess->value), 100.0 * excess->error,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 namespace awmr {
@@ -48,18 +47,20 @@ void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-bool drives_and_brakes(const DrivingLog& log) {
-  const auto has = [&](auto sign) {
-    return std::ranges::any_of(log.force_left, [&](double f) { return sign(f, 0.0); }) ||
-           std::ranges::any_of(log.force_right, [&](double f) { return sign(f, 0.0); });
+/// True if the log has forces of more than 1 % of F_max in both directions.
+bool has_both_directions(const DrivingLog& log) {
+  constexpr double kLeast = 0.01;
+  const auto any = [&](auto is_so) {
+    return std::ranges::any_of(log.force_left, is_so) ||
+           std::ranges::any_of(log.force_right, is_so);
   };
-  return has(std::greater{}) && has(std::less{});
+  return any([](double f) { return f > kLeast; }) && any([](double f) { return f < -kLeast; });
 }
 
 /// Adds the forces of extra_forces.h that can still be added: Stribeck friction to a resistance
 /// with Coulomb friction, a slope if the logs show the heading in world coordinates, drag in turns
-/// if the commands turn the vehicle, and excess of braking or backward forces (one of them) and of the
-/// backward resistance.
+/// if the commands turn the vehicle, and excess of braking or backward forces (one of them) and of
+/// the backward resistance.
 void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   for (const auto& [force, coulomb] :
@@ -79,8 +80,10 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   if (turns && !has_force(quantities, ExtraForce::kTurnDrag)) {
     found.push_back(extra_force(ExtraForce::kTurnDrag));
   }
-  if (!any_log(problem, drives_and_brakes)) return;
-  if (std::ranges::none_of(quantities, &FreeQuantity::is_force_excess)) {
+  if (!any_log(problem, has_both_directions)) return;
+  // wheel_slip.h does not contain the excess.
+  if (std::ranges::none_of(quantities, &FreeQuantity::is_force_excess) &&
+      !has_kind(quantities, FreeQuantity::Kind::kWheelSlip)) {
     found.push_back(extra_force(ExtraForce::kBrakeForce));
     found.push_back(extra_force(ExtraForce::kReverseForce));
   }
@@ -93,6 +96,7 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 /// the same form.
 void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
+  if (std::ranges::any_of(quantities, &FreeQuantity::is_force_excess)) return;
   const auto other =
       std::ranges::find(quantities, FreeQuantity::Kind::kWheelSlip, &FreeQuantity::kind);
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {

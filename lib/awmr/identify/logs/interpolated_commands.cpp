@@ -96,7 +96,7 @@ bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOption
                          const FamilyFit& first, const IdentifyOptions& options) {
   constexpr double kAlike = 10.0;  // of AIC
   const auto is_smooth = [](const DrivingLog& log) {
-    return !log.has_interpolated_commands && changes_often(log);
+    return !log.has_interpolated_commands && !log.has_held_set_points && changes_often(log);
   };
   if (!std::ranges::all_of(logs, is_smooth)) return false;
   LogFitOptions from = from_optimum(power_law, first);

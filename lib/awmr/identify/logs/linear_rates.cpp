@@ -178,8 +178,8 @@ struct TurnDrag {
 TurnDrag turn_drag(const LinearPlant& plant, const State<double>& s) {
   constexpr double kRest_mps = 0.02;
   if (!plant.has_turn_drag) return {};
-  const ResistanceSlopes of_yaw = plant.turn_drag(s.r_radps);  // k |r|^p sgn r
-  const double rest_mps = std::max(kRest_mps, std::abs(of_yaw.value) * plant.rest_per_turn_drag);
+  const ResistanceSlopes of_yaw = plant.turn_drag_of_yaw(s.r_radps);  // k |r|^p sgn r
+  const double rest_mps = std::max(kRest_mps, std::abs(of_yaw.value) * plant.step_per_mass);
   const double speed_mps = std::max(std::abs(s.u_mps), rest_mps);
   const double q = plant.extra[ExtraForce::kTurnDragSpeedExponent];
   const double of_speed =
@@ -195,8 +195,8 @@ TurnDrag turn_drag(const LinearPlant& plant, const State<double>& s) {
           .by_speed_exponent = share * of_yaw.value * std::log(speed_mps)};
 }
 
-/// Multiplies the surge resistance by 1 + e_g if the vehicle drives backward. Friction is left out:
-/// add_friction() adds it.
+/// Multiplies the surge resistance g, with its Stribeck part, by 1 + e_g if the vehicle drives
+/// backward. Friction at rest is left out: add_friction() adds it.
 void add_backward_drag(const LinearPlant& plant, double u_mps, ResistanceSlopes& g,
                        LinearRates& out) {
   DrivenSlopes& by = out.by_extra[at(ExtraForce::kBackwardDrag)];
@@ -208,6 +208,9 @@ void add_backward_drag(const LinearPlant& plant, double u_mps, ResistanceSlopes&
        {&g.value, &g.by_speed, &g.by_alpha, &g.by_beta, &g.by_coulomb, &g.by_quadratic}) {
     *part *= share;
   }
+  if (!plant.has_surge_stribeck) return;
+  out.by_extra[at(ExtraForce::kSurgeStribeck)].u *= share;
+  out.by_extra[at(ExtraForce::kSurgeStribeckSpeed)].u *= share;
 }
 
 /// Derivatives of the force of a wheel by e_b, e_r (extra_forces.h) and the rolling speed.
@@ -217,24 +220,26 @@ struct ByExcess {
   double by_speed = 0.0;
 };
 
-/// Multiplies the force of a wheel by 1 + e_b if it is against the rolling speed `w_mps` of its
-/// side, and by 1 + e_r if it is negative. Near rest, e_b fades in over 2 kFade_mps, so that
-/// the rates are continuous.
-ByExcess add_excess(const ExtraForces& extra, double w_mps, WheelForce& wheel) {
-  constexpr double kFade_mps = 0.02;
+/// Multiplies the force of a wheel by 1 + e_b if it is against the motion `w_mps` of its side, and
+/// by 1 + e_r if it is negative. From rest to a small speed against the force, e_b fades in, so
+/// that the rates are continuous; the width of this range counts as constant in the derivatives.
+ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& wheel) {
+  constexpr double kFade_mps = 0.04;
+  constexpr double kWheels = 4.0;
   const double pure = wheel.value;
-  const double along = std::copysign(0.5 / kFade_mps, pure);
-  const double wanted = 0.5 - along * w_mps;
+  const double e_b = plant.extra[ExtraForce::kBrakeForce];
+  const double fade_mps = std::max(kFade_mps, kWheels * std::abs(e_b * pure) * plant.step_per_mass);
+  const double slope = -std::copysign(1.0 / fade_mps, pure);
+  const double wanted = slope * w_mps;
   const double braking = std::clamp(wanted, 0.0, 1.0);
-  const double brake = 1.0 + braking * extra[ExtraForce::kBrakeForce];
+  const double brake = 1.0 + braking * e_b;
   const bool reverses = pure < 0.0;
-  const double reverse = reverses ? 1.0 + extra[ExtraForce::kReverseForce] : 1.0;
+  const double reverse = reverses ? 1.0 + plant.extra[ExtraForce::kReverseForce] : 1.0;
   wheel = {pure * brake * reverse, wheel.by_command * brake * reverse,
            wheel.by_dead_zone * brake * reverse};
   return {.by_brake = braking * pure * reverse,
           .by_reverse = reverses ? pure * brake : 0.0,
-          .by_speed =
-              braking == wanted ? -along * extra[ExtraForce::kBrakeForce] * pure * reverse : 0.0};
+          .by_speed = braking == wanted ? slope * e_b * pure * reverse : 0.0};
 }
 
 /// Adds the acceleration by the slope of the ground.
@@ -296,8 +301,8 @@ LinearPlant::LinearPlant(const Plant<double>& p, bool by_back_emf, double longes
       per_inertia(1.0 / p.inertia_norm),
       per_lag(1.0 / p.steering_time_constant_s),
       sway_pace(std::min(1.0, p.mass_norm / (p.sway_alpha * longest_step_s))),
-      turn_drag(turn_drag_law(extra)),
-      rest_per_turn_drag(longest_step_s * per_mass),
+      turn_drag_of_yaw(turn_drag_law(extra)),
+      step_per_mass(longest_step_s * per_mass),
       has_back_emf(by_back_emf || p.back_emf_s_per_m > 0.0),
       has_surge_stribeck(
           has_force(extra, ExtraForce::kSurgeStribeck, ExtraForce::kSurgeStribeckSpeed)),
@@ -347,18 +352,17 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   const double reach = cos_d + p.rear_driven;  // forward force of front and rear wheel over F'
   WheelForce left = wheel_force(command.force.left, p.wheel_dead_zone);
   WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
-  const double side_m = command.force.left == command.force.right ? 0.0 : p.half_track_m;
+  const double side_m = plant.extra.has_motor_per_side ? p.half_track_m : 0.0;
   ByExcess left_excess;
   ByExcess right_excess;
   if (plant.has_force_excess) {
-    left_excess = add_excess(plant.extra, s.u_mps - side_m * s.r_radps, left);
-    right_excess = add_excess(plant.extra, s.u_mps + side_m * s.r_radps, right);
+    left_excess = scale_by_excess(plant, s.u_mps - side_m * s.r_radps, left);
+    right_excess = scale_by_excess(plant, s.u_mps + side_m * s.r_radps, right);
   }
   const double sum = left.value + right.value;
   const double difference = right.value - left.value;
   ResistanceSlopes g1 = plant.surge(s.u_mps);
   ResistanceSlopes g3 = plant.yaw(s.r_radps);
-  add_backward_drag(plant, s.u_mps, g1, out);
   if (plant.has_surge_stribeck) {
     subtract_stribeck<&DrivenSlopes::u>(plant.extra, ExtraForce::kSurgeStribeck,
                                         ExtraForce::kSurgeStribeckSpeed, s.u_mps, plant.per_mass,
@@ -370,10 +374,12 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
                                         g3, out);
   }
 
+  add_backward_drag(plant, s.u_mps, g1, out);
   add_kinematics(s, out);
   add_servo(plant, s, command.steering_rad, out);
 
-  // u_dot = (sum (rho + cos d_r) - g1(u))/m' + r v,   rho: 1 with driven rear wheels, else 0
+  // u_dot = (sum (rho + cos d_r) - g1(u) - D)/m' + r v,   rho: 1 with driven rear wheels, else 0;
+  // D: drag in turns
   const TurnDrag scrub = turn_drag(plant, s);
   const double surge = (sum * reach - g1.value - scrub.value) * plant.per_mass;
   out.rates.u_mps = surge + s.r_radps * s.v_mps;

@@ -64,10 +64,8 @@ struct LinearPlant {
   /// Factor on v_dot, <= 1. Below 1 if the time constant m'/a_s of sway is shorter than a step: v
   /// then reaches the same steady value with a time constant of one step.
   double sway_pace;
-  LinearResistance turn_drag;  ///< k |r|^p sgn r of the drag in turns
-  /// Speed, m/s per drag in turns over F_max, below which this drag is in proportion to the speed,
-  /// so that it does not reverse the motion within a step.
-  double rest_per_turn_drag;
+  LinearResistance turn_drag_of_yaw;  ///< k |r|^p sgn r of the drag in turns
+  double step_per_mass;  ///< longest step over m', s/(s^2/m): change of u by F_max over a step
   bool has_back_emf;
   bool has_surge_stribeck;
   bool has_yaw_stribeck;
@@ -106,7 +104,7 @@ struct LinearRates {
   State<double> rates{};
   StateSlopes by_state{};
   std::array<DrivenSlopes, kParameterCount> by_parameter{};
-  std::array<DrivenSlopes, kExtraForceCount> by_extra{};  ///< 0 for forces that are not free
+  std::array<DrivenSlopes, kExtraForceCount> by_extra{};  ///< read only for free forces
   DrivenSlopes by_force_left;
   DrivenSlopes by_force_right;
   double steering_by_command = 0.0;

@@ -165,7 +165,11 @@ void LinearStepper::find_way(const DelayedCommand& command, LinearMotion& motion
   if (!plant_.friction.any()) return;
   const State<double>& s = motion.state;
   if (s.u_mps == 0.0 || s.r_radps == 0.0) linear_rates(plant_, s, command.command, rates_);
-  way_ = sliding(plant_.friction, s, rates_.rates);
+  FrictionRates<double> friction = plant_.friction;
+  if (s.u_mps < 0.0 || (s.u_mps == 0.0 && rates_.rates.u_mps < 0.0)) {
+    friction.surge_mps2 *= 1.0 + plant_.extra[ExtraForce::kBackwardDrag];
+  }
+  way_ = sliding(friction, s, rates_.rates);
   if (is_held(way_.surge, plant_.friction.surge_mps2)) {
     std::fill_n(motion.row(LogChannel::kSpeed, columns_), columns_, 0.0);
   }

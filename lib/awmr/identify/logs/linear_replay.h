@@ -51,9 +51,10 @@ struct CommandPath {
   std::optional<LaggedForces> lag = {};            ///< forces after the motors' lag
   std::optional<std::size_t> lag_column = {};      ///< column of the lag; present if it is free
   std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
-  std::optional<OffsetColumn> steering_dead_band = {};  ///< rad, of the command
-  std::optional<OffsetColumn> steering_asymmetry = {};  ///< e of steering_asymmetry()
-  std::optional<OffsetColumn> servo_rate = {};          ///< rad/s, in place of the plant's
+  /// Dead band, rad, and asymmetry e of steering_asymmetry(); not for logs with measured angles.
+  std::optional<OffsetColumn> steering_dead_band = {};
+  std::optional<OffsetColumn> steering_asymmetry = {};
+  std::optional<OffsetColumn> servo_rate = {};  ///< rad/s, in place of the plant's
   std::optional<OffsetColumn> imbalance = {};   ///< e: left forces times 1 - e, right times 1 + e
   std::optional<OffsetColumn> exponent = {};    ///< p of force_exponent(); derivatives by ln p
   std::optional<OffsetColumn> saturation = {};  ///< L of force_saturation()

@@ -84,7 +84,10 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
   LogFitOptions from = from_optimum(std::move(power_law), first);
   std::erase(from.free, ParameterId::kSteeringTimeConstant);
   std::erase_if(from.terms, [](const FreeTerm& term) {
-    return term.quantity.kind == FreeQuantity::Kind::kSteeringDelay;
+    using Kind = FreeQuantity::Kind;
+    const Kind kind = term.quantity.kind;
+    return kind == Kind::kSteeringDelay || kind == Kind::kSteeringDeadBand ||
+           kind == Kind::kSteeringAsymmetry;
   });
   const FamilyFit follows = fit_first_family(with_measured_steering(logs), from, options);
   // A servo lag together with equally late time stamps also describes measured angles, but with two

@@ -48,9 +48,10 @@ struct FreeQuantity {
   ExtraForce force = ExtraForce::kSlopeX;  ///< for kExtraForce
   Scale scale = Scale::kLinear;
   /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
-  /// a bias (SI); 0.2 for a term of a family, Stribeck friction or drag in turns; 0.1 for a delay or
-  /// lag (s), trim or angle (rad), imbalance, excess, saturation, wheel slip or offset (m); 0.5 for a slope (m/s^2); 0.01 for smoothing (s^2).
-  /// Standard deviations of priors and limits of identifiability are multiples of this change.
+  /// a bias (SI); 0.2 for a term of a family, Stribeck friction or drag in turns; 0.1 for a delay
+  /// or lag (s), trim or angle (rad), imbalance, excess, saturation, wheel slip or offset (m); 0.5
+  /// for a slope (m/s^2); 0.01 for smoothing (s^2). Standard deviations of priors and limits of
+  /// identifiability are multiples of this change.
   double large_change = 1.0;
   double full_command = 1.0;  ///< for kForceSaturation: F'm of force_saturation(), > 0
   double fastest = 1.0;       ///< for a Stribeck speed: largest speed (m/s or rad/s) of the logs
@@ -64,6 +65,10 @@ struct FreeQuantity {
   bool is_stribeck_speed() const {
     return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
   }
+  /// True for Stribeck friction and slopes, which no other family of resistance resembles.
+  bool is_stribeck_or_slope() const {
+    return kind == Kind::kExtraForce && force <= ExtraForce::kSlopeY;
+  }
   bool is_turn_drag_exponent() const {
     return is(ExtraForce::kTurnDragExponent) || is(ExtraForce::kTurnDragSpeedExponent);
   }
@@ -71,13 +76,13 @@ struct FreeQuantity {
   bool is_force_excess() const {
     return is(ExtraForce::kBrakeForce) || is(ExtraForce::kReverseForce);
   }
-  /// True for the form of a saturation (sharpness), of Stribeck friction (speed scale) or of the drag
-  /// in turns (exponents).
+  /// True for the form of a saturation (sharpness), of Stribeck friction (speed scale) or of the
+  /// drag in turns (exponents).
   bool is_form() const {
     return kind == Kind::kSaturationSharpness || is_stribeck_speed() || is_turn_drag_exponent();
   }
-  /// True for delays, lags, saturation, Stribeck friction, dead band, drag in turns and slip, which cannot
-  /// be negative, so that 0 is an end of their range.
+  /// True for delays, lags, saturation, Stribeck friction, dead band, drag in turns and slip, which
+  /// cannot be negative, so that 0 is an end of their range.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
            kind == Kind::kSmoothing || kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
@@ -105,8 +110,8 @@ FreeQuantity motor_lag();
 /// Steering angle at a command of 0, rad; positive to the left.
 FreeQuantity steering_trim();
 
-/// Dead band b >= 0, rad, of the steering: the command c steers to the angle c - b sgn c, or to 0 if
-/// |c| < b.
+/// Dead band b >= 0, rad, of the steering: the command c steers to the angle c - b sgn c, or to 0
+/// if |c| < b.
 FreeQuantity steering_dead_band();
 
 /// Asymmetry e of the steering: angles to the left are 1 + e times the command (beyond the dead
@@ -147,8 +152,8 @@ FreeQuantity extra_force(ExtraForce force);
 /// of a continuous filter (filtered_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
-/// Variance of a symmetric kernel that smooths a channel over the rows of the log, s^2. `is_mean`: a
-/// moving average in place of a Gaussian kernel (smoothing_kernel.h). Central differences,
+/// Variance of a symmetric kernel that smooths a channel over the rows of the log, s^2. `is_mean`:
+/// a moving average in place of a Gaussian kernel (smoothing_kernel.h). Central differences,
 /// interpolation between the rows of another log and smoothing after the drive have such kernels.
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean = false);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/model_choice.h"
@@ -39,40 +40,68 @@ std::vector<bool> line_ends(const Signal& t_s, const Signal& signal, double tole
   return ends;
 }
 
-/// True if most changes of the signal lie on straight lines of several rows and at most 0.5 s.
-bool is_interpolated(const Signal& t_s, const Signal& signal, const std::vector<bool>& ends) {
-  constexpr double kLongest_s = 0.5;
-  constexpr std::size_t kFewest = 40;
-  std::size_t changes = 0;
-  std::size_t on_short_lines = 0;
-  std::size_t begin = 0;  // of the present line
+/// Number of rows of each line on which the signal changes.
+std::vector<std::size_t> lengths_of(const Signal& signal, const std::vector<bool>& ends) {
+  std::vector<std::size_t> lengths;
+  std::size_t begin = 0;
   for (std::size_t i = 1; i < signal.size(); ++i) {
     if (!ends[i]) continue;
-    if (signal[i] != signal[begin]) {
-      changes += i - begin;
-      if (i - begin > 1 && t_s[i] - t_s[begin] < kLongest_s) on_short_lines += i - begin;
-    }
+    if (signal[i] != signal[begin]) lengths.push_back(i - begin);
     begin = i;
   }
-  return changes >= kFewest && 2 * on_short_lines > changes;
+  return lengths;
 }
 
-/// The signal held from each end of a line to the next, if it is interpolated. The values on the
-/// lines may be exact or rounded.
-std::optional<Signal> held(const Signal& t_s, const Signal& signal) {
+/// Number of rows per set-point: the most frequent length of a line, if most changes of the signal
+/// lie on lines of a multiple of it, and it is at least two rows and at most 0.5 s. Else 0.
+std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
+                              const std::vector<bool>& ends) {
+  constexpr double kLongest_s = 0.5;
+  constexpr std::size_t kFewest = 40;
+  std::map<std::size_t, std::size_t> counts;
+  const std::vector<std::size_t> lengths = lengths_of(signal, ends);
+  for (const std::size_t rows : lengths) ++counts[rows];
+  if (counts.empty()) return 0;
+  const std::size_t usual =
+      std::ranges::max_element(counts, {}, [](const auto& one) { return one.second; })->first;
+  std::size_t changes = 0;
+  std::size_t on_multiples = 0;
+  for (const std::size_t rows : lengths) {
+    changes += rows;
+    if (rows % usual == 0) on_multiples += rows;
+  }
+  const double step_s = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size() - 1);
+  const bool is_usual = usual > 1 && static_cast<double>(usual) * step_s <= kLongest_s &&
+                        changes >= kFewest && 2 * on_multiples > changes;
+  return is_usual ? usual : 0;
+}
+
+/// By row: the row of its set-point, if the signal is interpolated. Set-points are the ends of
+/// lines, and the rows at multiples of rows_of_set_point() after them. The values on the lines may
+/// be exact or rounded.
+std::optional<std::vector<std::size_t>> set_points_of(const Signal& t_s, const Signal& signal) {
   constexpr double kExact = 1e-3;    // of the resolution
   constexpr double kRounded = 1.05;  // a row and the mean of its neighbours, by half of it each
   const double resolution = resolution_of(signal);
   for (const double share : {kExact, kRounded}) {
     const std::vector<bool> ends = line_ends(t_s, signal, share * resolution);
-    if (!is_interpolated(t_s, signal, ends)) continue;
-    Signal result = signal;
+    const std::size_t rows = rows_of_set_point(t_s, signal, ends);
+    if (rows == 0) continue;
+    std::vector<std::size_t> places(signal.size(), 0);
+    std::size_t begin = 0;
     for (std::size_t i = 1; i < signal.size(); ++i) {
-      if (!ends[i]) result[i] = result[i - 1];
+      if (ends[i]) begin = i;
+      places[i] = i - (i - begin) % rows;
     }
-    return result;
+    return places;
   }
   return std::nullopt;
+}
+
+/// Replaces each value by that of its set-point.
+void hold(const std::vector<std::size_t>& places, Signal& signal) {
+  const Signal before = signal;
+  for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = before[places[i]];
 }
 
 }  // namespace
@@ -81,16 +110,19 @@ std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<Dr
   std::vector<DrivingLog> changed = logs;
   bool is_any_held = false;
   for (DrivingLog& log : changed) {
-    if (log.has_held_set_points) return std::nullopt;
+    if (log.has_held_set_points || log.has_interpolated_commands) return std::nullopt;
     log.has_held_set_points = true;
-    const auto hold = [&](Signal& signal) {
-      std::optional<Signal> steps = held(log.t_s, signal);
-      is_any_held = is_any_held || steps;
-      if (steps) signal = *std::move(steps);
-    };
-    hold(log.force_left);
-    hold(log.force_right);
-    if (log.steering_command_rad) hold(*log.steering_command_rad);
+    // One program writes both forces, so both are held if one of them is interpolated.
+    auto of_forces = set_points_of(log.t_s, log.force_left);
+    if (!of_forces) of_forces = set_points_of(log.t_s, log.force_right);
+    if (of_forces) {
+      hold(*of_forces, log.force_left);
+      hold(*of_forces, log.force_right);
+    }
+    auto& steering = log.steering_command_rad;
+    const auto of_steering = steering ? set_points_of(log.t_s, *steering) : std::nullopt;
+    if (of_steering) hold(*of_steering, *steering);
+    is_any_held = is_any_held || of_forces || of_steering;
   }
   if (!is_any_held) return std::nullopt;
   return changed;
@@ -99,13 +131,16 @@ std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<Dr
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
                          const FamilyFit& first, const IdentifyOptions& options) {
   using Kind = FreeQuantity::Kind;
+  constexpr double kAlike = 10.0;  // of AIC
   LogFitOptions from = from_optimum(power_law, first);
+  const bool has_late_commands = std::ranges::any_of(from.terms, is_late_commands);
   std::erase_if(from.terms, [](const FreeTerm& term) {
     const Kind kind = term.quantity.kind;
     return kind == Kind::kDelay || kind == Kind::kSteeringDelay || kind == Kind::kMotorLag;
   });
   const FamilyFit steps = fit_first_family(held, from, options);
-  return steps.fit.usable && aic_lead(steps.fit, first.fit) > kFamilyAicThreshold;
+  return steps.fit.usable &&
+         aic_lead(steps.fit, first.fit) > (has_late_commands ? -kAlike : kFamilyAicThreshold);
 }
 
 Finding interpolated_set_points_finding(const std::string& file) {

@@ -14,14 +14,15 @@
 
 namespace awmr {
 
-/// The logs with every command held at its last set-point, the last end of a straight line. Empty
-/// if no command looks interpolated: less than half of its changes lie on straight lines over
-/// several rows, or these lines are longer than 0.5 s.
+/// The logs with every command held at its last set-point. Empty if no command looks interpolated:
+/// less than half of its changes lie on straight lines of a multiple of the same number of rows, or
+/// these are more than 0.5 s.
 std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<DrivingLog>& logs);
 
 /// True if `held`, the logs with held set-points, describe the motion significantly better: the AIC
-/// of the families of `first`, fitted to them without delays or motor lag at first, is lower by more
-/// than kFamilyAicThreshold. `power_law`: options of `first`.
+/// of the families of `first`, fitted to them without delays or motor lag at first, is lower by
+/// more than kFamilyAicThreshold. If `first` has late commands, which resemble straight lines, it
+/// may be higher by 10. `power_law`: options of `first`.
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
                          const FamilyFit& first, const IdentifyOptions& options);
 

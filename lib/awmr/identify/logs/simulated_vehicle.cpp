@@ -29,10 +29,12 @@ Smoothing smoothing_at(const FitWindow& window, const FreeQuantity& quantity, do
           rows2_per_s2};
 }
 
-/// Sets the term of the command path that the quantity `q` is. `number`: its value; `i`: its column.
+/// Sets the term of the command path that the quantity `q` is. `number`: its value; `i`: its
+/// column.
 void set_command_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                       CommandPath& path) {
   using Kind = FreeQuantity::Kind;
+  const bool has_command = window.rows.log->steering_command_rad.has_value();
   switch (q.kind) {
     case Kind::kDelay:
       path.delay = {number, i};
@@ -48,10 +50,10 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
       path.steering_trim = {number, i};
       break;
     case Kind::kSteeringDeadBand:
-      path.steering_dead_band = {number, i};
+      if (has_command) path.steering_dead_band = {number, i};
       break;
     case Kind::kSteeringAsymmetry:
-      path.steering_asymmetry = {number, i};
+      if (has_command) path.steering_asymmetry = {number, i};
       break;
     case Kind::kServoRate:
       path.servo_rate = {number, i};
@@ -131,6 +133,9 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
   if (!vehicle.path.lag && given_lag_s > 0.0) {
     vehicle.path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, given_lag_s);
   }
+  const auto is_excess = [](const FreeQuantity& q) { return q.is_force_excess(); };
+  vehicle.extra.has_motor_per_side =
+      std::ranges::any_of(model.quantities, is_excess) && has_force_difference(*window.rows.log);
   vehicle.path.switches_off = values[at(ParameterId::kBackEmf)] > 0.0;
   vehicle.plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
   if (vehicle.path.servo_rate)
