@@ -580,6 +580,20 @@ TEST(LateLog, HoldsSetPointsThatWereInterpolatedInTheLog) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
+TEST(LateLog, FindsAGyroscopeThatReadsTooMuch) {
+  constexpr double kScale = 0.04;
+  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  for (double& reading : log[LogChannel::kYawRate]->value) reading *= 1.0 + kScale;
+  expect_found(std::move(log), kTruths[1], "scale.yaw_rate_radps", kScale, "sensor-scale");
+}
+
+TEST(LateLog, FindsASpeedThatReadsTooLittle) {
+  constexpr double kScale = -0.02;
+  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  for (double& reading : log[LogChannel::kSpeed]->value) reading *= 1.0 + kScale;
+  expect_found(std::move(log), kTruths[1], "scale.speed_mps", kScale, "sensor-scale");
+}
+
 TEST(LateLog, FindsADeadBandOfTheSteering) {
   constexpr double kBand_rad = 0.03;
   DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});

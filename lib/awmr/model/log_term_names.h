@@ -39,7 +39,9 @@ inline constexpr std::string_view kSensorDelayPrefix =
 inline constexpr std::string_view kSensorLagPrefix =
     "lag.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSmoothingPrefix =
-    "smoothing_s2.";                                      ///< followed by the channel's column name
+    "smoothing_s2.";  ///< followed by the channel's column name
+inline constexpr std::string_view kSensorScalePrefix =
+    "scale.";                                             ///< followed by the channel's column name
 inline constexpr std::string_view kSlipPrefix = "slip.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSlipRatioPrefix =
     "slip_ratio.";  ///< followed by the channel's column name

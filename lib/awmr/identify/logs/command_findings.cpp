@@ -118,6 +118,23 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
+/// `sensor-scale` for every channel with an error of its scale.
+std::vector<Finding> scale_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const auto& [quantity, scale, error] : found_terms(fit, FreeQuantity::Kind::kSensorScale)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "sensor-scale",
+         fmt::format(
+             "{} reads {:.2f} +- {:.2f} % too {}, as {} show. The fit compensates this; "
+             "calibrate the sensor, or map its column divided by {:.4f}",
+             info(quantity.channel).name, 100.0 * std::abs(scale), 100.0 * error,
+             scale > 0.0 ? "much" : "little",
+             quantity.channel == LogChannel::kSpeed ? "the positions" : "heading or positions",
+             1.0 + scale)});
+  }
+  return findings;
+}
+
 /// `wheel-slip` for every channel that slipping wheels measure.
 std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
@@ -316,7 +333,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
                                                  const std::string& file) {
   std::vector<Finding> findings = delay_findings(fit, file);
   for (const auto& more :
-       {slip_findings(fit, file), sway_sensor_findings(fit, file),
+       {scale_findings(fit, file), slip_findings(fit, file), sway_sensor_findings(fit, file),
         steering_delay_findings(fit, file), servo_rate_findings(fit, file),
         linkage_findings(fit, file), constant_error_findings(fit, file),
         saturation_findings(fit, file), actuator_findings(fit, file), force_findings(fit, file)}) {

@@ -92,6 +92,20 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
+/// Adds errors of the scale of a channel that another channel shows: of the yaw rate by heading or
+/// positions, of the speed by positions.
+void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
+  const NoiseLevels& measured = problem.model.noise;
+  const bool has_position = measured.contains(LogChannel::kX);
+  const bool has_heading = has_position || measured.contains(LogChannel::kHeading);
+  for (const auto& [channel, is_shown] : {std::pair(LogChannel::kYawRate, has_heading),
+                                          std::pair(LogChannel::kSpeed, has_position)}) {
+    if (!is_shown || !measured.contains(channel)) continue;
+    if (has_kind(problem.model.quantities, FreeQuantity::Kind::kSensorScale, channel)) continue;
+    found.push_back(sensor_scale_of(channel));
+  }
+}
+
 /// Adds the slip of the wheels that measure speed or yaw rate, in both forms. All slip of a fit has
 /// the same form.
 void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
@@ -156,6 +170,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(force_saturation(full_command));
   }
   add_forces(problem, found);
+  add_scales(problem, found);
   add_slip(problem, found);
   if (problem.model.noise.contains(LogChannel::kSway)) {
     if (!has_kind(quantities, Kind::kSwayOffset)) found.push_back(sway_offset());

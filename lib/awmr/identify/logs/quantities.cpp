@@ -63,6 +63,7 @@ Interval range_of(const FreeQuantity& quantity) {
       return {kSlowestRate_radps, kFastestRate_radps};
     case Kind::kSteeringAsymmetry:
     case Kind::kForceImbalance:
+    case Kind::kSensorScale:
       return {-kLargestImbalance, kLargestImbalance};
     case Kind::kForceExponent:
       return {0.2, 1.0};
@@ -136,6 +137,8 @@ std::string FreeQuantity::name() const {
       return fmt::format("{}{}", kSensorLagPrefix, info(channel).name);
     case Kind::kSmoothing:
       return fmt::format("{}{}", kSmoothingPrefix, info(channel).name);
+    case Kind::kSensorScale:
+      return fmt::format("{}{}", kSensorScalePrefix, info(channel).name);
     case Kind::kWheelSlip:
       return fmt::format("{}{}", is_ratio ? kSlipRatioPrefix : kSlipPrefix, info(channel).name);
     case Kind::kSwayOffset:
@@ -245,6 +248,10 @@ FreeQuantity smoothing_of(LogChannel channel, bool is_mean) {
           .channel = channel,
           .large_change = 0.01,
           .is_mean = is_mean};
+}
+
+FreeQuantity sensor_scale_of(LogChannel channel) {
+  return {.kind = FreeQuantity::Kind::kSensorScale, .channel = channel, .large_change = 0.1};
 }
 
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio) {

@@ -38,6 +38,7 @@ struct FreeQuantity {
     kSensorDelay,          ///< latency of a channel
     kSensorLag,            ///< time constant of a filter that smooths a channel
     kSmoothing,            ///< variance of a symmetric kernel that smooths a channel
+    kSensorScale,          ///< relative error of the scale of a channel
     kWheelSlip,            ///< slip of the wheels that measure a channel (wheel_slip.h)
     kSwayOffset,           ///< distance of the sway sensor ahead of the centre of gravity
     kSwayAngle             ///< angle by which the sway sensor is turned to the left
@@ -159,6 +160,9 @@ FreeQuantity smoothing_of(LogChannel channel, bool is_mean = false);
 
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
+
+/// Error s of the scale of a channel: it reads 1 + s times the true value.
+FreeQuantity sensor_scale_of(LogChannel channel);
 
 /// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h). `is_ratio`: s is a
 /// ratio of speeds in place of a speed.

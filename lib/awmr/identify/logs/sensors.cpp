@@ -31,7 +31,18 @@ double LogSensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
     value += add_wheel_slip(slip, wheels_, command_at(signals_, t_s, path_), motion, row_.size(),
                             row_.data());
   }
-  return c == LogChannel::kSway ? sway(motion) : value;
+  if (c == LogChannel::kSway) value = sway(motion);
+  return scaled(c, value);
+}
+
+/// The reading of a sensor with an error of its scale (sensor_scale_of()).
+double LogSensors::scaled(LogChannel c, double value) {
+  const auto& scale = terms_.scale[at(c)];
+  if (!scale) return value;
+  const double factor = 1.0 + scale->value;
+  for (double& by : row_) by *= factor;
+  if (!row_.empty()) row_[scale->column] += value;
+  return factor * value;
 }
 
 /// Reading of the sway sensor (sway_offset()).

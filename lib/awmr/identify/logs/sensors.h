@@ -27,6 +27,7 @@ struct SensorTerms {
   std::array<std::optional<DelayColumn>, kChannelCount> delay{};
   std::array<std::optional<SensorFilter>, kChannelCount> lag{};
   std::array<std::optional<Smoothing>, kChannelCount> smoothing{};
+  std::array<std::optional<OffsetColumn>, kChannelCount> scale{};
   std::vector<WheelSlip> slips;
   std::optional<OffsetColumn> sway_offset;
   std::optional<OffsetColumn> sway_angle;
@@ -48,6 +49,7 @@ class LogSensors {
 
  private:
   double sway(const LinearMotion& motion);
+  double scaled(LogChannel c, double value);
 
   const LogSignals& signals_;
   const SensorTerms& terms_;

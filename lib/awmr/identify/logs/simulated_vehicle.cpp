@@ -92,6 +92,9 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
       sensors.delay[c] = {number, i};
       if (q.channel == LogChannel::kX) sensors.delay[at(LogChannel::kY)] = {number, i};
       break;
+    case Kind::kSensorScale:
+      sensors.scale[c] = {number, i};
+      break;
     case Kind::kWheelSlip:
       sensors.slips.push_back({q.channel, {number, i}, q.is_ratio});
       break;
