@@ -27,7 +27,7 @@ std::vector<State<double>> motion_with(const DrivingLog& log, const Plant<double
 
 /// A drive of the plant with sensor noise and these forces. `reverses`: from 5 s on, the forces are
 /// negative in every other 3 s.
-DrivingLog drive_with(const Plant<double>& plant, const ExtraForces& extra, bool reverses = false) {
+DrivingLog drive_with(const Plant<double>& plant, ExtraForces extra, bool reverses = false) {
   Random random(8, 5);
   DrivingLog log = simulate_log(plant, robot(), {.duration_s = 25.0, .drive = 8}, {}, random);
   const std::vector<State<double>> before = motion_with(log, plant, {});
@@ -36,6 +36,7 @@ DrivingLog drive_with(const Plant<double>& plant, const ExtraForces& extra, bool
     log.force_left[row] *= -0.6;
     log.force_right[row] *= -0.6;
   }
+  extra.has_motor_per_side = has_force_difference(log);
   const std::vector<State<double>> after = motion_with(log, plant, extra);
   for (const LogChannel channel : kChannels) {
     for (std::size_t row = 0; log[channel] && row < log.rows(); ++row) {

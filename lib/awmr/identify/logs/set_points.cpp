@@ -133,14 +133,12 @@ bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOption
   using Kind = FreeQuantity::Kind;
   constexpr double kAlike = 10.0;  // of AIC
   LogFitOptions from = from_optimum(power_law, first);
-  const bool has_late_commands = std::ranges::any_of(from.terms, is_late_commands);
   std::erase_if(from.terms, [](const FreeTerm& term) {
     const Kind kind = term.quantity.kind;
     return kind == Kind::kDelay || kind == Kind::kSteeringDelay || kind == Kind::kMotorLag;
   });
   const FamilyFit steps = fit_first_family(held, from, options);
-  return steps.fit.usable &&
-         aic_lead(steps.fit, first.fit) > (has_late_commands ? -kAlike : kFamilyAicThreshold);
+  return steps.fit.usable && aic_lead(steps.fit, first.fit) > -kAlike;
 }
 
 Finding interpolated_set_points_finding(const std::string& file) {

@@ -19,10 +19,10 @@ namespace awmr {
 /// these are more than 0.5 s.
 std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<DrivingLog>& logs);
 
-/// True if `held`, the logs with held set-points, describe the motion significantly better: the AIC
-/// of the families of `first`, fitted to them without delays or motor lag at first, is lower by
-/// more than kFamilyAicThreshold. If `first` has late commands, which resemble straight lines, it
-/// may be higher by 10. `power_law`: options of `first`.
+/// True if `held`, the logs with held set-points, describe the motion as well as the logs
+/// themselves: the AIC of the families of `first`, fitted to them without delays or motor lag at
+/// first, is at most 10 higher. Straight lines of equal length are hardly ever real commands, so
+/// they need not be better. `power_law`: options of `first`.
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
                          const FamilyFit& first, const IdentifyOptions& options);
 
