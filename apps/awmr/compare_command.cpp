@@ -197,8 +197,8 @@ std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
-/// Returns the findings of the inputs, then those of the comparison. Also for a part of a comparison
-/// (--shard).
+/// Returns the findings of the inputs, then those of the comparison. Also for a part of a
+/// comparison (--shard).
 Result<std::vector<Finding>> findings_of(const CompareCommand& command,
                                          const ComparedInputs& inputs,
                                          const Comparison& comparison) {

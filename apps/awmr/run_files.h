@@ -26,7 +26,8 @@ Status check_own_results(const std::filesystem::path& directory);
 
 /// Simulates every scenario of the project in every mode, with the tuned gains and with the paper's
 /// gains. Writes the scenarios, the runs and their side files (.csv.json, with the origin of a run)
-/// into the directory, from which it reads model.json and gains.json. Returns the paths of the written files.
+/// into the directory, from which it reads model.json and gains.json. Returns the paths of the
+/// written files.
 Result<std::vector<std::filesystem::path>> write_runs(const Project& project,
                                                       const InputNames& names,
                                                       const std::filesystem::path& directory);

@@ -23,8 +23,8 @@ namespace {
 /// Largest number of trials on the printed sheet; the file has all.
 constexpr std::size_t kSheetTrials = 8;
 
-/// Metric of a simulated closed loop. Its derivatives by the plant's parameters are computed without
-/// changing the controller.
+/// Metric of a simulated closed loop. Its derivatives by the plant's parameters are computed
+/// without changing the controller.
 struct LoopMetric {
   const char* name;
   std::optional<double> Metrics::*value;

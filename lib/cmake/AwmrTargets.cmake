@@ -6,6 +6,9 @@ if(AWMR_WARNINGS)
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
     -Wold-style-cast -Woverloaded-virtual -Wdouble-promotion
     $<$<BOOL:${AWMR_WARNINGS_AS_ERRORS}>:-Werror>)
+else()
+  # Without warnings, the compiler does not check fmt's format strings either, which takes a tenth of the compile time.
+  add_compile_definitions(FMT_CONSTEVAL=)
 endif()
 
 # awmr_library(NAME HEADERS file... [SOURCES file...] [PUBLIC target...] [PRIVATE target...])

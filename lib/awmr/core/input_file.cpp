@@ -10,7 +10,8 @@
 namespace awmr {
 namespace {
 
-/// For each file, by the path that the user gave, the hash of the bytes that were last read from it.
+/// For each file, by the path that the user gave, the hash of the bytes that were last read from
+/// it.
 class Notes {
  public:
   void put(const std::string& path, std::string sha256) {

@@ -36,8 +36,8 @@ std::optional<std::filesystem::path> find_program(std::string_view name);
 std::vector<std::string> plain_environment(const std::filesystem::path& temporary);
 
 /// Runs a program to its end or its time limit. Its stdin is empty, and it inherits no open files
-/// of this process. Then kills processes that the program has started and left running. Errors (input): the
-/// program cannot be started.
+/// of this process. Then kills processes that the program has started and left running. Errors
+/// (input): the program cannot be started.
 Result<ProgramEnd> run_program(const ProgramCall& call);
 
 /// Kills all programs that run_program() waits for, and their children. Later calls of

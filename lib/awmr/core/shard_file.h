@@ -40,8 +40,8 @@ struct Part {
 };
 
 /// Reads the parts in the directories, checks that they are all parts of one job, and returns them
-/// by shard index. Errors (input): a part that is missing or given twice; parts that differ in kind,
-/// program version, number of parts, options, inputs, arithmetic or payload.
+/// by shard index. Errors (input): a part that is missing or given twice; parts that differ in
+/// kind, program version, number of parts, options, inputs, arithmetic or payload.
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories);
 

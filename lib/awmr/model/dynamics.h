@@ -301,8 +301,8 @@ T differential_moment_m(const T& half_track_m, const T& right_less_left) {
   return T(2.0) * half_track_m * right_less_left;
 }
 
-/// Left and right wheel forces that motors with the dead zone `zone` make of these commands, each by
-/// beyond_dead_zone() of resistance.h.
+/// Left and right wheel forces that motors with the dead zone `zone` make of these commands, each
+/// by beyond_dead_zone() of resistance.h.
 template <class T>
 SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
   return {beyond_dead_zone(command.left, zone), beyond_dead_zone(command.right, zone)};

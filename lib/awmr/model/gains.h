@@ -17,8 +17,8 @@ struct HeadingGains {
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
-  /// w0, rad/s, >= 0.02: friction width of the steering mode (Gains::friction_width_at(), which also
-  /// gives that of the other modes). No effect without Coulomb friction in yaw.
+  /// w0, rad/s, >= 0.02: friction width of the steering mode (Gains::friction_width_at(), which
+  /// also gives that of the other modes). No effect without Coulomb friction in yaw.
   T friction_width_radps = feed_forward_rest_speed<T>();
   /// Friction width of the combined mode, rad/s, >= 0.02. 0: the larger of w0/2 and 0.02. Not used
   /// with an observer.

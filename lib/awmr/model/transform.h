@@ -17,8 +17,8 @@ namespace awmr {
 
 enum class Scale { kLinear, kLogarithmic };
 
-/// Linear: the exponents b1 and b3, and the optional terms (ParameterInfo::term: Coulomb, quadratic,
-/// dead zone, back-EMF). Logarithmic: all other parameters.
+/// Linear: the exponents b1 and b3, and the optional terms (ParameterInfo::term: Coulomb,
+/// quadratic, dead zone, back-EMF). Logarithmic: all other parameters.
 inline Scale scale_of(ParameterId id) {
   const bool exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
   return exponent || info(id).term ? Scale::kLinear : Scale::kLogarithmic;

@@ -1,5 +1,5 @@
-/// Calibration of a compass for hard and soft iron (magnets and iron on the vehicle), from the field
-/// that it measured over whole turns.
+/// Calibration of a compass for hard and soft iron (magnets and iron on the vehicle), from the
+/// field that it measured over whole turns.
 #pragma once
 
 #include <vector>

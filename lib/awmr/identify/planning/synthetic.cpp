@@ -35,8 +35,8 @@ class NoiseSource {
   bool first_ = true;
 };
 
-/// Force, rate (speed or yaw rate) and time of a simulated row, with its measurement error. The time
-/// is that for a given distance or angle at this rate.
+/// Force, rate (speed or yaw rate) and time of a simulated row, with its measurement error. The
+/// time is that for a given distance or angle at this rate.
 struct NoisyRow {
   double force;
   double rate;

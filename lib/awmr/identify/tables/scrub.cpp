@@ -18,8 +18,8 @@
 namespace awmr {
 namespace {
 
-/// Degrees of freedom of g3, the fitted yaw resistance: those of the fit to the table. If g3 is from
-/// logs: 10,000, with which Student's t is nearly the normal distribution.
+/// Degrees of freedom of g3, the fitted yaw resistance: those of the fit to the table. If g3 is
+/// from logs: 10,000, with which Student's t is nearly the normal distribution.
 double degrees_of_law(const Model& model) {
   constexpr double kOfALog = 1e4;
   for (const EstimatorReport& report : model.record.reports) {
@@ -145,8 +145,8 @@ std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& mod
   return range_of(ends);
 }
 
-/// Differential turns in which the vehicle stood still. SteadyPoint::force is their yaw moment after
-/// subtracting the wheels' dead zone.
+/// Differential turns in which the vehicle stood still. SteadyPoint::force is their yaw moment
+/// after subtracting the wheels' dead zone.
 std::vector<SteadyPoint> standing_turns(const TrialSet<TurningRow>& turning, const Model& model) {
   return turning_points(turning.standing, *model[ParameterId::kWheelDeadZone].value);
 }

@@ -6,12 +6,11 @@
 
 namespace awmr {
 
-/// Decrease of AIC above which a log fit uses another resistance family instead of the power law, or
-/// an extension of the model (back-EMF, Stribeck friction, another timing of the commands), unless
-/// the user selects one. Twice the usual threshold of 10, because near
-/// rest the simulation replaces the resistance, except Coulomb friction, by a straight line, which
-/// also changes the AIC. The finding `power-law-inadequate` of coast-down curves has the same
-/// threshold.
+/// Decrease of AIC above which a log fit uses another resistance family instead of the power law,
+/// or an extension of the model (back-EMF, Stribeck friction, another timing of the commands),
+/// unless the user selects one. Twice the usual threshold of 10, because near rest the simulation
+/// replaces the resistance, except Coulomb friction, by a straight line, which also changes the
+/// AIC. The finding `power-law-inadequate` of coast-down curves has the same threshold.
 inline constexpr double kFamilyAicThreshold = 20.0;
 
 /// AICc of a fit with n normal residuals, their sum of squares SSE and k = free + 1 estimated
