@@ -4,35 +4,10 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/extra_rates.h"
 
 namespace awmr {
 namespace {
-
-/// Force of a wheel beyond its dead zone, with derivatives.
-struct WheelForce {
-  double value;
-  double by_command;
-  double by_dead_zone;
-};
-
-WheelForce wheel_force(double command, double zone) {
-  if (command > zone) return {command - zone, 1.0, -1.0};
-  if (command < -zone) return {command + zone, 1.0, 1.0};
-  return {0.0, 0.0, 0.0};
-}
-
-/// Derivatives of u_dot, v_dot and r_dot by the sum of the forces, and of r_dot by their
-/// difference, right minus left.
-struct ByForces {
-  DrivenSlopes sum;
-  double difference;
-
-  DrivenSlopes of(double change_of_sum, double change_of_difference) const {
-    return {.u = change_of_sum * sum.u,
-            .v = change_of_sum * sum.v,
-            .r = change_of_sum * sum.r + change_of_difference * difference};
-  }
-};
 
 /// Adds the servo: d_r_dot = sat((target - d_r)/T, d_rate_max). At a limit, all derivatives are 0
 /// but that by d_rate_max.
@@ -146,116 +121,6 @@ void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on
   a.r_steering -= k * along(braking.by_steering, 2);
 }
 
-/// Subtracts from the resistance g at the speed w the part s (1 - exp(-(w/w_s)^2)) of the Stribeck
-/// friction. add_friction() adds c + s, so that the sum has its maximum c + s at rest.
-template <double DrivenSlopes::*kRate>
-void subtract_stribeck(const ExtraForces& extra, ExtraForce force, ExtraForce speed, double w,
-                       double per_inertia, ResistanceSlopes& g, LinearRates& out) {
-  const double size = extra[force];
-  const double scale = extra[speed];
-  const double ratio = w / scale;
-  const double rest = std::exp(-ratio * ratio);
-  const double sign = w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0;
-  const double by_ratio = 2.0 * size * rest * std::abs(ratio);
-  g.value -= sign * size * (1.0 - rest);
-  g.by_speed -= by_ratio / scale;
-  out.by_extra[at(force)].*kRate = sign * (1.0 - rest) * per_inertia;
-  out.by_extra[at(speed)].*kRate = -by_ratio * ratio / scale * per_inertia;
-}
-
-/// Drag in turns, k |r|^p |u|^q sgn u, over F_max, with its derivatives.
-struct TurnDrag {
-  double value = 0.0;
-  double by_speed = 0.0;
-  double by_yaw_rate = 0.0;
-  double by_size = 0.0;            ///< by k
-  double by_exponent = 0.0;        ///< by p
-  double by_speed_exponent = 0.0;  ///< by q
-};
-
-/// Below a small speed, |u|^q sgn u is replaced by a straight line, whose length counts as constant
-/// in the derivatives.
-TurnDrag turn_drag(const LinearPlant& plant, const State<double>& s) {
-  constexpr double kRest_mps = 0.02;
-  if (!plant.has_turn_drag) return {};
-  const ResistanceSlopes of_yaw = plant.turn_drag_of_yaw(s.r_radps);  // k |r|^p sgn r
-  const double rest_mps = std::max(kRest_mps, std::abs(of_yaw.value) * plant.step_per_mass);
-  const double speed_mps = std::max(std::abs(s.u_mps), rest_mps);
-  const double q = plant.extra[ExtraForce::kTurnDragSpeedExponent];
-  const double of_speed =
-      std::pow(speed_mps, q) * math::saturate(s.u_mps / rest_mps, 1.0);  // |u|^q sgn u
-  const double share = s.r_radps < 0.0 ? -of_speed : of_speed;
-  const bool is_slow = std::abs(s.u_mps) < rest_mps;
-  const double by_log_speed = is_slow ? 1.0 : q;
-  return {.value = share * of_yaw.value,
-          .by_speed = by_log_speed * std::abs(of_yaw.value) * std::pow(speed_mps, q - 1.0),
-          .by_yaw_rate = share * of_yaw.by_speed,
-          .by_size = share * of_yaw.by_alpha,
-          .by_exponent = share * of_yaw.by_beta,
-          .by_speed_exponent = share * of_yaw.value * std::log(speed_mps)};
-}
-
-/// Multiplies the surge resistance g, with its Stribeck part, by 1 + e_g if the vehicle drives
-/// backward. Friction at rest is left out: add_friction() adds it.
-void add_backward_drag(const LinearPlant& plant, double u_mps, ResistanceSlopes& g,
-                       LinearRates& out) {
-  DrivenSlopes& by = out.by_extra[at(ExtraForce::kBackwardDrag)];
-  by.u = 0.0;
-  if (!(u_mps < 0.0)) return;
-  by.u = -g.value * plant.per_mass;
-  const double share = 1.0 + plant.extra[ExtraForce::kBackwardDrag];
-  for (double* const part :
-       {&g.value, &g.by_speed, &g.by_alpha, &g.by_beta, &g.by_coulomb, &g.by_quadratic}) {
-    *part *= share;
-  }
-  if (!plant.has_surge_stribeck) return;
-  out.by_extra[at(ExtraForce::kSurgeStribeck)].u *= share;
-  out.by_extra[at(ExtraForce::kSurgeStribeckSpeed)].u *= share;
-}
-
-/// Derivatives of the force of a wheel by e_b, e_r (extra_forces.h) and the rolling speed.
-struct ByExcess {
-  double by_brake = 0.0;
-  double by_reverse = 0.0;
-  double by_speed = 0.0;
-};
-
-/// Multiplies the force of a wheel by 1 + e_b if it is against the motion `w_mps` of its side, and
-/// by 1 + e_r if it is negative. From rest to a small speed against the force, e_b fades in, so
-/// that the rates are continuous; the width of this range counts as constant in the derivatives.
-ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& wheel) {
-  constexpr double kFade_mps = 0.04;
-  constexpr double kWheels = 4.0;
-  const double pure = wheel.value;
-  const double e_b = plant.extra[ExtraForce::kBrakeForce];
-  const double fade_mps = std::max(kFade_mps, kWheels * std::abs(e_b * pure) * plant.step_per_mass);
-  const double slope = -std::copysign(1.0 / fade_mps, pure);
-  const double wanted = slope * w_mps;
-  const double braking = std::clamp(wanted, 0.0, 1.0);
-  const double brake = 1.0 + braking * e_b;
-  const bool reverses = pure < 0.0;
-  const double reverse = reverses ? 1.0 + plant.extra[ExtraForce::kReverseForce] : 1.0;
-  wheel = {pure * brake * reverse, wheel.by_command * brake * reverse,
-           wheel.by_dead_zone * brake * reverse};
-  return {.by_brake = braking * pure * reverse,
-          .by_reverse = reverses ? pure * brake : 0.0,
-          .by_speed = braking == wanted ? slope * e_b * pure * reverse : 0.0};
-}
-
-/// Adds the acceleration by the slope of the ground.
-void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out) {
-  const double c = std::cos(psi_rad);
-  const double d = std::sin(psi_rad);
-  const double along = extra[ExtraForce::kSlopeX] * c + extra[ExtraForce::kSlopeY] * d;
-  const double across = extra[ExtraForce::kSlopeY] * c - extra[ExtraForce::kSlopeX] * d;
-  out.rates.u_mps += along;
-  out.rates.v_mps += across;
-  out.by_state.u_psi = across;
-  out.by_state.v_psi = -along;
-  out.by_extra[at(ExtraForce::kSlopeX)] = {.u = c, .v = -d};
-  out.by_extra[at(ExtraForce::kSlopeY)] = {.u = d, .v = c};
-}
-
 Plant<double> with_stribeck(Plant<double> p, const ExtraForces& extra) {
   p.surge.coulomb += extra[ExtraForce::kSurgeStribeck];
   p.yaw.coulomb += extra[ExtraForce::kYawStribeck];
@@ -350,42 +215,23 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   const double sin_d = std::sin(s.steering_rad);
   const double cos_d = std::cos(s.steering_rad);
   const double reach = cos_d + p.rear_driven;  // forward force of front and rear wheel over F'
-  WheelForce left = wheel_force(command.force.left, p.wheel_dead_zone);
-  WheelForce right = wheel_force(command.force.right, p.wheel_dead_zone);
-  const double side_m = plant.extra.has_motor_per_side ? p.half_track_m : 0.0;
-  ByExcess left_excess;
-  ByExcess right_excess;
-  if (plant.has_force_excess) {
-    left_excess = scale_by_excess(plant, s.u_mps - side_m * s.r_radps, left);
-    right_excess = scale_by_excess(plant, s.u_mps + side_m * s.r_radps, right);
-  }
-  const double sum = left.value + right.value;
-  const double difference = right.value - left.value;
-  ResistanceSlopes g1 = plant.surge(s.u_mps);
-  ResistanceSlopes g3 = plant.yaw(s.r_radps);
-  if (plant.has_surge_stribeck) {
-    subtract_stribeck<&DrivenSlopes::u>(plant.extra, ExtraForce::kSurgeStribeck,
-                                        ExtraForce::kSurgeStribeckSpeed, s.u_mps, plant.per_mass,
-                                        g1, out);
-  }
-  if (plant.has_yaw_stribeck) {
-    subtract_stribeck<&DrivenSlopes::r>(plant.extra, ExtraForce::kYawStribeck,
-                                        ExtraForce::kYawStribeckSpeed, s.r_radps, plant.per_inertia,
-                                        g3, out);
-  }
+  const Wheels wheels = wheels_of(plant, s, command.force);
+  const double sum = wheels.left.value + wheels.right.value;
+  const double difference = wheels.right.value - wheels.left.value;
+  const ResistanceSlopes g1 = surge_resistance(plant, s.u_mps, out);
+  const ResistanceSlopes g3 = yaw_resistance(plant, s.r_radps, out);
+  const TurnDrag drag = turn_drag(plant, s);
 
-  add_backward_drag(plant, s.u_mps, g1, out);
   add_kinematics(s, out);
   add_servo(plant, s, command.steering_rad, out);
 
   // u_dot = (sum (rho + cos d_r) - g1(u) - D)/m' + r v,   rho: 1 with driven rear wheels, else 0;
   // D: drag in turns
-  const TurnDrag scrub = turn_drag(plant, s);
-  const double surge = (sum * reach - g1.value - scrub.value) * plant.per_mass;
+  const double surge = (sum * reach - g1.value - drag.value) * plant.per_mass;
   out.rates.u_mps = surge + s.r_radps * s.v_mps;
-  out.by_state.u_u = -(g1.by_speed + scrub.by_speed) * plant.per_mass;
+  out.by_state.u_u = -(g1.by_speed + drag.by_speed) * plant.per_mass;
   out.by_state.u_v = s.r_radps;
-  out.by_state.u_r = s.v_mps - scrub.by_yaw_rate * plant.per_mass;
+  out.by_state.u_r = s.v_mps - drag.by_yaw_rate * plant.per_mass;
   out.by_state.u_steering = -sum * sin_d * plant.per_mass;
 
   // v_dot = (sum sin d_r - a_s v)/m' - r u
@@ -404,49 +250,27 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   out.by_state.r_steering =
       (p.front_axle_m * sum * cos_d - p.half_track_m * difference * sin_d) * plant.per_inertia;
 
-  auto& by = out.by_parameter;
   add_resistance<&DrivenSlopes::u>(g1, plant.per_mass, ParameterId::kSurgeAlpha,
                                    ParameterId::kSurgeBeta, ParameterId::kSurgeCoulomb,
                                    ParameterId::kSurgeQuadratic, out);
   add_resistance<&DrivenSlopes::r>(g3, plant.per_inertia, ParameterId::kYawAlpha,
                                    ParameterId::kYawBeta, ParameterId::kYawCoulomb,
                                    ParameterId::kYawQuadratic, out);
+  auto& by = out.by_parameter;
   by[at(ParameterId::kSwayAlpha)].v = -s.v_mps * plant.per_mass;
   by[at(ParameterId::kMassNorm)].u = -surge * plant.per_mass;
   by[at(ParameterId::kMassNorm)].v = -sway * plant.per_mass;
   by[at(ParameterId::kInertiaNorm)].r = -out.rates.r_radps * plant.per_inertia;
 
-  const ByForces forces{{.u = reach * plant.per_mass,
-                         .v = sin_d * plant.per_mass,
-                         .r = p.front_axle_m * sin_d * plant.per_inertia},
-                        p.half_track_m * reach * plant.per_inertia};
-  const auto of_sides = [&](double by_left, double by_right) {
-    return forces.of(by_left + by_right, by_right - by_left);
-  };
-  by[at(ParameterId::kWheelDeadZone)] = of_sides(left.by_dead_zone, right.by_dead_zone);
-  auto& by_extra = out.by_extra;
-  by_extra[at(ExtraForce::kTurnDrag)].u = -scrub.by_size * plant.per_mass;
-  by_extra[at(ExtraForce::kTurnDragExponent)].u = -scrub.by_exponent * plant.per_mass;
-  by_extra[at(ExtraForce::kTurnDragSpeedExponent)].u = -scrub.by_speed_exponent * plant.per_mass;
-  by_extra[at(ExtraForce::kBrakeForce)] = of_sides(left_excess.by_brake, right_excess.by_brake);
-  by_extra[at(ExtraForce::kReverseForce)] =
-      of_sides(left_excess.by_reverse, right_excess.by_reverse);
-  const DrivenSlopes by_u = of_sides(left_excess.by_speed, right_excess.by_speed);
-  const DrivenSlopes by_r =
-      of_sides(-side_m * left_excess.by_speed, side_m * right_excess.by_speed);
-  out.by_state.u_u += by_u.u;
-  out.by_state.u_r += by_r.u;
-  out.by_state.v_u += by_u.v;
-  out.by_state.v_r += by_r.v;
-  out.by_state.r_u = by_u.r;
-  out.by_state.r_r += by_r.r;
-  out.by_force_left = forces.of(left.by_command, -left.by_command);
-  out.by_force_right = forces.of(right.by_command, right.by_command);
+  add_turn_drag(drag, plant.per_mass, out);
+  add_wheel_slopes(plant, wheels,
+                   {{.u = reach * plant.per_mass,
+                     .v = sin_d * plant.per_mass,
+                     .r = p.front_axle_m * sin_d * plant.per_inertia},
+                    p.half_track_m * reach * plant.per_inertia},
+                   out);
   if (plant.has_back_emf) {
-    const auto is_on = [](const WheelForce& wheel) {
-      return wheel.value > 0.0 || wheel.value < 0.0;
-    };
-    add_back_emf(plant, s, is_on(left), is_on(right), sin_d, cos_d, out);
+    add_back_emf(plant, s, is_on(wheels.left), is_on(wheels.right), sin_d, cos_d, out);
   }
   if (plant.has_slope) add_slope(plant.extra, s.psi_rad, out);
   if (plant.sway_pace < 1.0) slow_sway(plant.sway_pace, out);

@@ -1,0 +1,181 @@
+#include "awmr/identify/logs/extra_rates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "awmr/core/index.h"
+
+namespace awmr {
+namespace {
+
+WheelForce wheel_force(double command, double zone) {
+  if (command > zone) return {command - zone, 1.0, -1.0};
+  if (command < -zone) return {command + zone, 1.0, 1.0};
+  return {0.0, 0.0, 0.0};
+}
+
+/// Multiplies the force of a wheel by 1 + e_b if it is against the motion `w_mps` of its side, and
+/// by 1 + e_r if it is negative. From rest to a small speed against the force, e_b fades in, so
+/// that the rates are continuous; the width of this range counts as constant in the derivatives.
+ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& wheel) {
+  constexpr double kFade_mps = 0.04;
+  constexpr double kWheels = 4.0;
+  const double pure = wheel.value;
+  const double e_b = plant.extra[ExtraForce::kBrakeForce];
+  const double fade_mps = std::max(kFade_mps, kWheels * std::abs(e_b * pure) * plant.step_per_mass);
+  const double slope = -std::copysign(1.0 / fade_mps, pure);
+  const double wanted = slope * w_mps;
+  const double braking = std::clamp(wanted, 0.0, 1.0);
+  const double brake = 1.0 + braking * e_b;
+  const bool reverses = pure < 0.0;
+  const double reverse = reverses ? 1.0 + plant.extra[ExtraForce::kReverseForce] : 1.0;
+  wheel = {pure * brake * reverse, wheel.by_command * brake * reverse,
+           wheel.by_dead_zone * brake * reverse};
+  return {.by_brake = braking * pure * reverse,
+          .by_reverse = reverses ? pure * brake : 0.0,
+          .by_speed = braking == wanted ? slope * e_b * pure * reverse : 0.0};
+}
+
+/// Distance d (m) by which the motors of a side are beside the vehicle's motion; 0 for one motor.
+double motor_side_m(const LinearPlant& plant) {
+  return plant.extra.has_motor_per_side ? plant.plant.half_track_m : 0.0;
+}
+
+}  // namespace
+
+Wheels wheels_of(const LinearPlant& plant, const State<double>& s,
+                 const SideForces<double>& force) {
+  const double zone = plant.plant.wheel_dead_zone;
+  Wheels wheels{wheel_force(force.left, zone), wheel_force(force.right, zone)};
+  if (!plant.has_force_excess) return wheels;
+  const double swing_mps = motor_side_m(plant) * s.r_radps;
+  wheels.left_excess = scale_by_excess(plant, s.u_mps - swing_mps, wheels.left);
+  wheels.right_excess = scale_by_excess(plant, s.u_mps + swing_mps, wheels.right);
+  return wheels;
+}
+
+void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByForces& forces,
+                      LinearRates& out) {
+  const auto& [left, right, left_excess, right_excess] = wheels;
+  out.by_force_left = forces.of(left.by_command, 0.0);
+  out.by_force_right = forces.of(0.0, right.by_command);
+  out.by_parameter[at(ParameterId::kWheelDeadZone)] =
+      forces.of(left.by_dead_zone, right.by_dead_zone);
+  out.by_extra[at(ExtraForce::kBrakeForce)] =
+      forces.of(left_excess.by_brake, right_excess.by_brake);
+  out.by_extra[at(ExtraForce::kReverseForce)] =
+      forces.of(left_excess.by_reverse, right_excess.by_reverse);
+  const double side_m = motor_side_m(plant);
+  const DrivenSlopes by_u = forces.of(left_excess.by_speed, right_excess.by_speed);
+  const DrivenSlopes by_r =
+      forces.of(-side_m * left_excess.by_speed, side_m * right_excess.by_speed);
+  StateSlopes& a = out.by_state;
+  a.u_u += by_u.u;
+  a.u_r += by_r.u;
+  a.v_u += by_u.v;
+  a.v_r += by_r.v;
+  a.r_u = by_u.r;
+  a.r_r += by_r.r;
+}
+
+namespace {
+
+/// Subtracts from the resistance g at the speed w the part s (1 - exp(-(w/w_s)^2)) of the Stribeck
+/// friction. add_friction() adds c + s, so that the sum has its maximum c + s at rest.
+template <double DrivenSlopes::*kRate>
+void subtract_stribeck(const ExtraForces& extra, ExtraForce force, ExtraForce speed, double w,
+                       double per_inertia, ResistanceSlopes& g, LinearRates& out) {
+  const double size = extra[force];
+  const double scale = extra[speed];
+  const double ratio = w / scale;
+  const double rest = std::exp(-ratio * ratio);
+  const double sign = w > 0.0 ? 1.0 : w < 0.0 ? -1.0 : 0.0;
+  const double by_ratio = 2.0 * size * rest * std::abs(ratio);
+  g.value -= sign * size * (1.0 - rest);
+  g.by_speed -= by_ratio / scale;
+  out.by_extra[at(force)].*kRate = sign * (1.0 - rest) * per_inertia;
+  out.by_extra[at(speed)].*kRate = -by_ratio * ratio / scale * per_inertia;
+}
+
+/// Multiplies the surge resistance g, with its Stribeck part, by 1 + e_g if the vehicle drives
+/// backward. Friction at rest is left out: add_friction() adds it.
+void add_backward_drag(const LinearPlant& plant, double u_mps, ResistanceSlopes& g,
+                       LinearRates& out) {
+  DrivenSlopes& by = out.by_extra[at(ExtraForce::kBackwardDrag)];
+  by.u = 0.0;
+  if (!(u_mps < 0.0)) return;
+  by.u = -g.value * plant.per_mass;
+  const double share = 1.0 + plant.extra[ExtraForce::kBackwardDrag];
+  for (double* const part :
+       {&g.value, &g.by_speed, &g.by_alpha, &g.by_beta, &g.by_coulomb, &g.by_quadratic}) {
+    *part *= share;
+  }
+  if (!plant.has_surge_stribeck) return;
+  out.by_extra[at(ExtraForce::kSurgeStribeck)].u *= share;
+  out.by_extra[at(ExtraForce::kSurgeStribeckSpeed)].u *= share;
+}
+
+}  // namespace
+
+ResistanceSlopes surge_resistance(const LinearPlant& plant, double u_mps, LinearRates& out) {
+  ResistanceSlopes g = plant.surge(u_mps);
+  if (plant.has_surge_stribeck) {
+    subtract_stribeck<&DrivenSlopes::u>(plant.extra, ExtraForce::kSurgeStribeck,
+                                        ExtraForce::kSurgeStribeckSpeed, u_mps, plant.per_mass, g,
+                                        out);
+  }
+  add_backward_drag(plant, u_mps, g, out);
+  return g;
+}
+
+ResistanceSlopes yaw_resistance(const LinearPlant& plant, double r_radps, LinearRates& out) {
+  ResistanceSlopes g = plant.yaw(r_radps);
+  if (plant.has_yaw_stribeck) {
+    subtract_stribeck<&DrivenSlopes::r>(plant.extra, ExtraForce::kYawStribeck,
+                                        ExtraForce::kYawStribeckSpeed, r_radps, plant.per_inertia,
+                                        g, out);
+  }
+  return g;
+}
+
+TurnDrag turn_drag(const LinearPlant& plant, const State<double>& s) {
+  constexpr double kRest_mps = 0.02;
+  if (!plant.has_turn_drag) return {};
+  const ResistanceSlopes of_yaw = plant.turn_drag_of_yaw(s.r_radps);  // k |r|^p sgn r
+  const double rest_mps = std::max(kRest_mps, std::abs(of_yaw.value) * plant.step_per_mass);
+  const double speed_mps = std::max(std::abs(s.u_mps), rest_mps);
+  const double q = plant.extra[ExtraForce::kTurnDragSpeedExponent];
+  const double of_speed =
+      std::pow(speed_mps, q) * math::saturate(s.u_mps / rest_mps, 1.0);  // |u|^q sgn u
+  const double share = s.r_radps < 0.0 ? -of_speed : of_speed;
+  const bool is_slow = std::abs(s.u_mps) < rest_mps;
+  const double by_log_speed = is_slow ? 1.0 : q;
+  return {.value = share * of_yaw.value,
+          .by_speed = by_log_speed * std::abs(of_yaw.value) * std::pow(speed_mps, q - 1.0),
+          .by_yaw_rate = share * of_yaw.by_speed,
+          .by_size = share * of_yaw.by_alpha,
+          .by_exponent = share * of_yaw.by_beta,
+          .by_speed_exponent = share * of_yaw.value * std::log(speed_mps)};
+}
+
+void add_turn_drag(const TurnDrag& drag, double per_mass, LinearRates& out) {
+  auto& by = out.by_extra;
+  by[at(ExtraForce::kTurnDrag)].u = -drag.by_size * per_mass;
+  by[at(ExtraForce::kTurnDragExponent)].u = -drag.by_exponent * per_mass;
+  by[at(ExtraForce::kTurnDragSpeedExponent)].u = -drag.by_speed_exponent * per_mass;
+}
+
+void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out) {
+  const double c = std::cos(psi_rad);
+  const double d = std::sin(psi_rad);
+  const double along = extra[ExtraForce::kSlopeX] * c + extra[ExtraForce::kSlopeY] * d;
+  const double across = extra[ExtraForce::kSlopeY] * c - extra[ExtraForce::kSlopeX] * d;
+  out.rates.u_mps += along;
+  out.rates.v_mps += across;
+  out.by_state.u_psi = across;
+  out.by_state.v_psi = -along;
+  out.by_extra[at(ExtraForce::kSlopeX)] = {.u = c, .v = -d};
+  out.by_extra[at(ExtraForce::kSlopeY)] = {.u = d, .v = c};
+}
+
+}  // namespace awmr
