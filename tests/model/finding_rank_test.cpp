@@ -21,7 +21,7 @@ TEST(FindingRank, PutsFirstWhatChangesTheNumbersMost) {
     codes.push_back(finding->code + finding->message);
   }
   EXPECT_THAT(codes, ElementsAre("not-timed", "no-interval", "log-contradiction", "outlier1",
-                                 "command-held", "outlier2", "assumed-sway", "rows-set-aside"));
+                                 "command-held", "assumed-sway", "outlier2", "rows-set-aside"));
 }
 
 }  // namespace

@@ -65,12 +65,18 @@ Effect effect_of(const Finding& finding) {
 }
 
 std::vector<const Finding*> by_effect(const std::vector<Finding>& findings) {
-  using Turn = std::tuple<Effect, bool, const Finding*>;
+  enum class Group { kRefused, kFirstOfCode, kRepeated, kNote };
+  using Turn = std::tuple<Group, Effect, const Finding*>;
   std::set<std::string_view> seen;
   std::vector<Turn> turns;
   for (const Finding& finding : findings) {
     const bool is_repeated = !seen.insert(finding.code).second;
-    turns.emplace_back(effect_of(finding), is_repeated, &finding);
+    const Effect effect = effect_of(finding);
+    const Group group = effect == Effect::kRefusal ? Group::kRefused
+                        : effect == Effect::kNote  ? Group::kNote
+                        : is_repeated              ? Group::kRepeated
+                                                   : Group::kFirstOfCode;
+    turns.emplace_back(group, effect, &finding);
   }
   std::stable_sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) {
     return std::tie(std::get<0>(a), std::get<1>(a)) < std::tie(std::get<0>(b), std::get<1>(b));

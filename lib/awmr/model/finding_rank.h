@@ -23,9 +23,9 @@ enum class Effect {
 /// has this effect.
 Effect effect_of(const Finding& finding);
 
-/// Returns the findings sorted by effect. Within an effect, the first finding of each code comes
-/// before further findings with the same codes; otherwise the order of the list is kept. The list
-/// must outlive the result.
+/// Returns the findings in this order: errors; the first finding of each other code, by effect;
+/// further findings of these codes, by effect; notes. Otherwise the order of the list is kept. The
+/// list must outlive the result.
 std::vector<const Finding*> by_effect(const std::vector<Finding>& findings);
 
 }  // namespace awmr

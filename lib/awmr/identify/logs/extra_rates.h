@@ -32,8 +32,7 @@ struct Wheels {
 inline bool is_on(const WheelForce& wheel) { return wheel.value > 0.0 || wheel.value < 0.0; }
 
 /// The wheel forces at the commands `force` (extra_forces.h).
-Wheels wheels_of(const LinearPlant& plant, const State<double>& s,
-                 const SideForces<double>& force);
+Wheels wheels_of(const LinearPlant& plant, const State<double>& s, const SideForces<double>& force);
 
 /// Derivatives of u_dot, v_dot and r_dot by the sum of the forces, and of r_dot by their
 /// difference, right minus left.
