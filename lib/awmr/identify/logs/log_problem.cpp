@@ -22,15 +22,18 @@ double shortest_spacing_s(const std::vector<DrivingLog>& logs) {
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates) {
   constexpr double kSwayStepsOfRow = 4.0;
   constexpr double kServoStepsOfRow = 8.0;
+  constexpr double kStepWithJumps_s = 0.01;
   Plant<double> plant =
       plant_of(model.vehicle, parameters_at(model.held, model.quantities, coordinates));
   const double sway_s = 0.25 * plant.mass_norm / plant.sway_alpha;
   const double servo_s = 0.25 * plant.steering_time_constant_s;
   plant.sway_alpha = 0.0;
   plant.steering_time_constant_s = std::numeric_limits<double>::infinity();
+  const bool jumps = std::ranges::any_of(model.quantities, &FreeQuantity::is_force_excess);
   // The lower limit matters only for guesses with time constants shorter than those of any vehicle.
   return std::max(kShortestReplayStep_s,
                   std::min({replay_step_s(plant), model.row_spacing_s,
+                            jumps ? kStepWithJumps_s : model.row_spacing_s,
                             std::max(sway_s, model.row_spacing_s / kSwayStepsOfRow),
                             std::max(servo_s, model.row_spacing_s / kServoStepsOfRow)}));
 }
