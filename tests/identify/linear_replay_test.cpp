@@ -466,7 +466,7 @@ std::vector<LinearMotion> with_forces(const DrivingLog& log, const ForceCoordina
   }
   const Plant<double> plant =
       plant_by_hand(log.steering_command_rad.has_value(), kStep_s, Drive::kFourWheel, friction);
-  LinearStepper stepper(plant, kExtraForceCount, {}, {}, 0.0, extra);
+  LinearStepper stepper(plant, kExtraForceCount, {}, {}, kStep_s, extra);
   std::vector<LinearMotion> motions;
   const LinearMotion first{first_state<double>([](std::size_t, double x) { return x; }),
                            std::vector<double>(kStateSize * kExtraForceCount, 0.0)};

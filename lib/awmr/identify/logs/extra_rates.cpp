@@ -18,7 +18,7 @@ WheelForce wheel_force(double command, double zone) {
 /// by 1 + e_r if it is negative. From rest to a small speed against the force, e_b fades in, so
 /// that the rates are continuous; the width of this range counts as constant in the derivatives.
 ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& wheel) {
-  constexpr double kFade_mps = 0.04;
+  constexpr double kFade_mps = 0.002;
   constexpr double kWheels = 4.0;
   const double pure = wheel.value;
   const double e_b = plant.extra[ExtraForce::kBrakeForce];

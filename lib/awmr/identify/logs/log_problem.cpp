@@ -22,7 +22,7 @@ double shortest_spacing_s(const std::vector<DrivingLog>& logs) {
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates) {
   constexpr double kSwayStepsOfRow = 4.0;
   constexpr double kServoStepsOfRow = 8.0;
-  constexpr double kStepWithJumps_s = 0.01;
+  constexpr double kStepWithJumps_s = 0.005;
   Plant<double> plant =
       plant_of(model.vehicle, parameters_at(model.held, model.quantities, coordinates));
   const double sway_s = 0.25 * plant.mass_norm / plant.sway_alpha;

@@ -46,7 +46,7 @@ struct SearchPoint {
 /// Longest integration step at these coordinates, s: that of replay_step_s(), except that fast sway
 /// shortens it to no less than 1/4 of the row spacing, and a fast servo to no less than 1/8. (Sway
 /// that is faster is slowed, LinearPlant::sway_pace.) At most the row spacing, because the
-/// chord of the resistance near rest (Resistance::rest_speed) grows with the step. At most 10 ms if
+/// chord of the resistance near rest (Resistance::rest_speed) grows with the step. At most 5 ms if
 /// an excess of braking or backward forces is free, because braking forces jump where a wheel
 /// changes its direction. At least kShortestReplayStep_s.
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
