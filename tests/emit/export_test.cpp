@@ -137,7 +137,7 @@ TEST(Export, LeavesOutAndReportsValuesThatDoNotFollowFromTheModel) {
   EXPECT_NEAR(parameters_of(px4).at("RA_MAX_STR_ANG"),
               radians(paper_robot().vehicle.steering_max_deg), 1e-6);
   const std::string without = text_of(paper_robot(), ExportFormat::kArduPilot, false);
-  EXPECT_THAT(without, HasSubstr("# left out: ATC_SPEED_P: it follows from the gains"));
+  EXPECT_THAT(without, HasSubstr("# left out: ATC_SPEED_P: it is computed from gains"));
   EXPECT_EQ(parameters_of(without).count("ATC_SPEED_P"), 0U);
 }
 

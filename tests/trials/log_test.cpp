@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <functional>
 
 #include "awmr/core/units.h"
@@ -186,6 +187,21 @@ std::vector<std::string> codes(const Read<DrivingLog>& read) {
   std::vector<std::string> all;
   for (const Finding& finding : read.findings) all.push_back(finding.code);
   return all;
+}
+
+TEST(Log, EmptyCellsOfAChannelWithOnlyChangesAreUnchangedReadings) {
+  constexpr int kRows = 400;
+  std::string last;
+  const auto cell = [&](int i) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%.2f", 0.5 - 0.5 * std::cos(0.02 * i));
+    return last == text ? std::string() : last = text;
+  };
+  const auto read = accepted_log(log_text("speed_mps", cell, kRows));
+  EXPECT_THAT(codes(read), Contains("only-changes"));
+  const Measured& speed = *read.set[LogChannel::kSpeed];
+  EXPECT_GT(speed.fresh_count, kRows - 30);
+  EXPECT_NEAR(speed.quantum, 0.01, 1e-9);
 }
 
 TEST(Log, ACourseAtRestIsSetAside) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -91,6 +92,18 @@ ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel chann
   return quality;
 }
 
+/// True if 90 % of the rows follow each other at the same distance, as readings of a slow sensor do,
+/// or those of every row with a gap.
+bool are_regular(const std::vector<std::size_t>& rows) {
+  constexpr double kShare = 0.9;
+  std::map<std::size_t, std::size_t> counts;
+  for (std::size_t i = 1; i < rows.size(); ++i) ++counts[rows[i] - rows[i - 1]];
+  const auto is_usual = [&](const auto& one) {
+    return static_cast<double>(one.second) >= kShare * static_cast<double>(rows.size() - 1);
+  };
+  return std::ranges::any_of(counts, is_usual);
+}
+
 /// Adds the note `only-changes`.
 void note_changes_only(LogChannel channel, const DrivingLog& log,
                        const std::vector<std::size_t>& rows, double resolution,
@@ -128,7 +141,8 @@ Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings) {
   const bool is_sparse = !rows.empty() && rows.size() < rows.back() + 1 - rows.front();
-  const double resolution = is_sparse ? resolution_of_changes(picked(values, rows)) : 0.0;
+  const double resolution =
+      is_sparse && !are_regular(rows) ? resolution_of_changes(picked(values, rows)) : 0.0;
   if (resolution > 0.0) {
     note_changes_only(channel, log, rows, resolution, findings);
     return measured_of(channel, log, rows_between(rows.front(), rows.back()),

@@ -15,7 +15,7 @@ inline constexpr std::size_t kShortestLog = 10;
 
 /// Builds a channel. `values`: one per row, SI. `rows`: the rows in which the file has a value.
 /// Precondition: the log has its times and commands. If the file has a value
-/// only where it changes (resolution_of_changes()), the rows between its first
+/// only where it changes, at irregular times (resolution_of_changes()), the rows between its first
 /// and last value get the value before them. Findings:
 /// `only-changes`, `spikes`, `stuck-sensor`, `saturated-channel`, `quantised-samples`.
 Measured measured_of(LogChannel channel, const DrivingLog& log,
