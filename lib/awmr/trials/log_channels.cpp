@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 
+#include "awmr/core/sample_quantile.h"
 #include "awmr/trials/channel_quality.h"
 
 namespace awmr {
@@ -92,16 +92,18 @@ ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel chann
   return quality;
 }
 
-/// True if 90 % of the rows follow each other at the same distance, as readings of a slow sensor do,
-/// or those of every row with a gap.
-bool are_regular(const std::vector<std::size_t>& rows) {
-  constexpr double kShare = 0.9;
-  std::map<std::size_t, std::size_t> counts;
-  for (std::size_t i = 1; i < rows.size(); ++i) ++counts[rows[i] - rows[i - 1]];
-  const auto is_usual = [&](const auto& one) {
-    return static_cast<double>(one.second) >= kShare * static_cast<double>(rows.size() - 1);
-  };
-  return std::ranges::any_of(counts, is_usual);
+/// True if most times between the rows are about equal, as for the readings of a slow sensor, or if
+/// every row but those of a gap is in `rows`.
+bool are_regular(const std::vector<double>& t_s, const std::vector<std::size_t>& rows) {
+  constexpr double kAbout = 1.5;  // factor
+  constexpr double kMost = 0.8;
+  std::vector<double> gaps_s;
+  for (std::size_t i = 1; i < rows.size(); ++i) gaps_s.push_back(t_s[rows[i]] - t_s[rows[i - 1]]);
+  if (gaps_s.empty()) return true;
+  const double usual_s = median(gaps_s);
+  const auto usual = std::ranges::count_if(
+      gaps_s, [&](double gap_s) { return gap_s < kAbout * usual_s && usual_s < kAbout * gap_s; });
+  return static_cast<double>(usual) >= kMost * static_cast<double>(gaps_s.size());
 }
 
 /// Adds the note `only-changes`.
@@ -142,7 +144,7 @@ Measured measured_of(LogChannel channel, const DrivingLog& log,
                      std::vector<Finding>& findings) {
   const bool is_sparse = !rows.empty() && rows.size() < rows.back() + 1 - rows.front();
   const double resolution =
-      is_sparse && !are_regular(rows) ? resolution_of_changes(picked(values, rows)) : 0.0;
+      is_sparse && !are_regular(log.t_s, rows) ? resolution_of_changes(picked(values, rows)) : 0.0;
   if (resolution > 0.0) {
     note_changes_only(channel, log, rows, resolution, findings);
     return measured_of(channel, log, rows_between(rows.front(), rows.back()),
