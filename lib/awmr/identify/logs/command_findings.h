@@ -9,11 +9,9 @@
 
 namespace awmr {
 
-/// One finding for each delay, lag or command error that the fit identifies: `sensor-delay`,
-/// `sensor-lag`, `smoothed-channel`, `steering-delay`, `steering-trim`, `force-imbalance`, `force-saturation`,
-/// `actuator-lag`, `late-commands`, `wheel-slip`, `sway-sensor`. Ignores a value that is below two
-/// standard errors, or below the limit for its kind: 1 ms (delay, lag), 1 mrad (trim), 0.1 %
-/// (imbalance, saturation, slip ratio), 1 mm/s (slip).
+/// One finding for each delay, lag, error of commands or sensors and force (force_findings()) that
+/// the fit identifies. Ignores a value that is below two standard errors, or below the limit for
+/// its kind (LogFit::is_significant()).
 /// `withdrawn`: true if the intervals of the fit are withdrawn, which the messages then state.
 /// `file`: the log that the findings name.
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,

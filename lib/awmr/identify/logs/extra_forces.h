@@ -21,7 +21,7 @@
 /// A wheel force against the motion is 1 + e_b times its command, a negative (backward) wheel force
 /// 1 + e_r times. The motion is that of the wheel's side (u - d r left, u + d r right) if the
 /// commands of left and right differ in the log, else that of the vehicle (u). Near rest, e_b fades
-/// in (scale_by_excess() in linear_rates.cpp).
+/// in (scale_by_excess() in extra_rates.cpp).
 #pragma once
 
 #include <array>

@@ -8,8 +8,7 @@
 
 namespace awmr {
 
-/// `stribeck-friction` for the surge or the yaw resistance, and `slope`, if these forces are larger
-/// than two standard errors.
+/// One finding for each force of extra_forces.h that is larger than two standard errors.
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file);
 
 /// Withdraws the intervals of a resistance with a Stribeck friction above 5 % of its Coulomb
