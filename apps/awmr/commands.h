@@ -103,7 +103,8 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
-  bool observer = false;                  ///< also tune a disturbance observer
+  /// true: tune a disturbance observer; false: tune none. Absent: as tune.json says.
+  std::optional<bool> observer = {};
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
   std::optional<int> draws = {};          ///< replaces `draws` of tune.json

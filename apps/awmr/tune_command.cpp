@@ -36,7 +36,11 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
     AWMR_ASSIGN_OR_RETURN(config, read_tune_config(*command.config));
   }
   TuneOptions& options = config.options;
-  if (command.observer && !options.observer) options.observer.emplace();
+  if (command.observer == true && !options.observer) options.observer.emplace();
+  if (command.observer == false) {
+    options.observer.reset();
+    options.adds_observer = false;
+  }
   if (options.scenarios.empty()) {
     AWMR_ASSIGN_OR_RETURN(options.scenarios,
                           default_tuning_scenarios(model, options, command.heading_rate_limit));
@@ -74,7 +78,7 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   if (command.nominal) options.emplace_back("nominal", "true");
-  if (command.observer) options.emplace_back("observer", "true");
+  if (command.observer) options.emplace_back("observer", *command.observer ? "true" : "false");
   if (command.baseline) options.emplace_back("baseline", command.baseline->string());
   if (command.mode) options.emplace_back("mode", std::string(name_of(*command.mode)));
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
@@ -90,9 +94,9 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
                                "Tune for the model's own parameter values only, without parameter "
                                "draws, sensor noise, latency or motor lag");
   sub.add_flag(
-      "--observer", command.observer,
+      "--observer,!--no-observer", command.observer,
       "Also tune a disturbance observer, for constant disturbances such as a slope or unequal "
-      "motors");
+      "motors (default: only if runs do not settle without it)");
   sub.add_option("--baseline", command.baseline,
                  "Baseline gains, whose objective is 1 by definition: pole-placement (default), "
                  "paper or a gains.json")
@@ -147,7 +151,7 @@ void add_tune(CLI::App& app, Session& session) {
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
            "tune.json: mode, form, margin, limits, baseline, weights, goals, open, observer, "
-           "evaluations, seed, scenarios");
+           "add_observer, evaluations, seed, scenarios");
   CLI::Option* nominal = add_search(*sub, *command);
   add_draws(*sub, *command, nominal);
   add_allocation(*sub, command->allocation);

@@ -7,11 +7,15 @@ namespace awmr::python {
 namespace {
 
 Tuning tuned(const Model& model, const std::optional<std::filesystem::path>& config, bool nominal,
-             std::optional<int> draws, bool observer) {
+             std::optional<int> draws, std::optional<bool> observer) {
   TuneOptions options;
   if (config) options = value_or_raise(read_tune_config(*config)).options;
   options.nominal = options.nominal || nominal;
-  if (observer && !options.observer) options.observer.emplace();
+  if (observer == true && !options.observer) options.observer.emplace();
+  if (observer == false) {
+    options.observer.reset();
+    options.adds_observer = false;
+  }
   if (draws) {
     options.draws = *draws;
   }
@@ -120,12 +124,13 @@ void bind_tune(py::module_& module) {
                              "and the verdict \"met\", \"missed\" or \"open\" (undecided)");
   module.def(
       "tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
-      py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = false,
+      py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = py::none(),
       "Searches the gains of the controller that minimise the objective and meet the "
       "constraints, such as T2 < T1. `config`: path of a tune.json; `draws`: number of plants "
       "drawn from the model's covariance (default 32); `nominal`: tune for the model's own "
-      "parameters, without draws, noise and lag; `observer`: also tune a disturbance "
-      "observer. The results equal those of `awmr tune`. Raises Refused if no gains meet the "
+      "parameters, without draws, noise and lag; `observer`: True tunes a disturbance "
+      "observer, too, False none; None: only if runs do not settle without it. The results equal "
+      "those of `awmr tune`. Raises Refused if no gains meet the "
       "constraints, InputError if the model lacks a parameter or `config` is wrong.");
 }
 

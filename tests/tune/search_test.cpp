@@ -18,6 +18,7 @@
 #include "awmr/tune/robust.h"
 #include "awmr/tune/settling.h"
 #include "awmr/tune/trade_off.h"
+#include "awmr/tune/tune_findings.h"
 #include "awmr/tune/turning.h"
 #include "support/uncertain_model.h"
 #include "tune/paper_model.h"
@@ -690,6 +691,41 @@ Model with_friction(double coulomb_m) {
   Model model = paper_model();
   model[ParameterId::kYawCoulomb] = given(coulomb_m);
   return model;
+}
+
+/// Dry friction leaves a heading error within the limit of the steering rate, which only an
+/// observer removes.
+TEST(Tune, AddsAnObserverIfRunsDoNotSettleWithoutIt) {
+  const Model model = with_friction(0.03);
+  TuneOptions options = short_options();
+  options.nominal = false;
+  options.draws = 2;
+  options.evaluation_draws = 4;
+  options.global_evaluations = 40;
+  options.local_evaluations = 10;
+  options.mode = YawMode::kSteering;
+  options.scenarios = {default_tuning_scenario(model).value()};
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  EXPECT_TRUE(tuning->observer_added);
+  EXPECT_TRUE(tuning->gains.observer.is_on());
+  EXPECT_TRUE(tuning->unsettled.empty());
+  const auto has = [](const std::vector<Finding>& findings, std::string_view code) {
+    return std::ranges::any_of(findings, [&](const Finding& f) { return f.code == code; });
+  };
+  const std::vector<Finding> findings = tune_findings(model, options, *tuning);
+  EXPECT_TRUE(has(findings, "observer-added"));
+  EXPECT_FALSE(has(findings, "unsettled"));
+
+  options.adds_observer = false;
+  const Result<Tuning> without = tune(model, options);
+  if (without) {
+    EXPECT_FALSE(without->gains.observer.is_on());
+    EXPECT_TRUE(has(tune_findings(model, options, *without), "unsettled"));
+  } else {
+    EXPECT_EQ(without.error().faults.front().code, ErrorCode::kNoGains);
+    EXPECT_THAT(to_text(without.error()), ::testing::HasSubstr("observer"));
+  }
 }
 
 TEST(Search, ReportsThatItTakesLongBeforeItBegins) {

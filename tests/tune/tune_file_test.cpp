@@ -43,6 +43,8 @@ class TuneFile : public ::testing::Test {
 
 TEST_F(TuneFile, ReadsAnObserver) {
   EXPECT_FALSE(read("{}")->options.observer);
+  EXPECT_TRUE(read("{}")->options.adds_observer);
+  EXPECT_FALSE(read(R"({"add_observer": false})")->options.adds_observer);
   const auto plain = read(R"({"observer": {}})");
   ASSERT_TRUE(plain) << to_text(plain.error());
   EXPECT_EQ(plain->options.observer->bandwidth_radps.lo, ObserverSearch{}.bandwidth_radps.lo);

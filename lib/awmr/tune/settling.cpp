@@ -16,14 +16,6 @@
 namespace awmr {
 namespace {
 
-double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains) {
-  const auto all = run_all(setting, draw_noise(setting), std::span(&gains, 1));
-  const std::vector<ModeScore>& scores = all.front();
-  const auto settled = std::ranges::count_if(
-      scores, [](const ModeScore& score) { return score.metrics.completed && !score.has_failed; });
-  return static_cast<double>(settled) / static_cast<double>(scores.size());
-}
-
 /// The scenario with `factor` times the time for each heading.
 Scenario stretched(Scenario scenario, double factor) {
   scenario.duration_s *= factor;
@@ -128,6 +120,37 @@ std::vector<SettlingChange> relaxed(const ObjectiveSetting& setting,
 }
 
 }  // namespace
+
+double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains) {
+  const auto all = run_all(setting, draw_noise(setting), std::span(&gains, 1));
+  const std::vector<ModeScore>& scores = all.front();
+  const auto settled = std::ranges::count_if(
+      scores, [](const ModeScore& score) { return score.metrics.completed && !score.has_failed; });
+  return static_cast<double>(settled) / static_cast<double>(scores.size());
+}
+
+ObjectiveSetting some_runs(ObjectiveSetting setting, const std::string& scenario, YawMode mode) {
+  constexpr std::size_t kVehicles = 13;
+  setting.mode = mode;
+  setting.goals.clear();
+  if (setting.vehicles.size() > kVehicles) setting.vehicles.resize(kVehicles);
+  if (!scenario.empty()) {
+    std::erase_if(setting.scenarios, [&](const Scenario& s) { return s.name != scenario; });
+  }
+  return setting;
+}
+
+bool needs_observer(const ObjectiveSetting& setting, const ConstraintContext& context,
+                    const Gains<double>& gains) {
+  for (const Scenario& scenario : setting.scenarios) {
+    for (const YawMode mode : setting.modes()) {
+      const ObjectiveSetting runs = some_runs(setting, scenario.name, mode);
+      if (settled_share(runs, gains) >= kSettledShare) continue;
+      if (an_observer(runs, context, gains, kSettledShare)) return true;
+    }
+  }
+  return false;
+}
 
 std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
                                                 const ConstraintContext& context,

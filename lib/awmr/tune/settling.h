@@ -15,6 +15,18 @@ namespace awmr {
 /// Share of the runs that has to settle; below it, the finding `unsettled` is reported.
 inline constexpr double kSettledShare = 0.95;
 
+/// Share of the runs of the setting that settle with these gains, [0, 1].
+double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
+
+/// The runs of one scenario (all scenarios if `scenario` is empty) and mode, on the nominal vehicle
+/// and the first draws of the setting, without goals.
+ObjectiveSetting some_runs(ObjectiveSetting setting, const std::string& scenario, YawMode mode);
+
+/// True if in a scenario and mode fewer than kSettledShare of the runs settle with these gains, but
+/// at least this share with an observer.
+bool needs_observer(const ObjectiveSetting& setting, const ConstraintContext& context,
+                    const Gains<double>& gains);
+
 /// Tries one change at a time, and returns those with which at least `share` of the runs of the
 /// setting settle:
 ///   - 2 or 4 times the time of the scenarios and their headings

@@ -224,7 +224,39 @@ std::vector<Gains<double>> starts_of(const TuneOptions& options, const Constrain
   return starts;
 }
 
-/// Searches the gains on one setting, and evaluates them also in the scenario `held_out`.
+Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
+                            const ConstraintContext& context, const TuneOptions& requested,
+                            const Scenario& held_out);
+
+/// Gains with an observer, if it may be added (TuneOptions::adds_observer), runs with `gains` need
+/// it to settle, and more runs settle with it.
+std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
+                                           const ConstraintContext& context,
+                                           const TuneOptions& requested, const Scenario& held_out,
+                                           const Gains<double>& gains) {
+  const bool has_observer =
+      requested.observer || std::ranges::any_of(setting.scenarios, [](const Scenario& scenario) {
+        return scenario.control.observer.has_value();
+      });
+  if (has_observer || !requested.adds_observer) return std::nullopt;
+  if (!needs_observer(setting, context, gains)) return std::nullopt;
+  TuneOptions options = requested;
+  options.observer.emplace();
+  if (!limit_observer(context, options.observer)) return std::nullopt;
+  if (options.notice) {
+    options.notice(
+        "some runs settle only with a disturbance observer, so the search is repeated with one");
+  }
+  Result<Tuning> observed = search_gains(model, setting, context, options, held_out);
+  if (!observed || settled_share(setting, observed->gains) <= settled_share(setting, gains)) {
+    return std::nullopt;
+  }
+  observed->observer_added = true;
+  return *std::move(observed);
+}
+
+/// Searches the gains on one setting, and evaluates them also in the scenario `held_out`. If runs
+/// need an observer to settle (TuneOptions::adds_observer), searches again with one.
 Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                             const ConstraintContext& context, const TuneOptions& requested,
                             const Scenario& held_out) {
@@ -241,6 +273,10 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, some, all, starts));
   if (!found.best) return not_found(found, all, requested);
   const SettledGains settled = settle(options, context, some, all, *found.best);
+  if (auto observed =
+          with_needed_observer(model, setting, context, requested, held_out, settled.gains)) {
+    return *std::move(observed);
+  }
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
                         active_constraints(options, context, some, *found.best));
   const Evaluation tuned = all(settled.gains);
@@ -283,6 +319,7 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                 .held_out_objective = evaluated.objective,
                 .certificate = std::move(certificate),
                 .trade_off = std::move(trade_off),
+                .observer_added = false,
                 .unsettled = {},
                 .robust = {}};
 }
@@ -291,17 +328,10 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
 /// on the nominal vehicle and the first draws of the setting.
 std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
                                           const ConstraintContext& context) {
-  constexpr std::size_t kVehicles = 13;
   std::vector<UnsettledRuns> all;
   const auto look_at = [&](const std::string& scenario, YawMode mode, double settled_share) {
     if (settled_share >= kSettledShare) return;
-    ObjectiveSetting runs = setting;
-    runs.mode = mode;
-    runs.goals.clear();
-    if (runs.vehicles.size() > kVehicles) runs.vehicles.resize(kVehicles);
-    if (!scenario.empty()) {
-      std::erase_if(runs.scenarios, [&](const Scenario& s) { return s.name != scenario; });
-    }
+    const ObjectiveSetting runs = some_runs(setting, scenario, mode);
     const Status turns =
         check_turning(context.own(), std::span(&mode, 1), runs.scenarios, std::string());
     UnsettledRuns unsettled{.scenario = scenario, .mode = mode, .why = {}, .changes = {}};

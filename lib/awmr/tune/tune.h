@@ -189,8 +189,12 @@ struct TuneOptions {
   /// Each needs heading guidance and a unique name. Empty: default_tuning_scenarios().
   std::vector<Scenario> scenarios;
   GainBounds bounds;
-  std::optional<ObserverSearch> observer = {};  ///< absent: no observer is tuned
-  std::vector<TuningGoal> goals = {};           ///< robust search only
+  std::optional<ObserverSearch> observer = {};  ///< absent: see adds_observer
+  /// Without `observer`: true tunes one, with the defaults of ObserverSearch, if fewer than 95 % of
+  /// the runs of a scenario and mode settle without it, and at least 95 % with it. Dry friction in
+  /// yaw is the usual cause. false: no observer is tuned.
+  bool adds_observer = true;
+  std::vector<TuningGoal> goals = {};  ///< robust search only
   /// Called with the number of evaluated sets of gains, and with the budget global_evaluations +
   /// local_evaluations. The last stage of the search, on all draws, is not counted.
   Progress progress = {};
@@ -398,6 +402,7 @@ struct Tuning {
   double held_out_objective = 0.0;
   std::optional<Certificate> certificate;  ///< always present in the result of tune()
   TradeOff trade_off;
+  bool observer_added = false;  ///< an observer was tuned because of TuneOptions::adds_observer
   std::vector<UnsettledRuns> unsettled;
   std::optional<RobustTuning> robust;  ///< absent for nominal gains
 };

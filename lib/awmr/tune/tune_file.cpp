@@ -38,6 +38,7 @@ void read_search(JsonObject& json, TuneOptions& options) {
   if (json.has("mode")) options.mode = json.choice("mode", kYawModeNames);
   if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
+  options.adds_observer = json.optional_boolean("add_observer").value_or(options.adds_observer);
   if (json.has("goals")) options.evaluation_draws = kGoalDraws;
   if (auto open = json.optional_object("open")) {
     options.open = read_open(std::move(*open));

@@ -72,8 +72,19 @@ void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& 
                    degrees(certificate.damping.yaw_rate_radps))});
 }
 
-/// Adds a warning if an observer is tuned on runs without disturbance.
-void note_observer(const TuneOptions& options, std::vector<Finding>& findings) {
+/// Adds a warning if tune() added an observer, or if a requested one is tuned on runs without
+/// disturbance.
+void note_observer(const TuneOptions& options, const Tuning& tuning,
+                   std::vector<Finding>& findings) {
+  if (tuning.observer_added) {
+    findings.push_back(
+        {"", 0, Severity::kWarning, "observer-added",
+         fmt::format("without a disturbance observer, fewer than {:g} % of some runs settle after "
+                     "every heading step, so one with a bandwidth of {:.3g} rad/s was tuned, which "
+                     "the firmware runs. To tune without one: {}",
+                     100.0 * kSettledShare, tuning.gains.observer.bandwidth_radps,
+                     option_text("no_observer"))});
+  }
   const bool is_pushed = std::ranges::any_of(
       options.scenarios, [](const Scenario& scenario) { return scenario.disturbance.any(); });
   if (!options.observer || is_pushed) return;
@@ -135,7 +146,7 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
                                       : nominal_findings(tuning);
   if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
-  note_observer(options, findings);
+  note_observer(options, tuning, findings);
   if (const auto plant = model.plant()) {
     auto finding = unsigned_speed_finding(*plant, model.vehicle, tuning.gains, "");
     if (finding) findings.push_back(*std::move(finding));

@@ -61,6 +61,7 @@ void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByFo
   out.by_force_right = forces.of(0.0, right.by_command);
   out.by_parameter[at(ParameterId::kWheelDeadZone)] =
       forces.of(left.by_dead_zone, right.by_dead_zone);
+  if (!plant.has_force_excess) return;
   out.by_extra[at(ExtraForce::kBrakeForce)] =
       forces.of(left_excess.by_brake, right_excess.by_brake);
   out.by_extra[at(ExtraForce::kReverseForce)] =
@@ -74,7 +75,7 @@ void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByFo
   a.u_r += by_r.u;
   a.v_u += by_u.v;
   a.v_r += by_r.v;
-  a.r_u = by_u.r;
+  a.r_u += by_u.r;
   a.r_r += by_r.r;
 }
 

@@ -32,6 +32,13 @@ std::optional<FoundForce> found_force(const LogFit& fit, ExtraForce force) {
   return std::nullopt;
 }
 
+/// The force, if it is more than kStandardErrors standard errors from 0.
+std::optional<FoundForce> significant(const LogFit& fit, ExtraForce force) {
+  const auto found = found_force(fit, force);
+  if (!found || !(std::abs(found->value) > kStandardErrors * found->error)) return std::nullopt;
+  return found;
+}
+
 /// Value of a parameter of the fit; 0 if it is not free.
 double fitted_value(const LogFit& fit, ParameterId id) {
   const auto i = place_of(fit.quantities, id);
@@ -55,8 +62,8 @@ std::vector<FoundStribeck> found_stribeck(const LogFit& fit) {
   std::vector<FoundStribeck> found;
   const auto add = [&](ExtraForce force, ExtraForce speed, ParameterId coulomb,
                        std::string_view axis, std::string_view what, std::string_view unit) {
-    const auto one = found_force(fit, force);
-    if (!one || one->value < kStandardErrors * one->error) return;
+    const auto one = significant(fit, force);
+    if (!one) return;
     const auto scale = found_force(fit, speed);
     found.push_back({axis, what, unit, *one, fitted_value(fit, coulomb),
                      scale ? std::optional(scale->value) : std::nullopt});
@@ -100,12 +107,6 @@ std::vector<Finding> slope_findings(const LogFit& fit, const std::string& file) 
                        "compensates this, but simulations do not; record logs on level ground",
                        degrees(std::atan2(y->value, x->value)), size, error,
                        degrees(std::asin(std::min(1.0, size / kGravity_mps2))))}};
-}
-
-std::optional<FoundForce> significant(const LogFit& fit, ExtraForce force) {
-  const auto found = found_force(fit, force);
-  if (!found || !(std::abs(found->value) > kStandardErrors * found->error)) return std::nullopt;
-  return found;
 }
 
 std::vector<Finding> turn_drag_findings(const LogFit& fit, const std::string& file) {

@@ -82,8 +82,7 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
   if (!any_log(problem, has_both_directions)) return;
   // wheel_slip.h does not contain the excess.
-  if (std::ranges::none_of(quantities, &FreeQuantity::is_force_excess) &&
-      !has_kind(quantities, FreeQuantity::Kind::kWheelSlip)) {
+  if (!has_force_excess(quantities) && !has_kind(quantities, FreeQuantity::Kind::kWheelSlip)) {
     found.push_back(extra_force(ExtraForce::kBrakeForce));
     found.push_back(extra_force(ExtraForce::kReverseForce));
   }
@@ -110,7 +109,7 @@ void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 /// the same form.
 void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  if (std::ranges::any_of(quantities, &FreeQuantity::is_force_excess)) return;
+  if (has_force_excess(quantities)) return;
   const auto other =
       std::ranges::find(quantities, FreeQuantity::Kind::kWheelSlip, &FreeQuantity::kind);
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {

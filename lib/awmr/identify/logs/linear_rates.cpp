@@ -246,6 +246,7 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
   out.rates.r_radps =
       (p.front_axle_m * sum * sin_d + p.half_track_m * difference * reach - g3.value) *
       plant.per_inertia;
+  out.by_state.r_u = 0.0;
   out.by_state.r_r = -g3.by_speed * plant.per_inertia;
   out.by_state.r_steering =
       (p.front_axle_m * sum * cos_d - p.half_track_m * difference * sin_d) * plant.per_inertia;

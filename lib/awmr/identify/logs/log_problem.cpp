@@ -29,7 +29,7 @@ double step_s_at(const LogModel& model, const std::vector<double>& coordinates) 
   const double servo_s = 0.25 * plant.steering_time_constant_s;
   plant.sway_alpha = 0.0;
   plant.steering_time_constant_s = std::numeric_limits<double>::infinity();
-  const bool jumps = std::ranges::any_of(model.quantities, &FreeQuantity::is_force_excess);
+  const bool jumps = has_force_excess(model.quantities);
   // The lower limit matters only for guesses with time constants shorter than those of any vehicle.
   return std::max(kShortestReplayStep_s,
                   std::min({replay_step_s(plant), model.row_spacing_s,

@@ -281,6 +281,10 @@ bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force) {
   return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.is(force); });
 }
 
+bool has_force_excess(const std::vector<FreeQuantity>& quantities) {
+  return std::ranges::any_of(quantities, &FreeQuantity::is_force_excess);
+}
+
 std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id) {
   const auto found = std::find_if(quantities.begin(), quantities.end(),
                                   [id](const FreeQuantity& q) { return q.is(id); });

@@ -193,6 +193,7 @@ bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind ki
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind,
               LogChannel channel);
 bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force);
+bool has_force_excess(const std::vector<FreeQuantity>& quantities);
 /// Place of a parameter among the quantities; empty if it is not free.
 std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id);
 

@@ -136,9 +136,8 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
   if (!vehicle.path.lag && given_lag_s > 0.0) {
     vehicle.path.lag.emplace(*window.rows.log, window.rows.begin, window.rows.end, given_lag_s);
   }
-  const auto is_excess = [](const FreeQuantity& q) { return q.is_force_excess(); };
   vehicle.extra.has_motor_per_side =
-      std::ranges::any_of(model.quantities, is_excess) && has_force_difference(*window.rows.log);
+      has_force_excess(model.quantities) && has_force_difference(*window.rows.log);
   vehicle.path.switches_off = values[at(ParameterId::kBackEmf)] > 0.0;
   vehicle.plant = resolved_beside_friction(plant_of(model.vehicle, values), model.longest_step_s);
   if (vehicle.path.servo_rate)

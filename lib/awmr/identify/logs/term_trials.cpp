@@ -22,7 +22,7 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
     begin.push_back(term.quantity.is_form() ? term.begin : std::clamp(term.begin, -most, most));
   }
   Extended from = extended(with_white_noise(settled.problem), settled.point, quantities, begin);
-  if (std::ranges::any_of(quantities, &FreeQuantity::is_force_excess)) {
+  if (has_force_excess(quantities)) {
     from.problem.model.longest_step_s = step_s_at(from.problem.model, from.point.coordinates);
   }
   return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
