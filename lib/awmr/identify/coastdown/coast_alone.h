@@ -20,9 +20,9 @@ void add_curve_figures(EstimatorReport& report, const CoastFit& fit);
 EstimatorParameter by_logarithm(std::string name, double value, double error, double half);
 
 /// Estimates m'/a1 and, if the family has them, b1, c1/a1 and q1/a1 from coast-down curves alone.
-/// Family: the requested one; for `auto` the one with the smallest AICc; else the power law.
-/// Returns `result` with these values and with the reason why m' itself is not identified. Without
-/// curves or a usable fit, it has only the reason.
+/// Uses the requested family (for `auto`: the one with the smallest AICc), or the power law if none
+/// is requested. Returns `result` with these values and with the reason why m' itself is not
+/// identified. Without curves or a usable fit, adds only the reason.
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, MassResult result);
 

@@ -21,7 +21,7 @@ struct CoastStart {
 struct TermOverAlpha {
   TransformedParameter term{};  ///< c1 or q1
   double value = 0.0;           ///< c1/a1 in (m/s)^b1, q1/a1 in (m/s)^(b1 - 2); >= 0
-  double variance = 0.0;        ///< variance of `value`; 0 if `value` is 0, its lower bound
+  double variance = 0.0;        ///< variance of `value`; 0 if `value` is at a bound
 };
 
 /// Time constant T of a low-pass filter that the speed of the curves has passed.
@@ -41,7 +41,7 @@ struct FittedLag {
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
   double variance = 0.0;       ///< variance of log_mass_norm by the noise of the curves alone
-  double dof = 0.0;            ///< degrees of freedom of `variance`, fewer if autocorrelated
+  double dof = 0.0;            ///< degrees of freedom of `variance`; fewer if `autocorrelated`
   /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
   std::optional<FittedLag> lag;      ///< present if the start has a filter
@@ -66,10 +66,10 @@ struct CoastFit {
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
                    const CoastStart& start);
 
-/// Checks the standard error of ln m' of a fit with a filter. With ln m' fixed at 3 standard errors
-/// below or above the optimum and the other parameters fitted, the sum of squares must rise by at
-/// least half of what its curvature at the optimum predicts. Empty if it does on both sides; else
-/// ln m' and the filter on the side with the smaller rise.
+/// Checks the standard error of ln m' of a fit with a filter. Fixes ln m' at 3 standard errors
+/// below and above the optimum and fits the other parameters. On both sides the sum of squares must
+/// rise by at least half of what its curvature at the optimum predicts. Returns empty if it does,
+/// else ln m' and the filter on the side with the smaller rise.
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit);
 

@@ -42,7 +42,8 @@ double pooled_noise(const std::vector<CoastCurve>& curves) {
   return std::sqrt(squares / rows);
 }
 
-/// Frees the coordinates of the surge law that act in a coast-down, with the fit's covariance.
+/// Frees the coordinates of the surge law that act in a coast-down, with the covariance of the
+/// surge fit as prior. Does nothing without a covariance, or if `prior_mps` is 0 (fit_once()).
 void free_within_errors(const CoastData& data, double prior_mps, CoastProblem& problem) {
   if (!data.surge.has_covariance() || !(prior_mps > 0.0)) return;
   std::vector<TransformedParameter> free;
@@ -75,8 +76,8 @@ CoastCandidate fit_once(const CoastData& data, const CoastStart& start, double p
   return fit;
 }
 
-/// Fits one model, with a surge law within its errors. The scale of the noise, which weighs the
-/// curves against the surge rows, is that of the readings at first, then that of the residuals.
+/// Fits one model and varies the surge law within its covariance. The noise of the curves weighs
+/// them against the surge rows: at first that of the readings, then that of the residuals.
 CoastCandidate fit_candidate(const CoastData& data, const CoastStart& start) {
   constexpr int kRounds = 4;
   constexpr double kSame = 0.3;
@@ -100,8 +101,8 @@ CoastStart fast_filter(const CoastData& data, const CoastStart& plain) {
           kFast * fall_time_s(data.curves, data.surge.law(), plain.log_mass)};
 }
 
-/// Fits a filter from two starts: a fast filter, and the optimum found from there with the time
-/// constants of filter and motion exchanged. Returns the better fit first.
+/// Fits a filter from two starts. The first start has a fast filter. The second is the optimum of
+/// the first with the time constants of filter and motion exchanged. Returns the better fit first.
 std::vector<CoastCandidate> fit_filters(const CoastData& data, const CoastStart& plain) {
   CoastCandidate fast = fit_candidate(data, fast_filter(data, plain));
   const double found_s = fall_time_s(data.curves, data.surge.law(), fast.at.log_mass);
@@ -116,10 +117,10 @@ bool is_slow(const CoastStart& at, const CoastData& data) {
   return at.lag_s > fall_time_s(data.curves, data.surge.law(), at.log_mass);
 }
 
-/// Another m' and filter that describe the curves nearly as well as the reported ones, if any. The
-/// fit `fixed`, which is reported, starts at the optimum `best` and keeps the surge law as given.
-///   - `other`, the optimum from the other start, if its AICc is close and tyres can give its
-///     deceleration;
+/// Another m' and filter that describe the curves nearly as well as the reported fit `fixed`; empty
+/// if there is none. `fixed` started at the optimum `best` and has the given surge law. Candidates:
+///   - `other`, the optimum from the other start, if its AICc is close, its m' differs, and tyres
+///     can give its deceleration;
 ///   - `plain`, without a filter, if the filter of `best` is slower than the motion and the
 ///     residuals are correlated;
 ///   - `best`, if `fixed` ended at another m' with the time constants of filter and motion
@@ -145,7 +146,8 @@ std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCan
   return flat_direction(data.curves, data.surge, fixed);
 }
 
-/// Limit of the duration of drifts: that of logs, or the time constant of the motion if shorter.
+/// Limit of the correlation time, above which a drift is a model error: that of logs, or the time
+/// constant of the motion if that is shorter.
 double longest_drift_s(const CoastData& data, const CoastStart& at) {
   constexpr double kLongest_s = 0.5;
   return std::min(kLongest_s, fall_time_s(data.curves, data.surge.law(), at.log_mass));
@@ -155,7 +157,7 @@ double longest_drift_s(const CoastData& data, const CoastStart& at) {
 void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& model) {
   constexpr double kMargin = 4.0;  // of AICc
   constexpr double kStandardErrors = 2.0;
-  constexpr double kOverLag = 3.0;  // noise that has passed the filter is correlated over T
+  constexpr double kOverLag = 3.0;  // filtered noise is correlated over the time constant T
   const std::vector<CoastCandidate> filters = fit_filters(data, plain.at);
   const CoastCandidate& best = filters[0];
   const double margin = is_slow(best.at, data) ? kClose : kMargin;

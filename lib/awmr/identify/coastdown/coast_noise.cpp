@@ -12,9 +12,9 @@
 namespace awmr {
 namespace {
 
-/// J^T R J for errors with the correlation matrix R: white noise and a drift by `noise`,
-/// independent from curve to curve. (Differenced noise counts as white, which widens intervals.)
-/// With the rows J_i, the share s of the drift in the variance, its transition matrix F_i
+/// J^T R J for errors with the correlation matrix R of `noise`: white noise and a drift,
+/// independent from curve to curve. (Differenced noise counts as white, which makes intervals
+/// wider.) With the rows J_i, the share s of the drift in the variance, its transition matrix F_i
 /// (DriftStep) and the first unit vector e_0, by recursion:
 ///   Y_i = F_i (Y_{i-1} + e_0 J_{i-1}),
 ///   sum_i J_i^T J_i + s (J_i^T (e_0^T Y_i) + (e_0^T Y_i)^T J_i)

@@ -19,15 +19,15 @@ std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e,
 ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
                                 int free, double sensor_mps);
 
-/// Standard deviation of white noise that gives the mean of all errors the variance that it has
-/// with `noise`; at least noise.std().
+/// Standard deviation of white noise under which the mean of all errors would have the same
+/// variance as under `noise`; at least noise.std().
 double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& curves);
 
-/// Sets the residuals, their standard deviation and autocorrelation, the rank and the degrees of
-/// freedom of `fit`, from the Jacobian `j` and the residuals `e` at the optimum. Returns the
-/// covariance of the parameters of the columns of `j`, which allows for a drift of the errors
-/// (noise_of_residuals()). The covariance is 0 x 0 if `j` has no full rank or there are no degrees
-/// of freedom.
+/// Sets the residuals, their standard deviation and autocorrelation, the rank, the condition number
+/// and the degrees of freedom of `fit`, from the Jacobian `j` and the residuals `e` at the optimum.
+/// Returns the covariance of the parameters of the columns of `j`. It includes the effect of a
+/// drift of the errors (noise_of_residuals()). It is 0 x 0 if `j` is rank-deficient or there are no
+/// degrees of freedom.
 Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
                                 const std::vector<CoastCurve>& curves, CoastFit& fit);
 

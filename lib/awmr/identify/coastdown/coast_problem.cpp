@@ -133,9 +133,9 @@ constexpr double kFilterStep = 0.01;
 constexpr double kShortestLag_s = 1e-4;
 
 /// Finds the plateau of the speed before motors-off. It ends at the last sample within 4 standard
-/// deviations of the mean of the samples before it; a plateau needs more than eight samples. The
-/// standard deviation of the noise is the root mean square of the second differences over sqrt(6),
-/// because second differences of a smooth curve are small.
+/// deviations of the mean of the samples before it. A plateau needs more than eight samples, and at
+/// least eight samples after it. The standard deviation of the noise is the root mean square of the
+/// second differences over sqrt(6), because second differences of a smooth curve are small.
 CoastInitialState initial_state_of(const CoastCurve& curve) {
   const std::vector<double>& u = curve.speed_mps;
   double squares = 0.0;
@@ -155,7 +155,7 @@ CoastInitialState initial_state_of(const CoastCurve& curve) {
     }
   }
   constexpr std::size_t kShortestPlateau = 8;
-  constexpr std::size_t kFewestFalling = 3;  // with u0, t0 and m'
+  constexpr std::size_t kFewestFalling = 3;  // as many as unknowns: u0, t0 and m'
   if (end >= kShortestPlateau && end + kShortestPlateau < u.size())
     return {{level, curve.t_s[end]}, true, {}};
   CoastInitialState state{{u[0], curve.t_s[0]}, false, {}};
@@ -249,9 +249,8 @@ void CoastProblem::solve() {
   free_short_leads();
 }
 
-/// Also fits t0, the time of motors-off, of the runs with no or a short plateau before it. Keeps
-/// this fit if it is usable and lowers AIC; else restores the fit with t0 fixed at the first
-/// sample.
+/// Also fits t0, the time of motors-off, of the runs without a detected plateau. Keeps this fit if
+/// it is usable and lowers AIC; else restores the fit with t0 fixed at the first sample.
 void CoastProblem::free_short_leads() {
   constexpr double kOfAic = 2.0;  // for each t0
   const std::vector<CoastInitialState> fixed = initial_;

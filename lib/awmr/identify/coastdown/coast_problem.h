@@ -15,9 +15,9 @@
 namespace awmr {
 
 /// Speed u0 and time t0 of motors-off of a run. If the record begins before motors-off, the speed
-/// begins with a plateau; its mean and its end are the initial guesses of u0 and t0. Otherwise u0
-/// starts at the first sample's speed, and t0 is fixed at the first sample's time, unless a later
-/// t0 lowers AIC: the plateau may be short.
+/// begins with a plateau; its mean and its end are the initial guesses of u0 and t0. Without a
+/// detected plateau, u0 starts at the first sample's speed, and t0 is fixed at the first sample's
+/// time. Because a plateau may be too short to be detected, t0 is fitted if that lowers AIC.
 struct CoastInitialState {
   double block[2];                     ///< u0 in m/s, t0 in s
   bool free_time = false;              ///< true if t0 is fitted
@@ -48,11 +48,13 @@ class CoastProblem {
   std::vector<double*> own_blocks();
   const TransformedParameters& theta() const { return theta_; }
 
-  /// Frees the coordinates `free` of the surge law, with a prior: normal about the given law with
-  /// this covariance. `noise_mps`: standard deviation of the curves' noise, which scales the prior.
+  /// Frees the coordinates `free` of the surge law, with a normal prior about the given law.
+  /// `covariance`: that of the prior. `noise_mps`: standard deviation of the curves' noise, by
+  /// which the residuals of the prior are multiplied, because those of the curves are in m/s.
   void free_law(const std::vector<TransformedParameter>& free, const Eigen::MatrixXd& covariance,
                 double noise_mps);
-  /// Squared distance of the law from the given one by the covariance of free_law().
+  /// Squared Mahalanobis distance of the law from the given one, by the covariance of free_law(); 0
+  /// if the law is fixed.
   double law_distance() const;
 
   void solve();
@@ -80,7 +82,7 @@ class CoastProblem {
   CoastStart at_;
   std::vector<TransformedParameter> law_free_;
   TransformedParameters given_law_;
-  Eigen::MatrixXd law_root_;  ///< R, the inverse of the covariance is R^T R
+  Eigen::MatrixXd law_root_;  ///< R; R^T R is the inverse of the covariance
   std::vector<CoastInitialState> initial_;
   Eigen::Index rows_ = 0;
   ceres::Problem problem_;

@@ -95,8 +95,8 @@ Finding lag_finding(const CoastModel& model, double value_s, double error_s,
                     const std::string& file) {
   const std::string also =
       model.other ? fmt::format(
-                        ", or of {:.2g} s with mass_norm {:.3g}: the curves do not tell these "
-                        "apart, and the interval of mass_norm is withdrawn. ",
+                        ", or of {:.2g} s with mass_norm {:.3g}: the curves do not decide between "
+                        "them, so the interval of mass_norm is withdrawn. ",
                         model.other->lag_s, std::exp(model.other->log_mass))
                   : "; the fit compensates this. ";
   return {file, 0, Severity::kWarning, "sensor-lag",
@@ -302,15 +302,16 @@ void withdraw_mass(MassResult& result) {
   }
 }
 
-/// The note `back-emf-assumed`. For motors with back-EMF k_e, the surge runs give g1 + 4 k_e u
-/// instead of g1, while only g1 brakes a coast-down. m' = g1/|u_dot| would then be too large.
+/// The note `back-emf-assumed`. For motors with back-EMF k_e and n driven wheels, the surge runs
+/// give g1 + n k_e u instead of g1, while only g1 brakes a coast-down. m' = g1/|u_dot| is then too
+/// large.
 Finding assumed_back_emf(const std::string& file) {
   return {
       file, 0, Severity::kNote, "back-emf-assumed",
       "mass_norm assumes that at a constant command the force of a motor does not fall with the "
       "speed. For voltage-driven motors that coast at a command of 0, m' is too large by the "
-      "factor 1 + 4 k_e u/g1 (u: speed, g1: surge resistance over F_max). Set "
-      "motor.back_emf_s_per_m (k_e) in the vehicle file (0 for motors with a "
+      "factor 1 + n k_e u/g1 (n: number of driven wheels, u: speed, g1: surge resistance over "
+      "F_max). Set motor.back_emf_s_per_m (k_e) in the vehicle file (0 for motors with a "
       "constant force), or identify it from a log with driven and coasting sections"};
 }
 

@@ -41,7 +41,7 @@ double extrapolated_mps(const CoastCurve& curve, std::size_t end) {
   return (sum_u * sum_tt - sum_t * sum_tu) / (n * sum_tt - sum_t * sum_t);
 }
 
-/// Cuts the curve at its first speed of 0. Returns the speed at which it was cut off, if that is
+/// Cuts the curve at its first speed of 0. Returns the extrapolated speed at this row if it is
 /// significantly above 0.
 std::optional<double> cut_at_rest(double quantum_mps, CoastCurve& curve) {
   constexpr double kOverNoise = 5.0;  // standard deviations of the noise
@@ -64,8 +64,8 @@ void report_cut_off(const std::vector<CoastCurve>& curves, const std::vector<dou
   findings.push_back(
       {curves.front().file, 0, Severity::kWarning, "speed-cut-off",
        fmt::format(
-           "the speed of {} of {} coast-downs drops to 0 where the rows before lead to up to "
-           "{:.2g} m/s: the sensor reads 0 at low speed. These rows are not used; log a "
+           "the speed of {} of {} coast-downs drops to 0 although the rows before extrapolate to "
+           "up to {:.2g} m/s: the sensor reads 0 at low speed. These rows are not used; log a "
            "speed that is measured down to rest, e.g. with a longer timeout of the encoder",
            lost_mps.size(), curves.size(), std::ranges::max(lost_mps))});
 }
@@ -83,7 +83,7 @@ CoastCurve thinned(const CoastCurve& curve, const std::vector<bool>& fresh, std:
   return thin.t_s.size() < kFewestRows ? curve : thin;
 }
 
-/// Repeats of all curves together, because a single one has few steps.
+/// Finds repeated values in all curves together, because a single curve has few changes of value.
 ChannelQuality repeats_of(const std::vector<CoastCurve>& curves) {
   std::vector<double> values;
   for (const CoastCurve& curve : curves) {

@@ -54,8 +54,9 @@ std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& set
 
 namespace {
 
-/// Largest rate that the servo's time constant demands, rad/s: all of the range of the steering
-/// commands over it. At most the vehicle file's largest rate; 0 if the time constant is not free.
+/// Largest steering rate that a servo without a rate limit would reach, rad/s: range of the
+/// steering commands divided by the servo's time constant. At most the rate limit of the vehicle
+/// file; 0 if the time constant is not free.
 double demanded_rate_radps(const NoiseIteration& settled) {
   const LogModel& model = settled.problem.model;
   const auto lag = place_of(model.quantities, ParameterId::kSteeringTimeConstant);

@@ -1,6 +1,6 @@
-/// Terms of motors and servo that score tests do not show: a limit that the fit does not reach has
-/// no effect, and a motor lag has nearly the effect of other terms. Each function returns the fit
-/// with its term; empty if that does not lower AIC by more than 10. Private to identify/.
+/// Terms of motors and servo that score tests do not detect: a rate limit has no effect on a fit
+/// that does not reach it, and a motor lag has nearly the same effect as other terms. Private to
+/// identify/.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,18 @@ namespace awmr {
 /// True if a motor lag is given in the vehicle file or estimated.
 bool has_motor_lag(const LogModel& model);
 
-/// A motor lag in place of all filters of the sensors; any lower AIC suffices. Empty also if there
-/// are fewer than two filters, or a motor lag already. In nearly linear motion the lag and the filters have the same
-/// effect, and the filters were added one by one.
+/// Replaces all low-pass filters of the sensors by one motor lag. In nearly linear motion both have
+/// the same effect, but the filters were added one by one. Empty if this does not lower AIC, if
+/// there are fewer than two filters, or if the model already has a motor lag.
 std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss);
 
-/// A motor lag in addition to a positive delay of the commands.
+/// Adds a motor lag to a fit with a positive delay of the commands. Empty if there is no such
+/// delay, if the model already has a motor lag, or if AIC does not decrease by more than 10.
 std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled, Loss loss);
 
-/// A servo that is slower than the vehicle file says.
+/// Estimates a servo rate limit below that of the vehicle file. Empty if a rate limit is already
+/// estimated, if the servo's time constant is not free, or if AIC does not decrease by more than
+/// 10.
 std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss);
 
 }  // namespace awmr

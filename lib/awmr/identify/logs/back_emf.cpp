@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Total time, s, with the motors off while the vehicle probably still rolls: within kRolls_s after
-/// driving. Gaps between rows of the log are not counted.
+/// Total time, s, with the motors off while the vehicle probably still rolls, that is, within
+/// kRolls_s after driving. Gaps between rows of the log are not counted.
 double coasting_s(const DrivingLog& log) {
   constexpr double kRolls_s = 3.0;
   const double gap_s = kGapSteps * log.median_step_s();
@@ -52,7 +52,7 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
 }
 
 LogFitOptions with_back_emf(LogFitOptions options) {
-  constexpr double kShare = 0.1;  // initial back-EMF, as a share of the resistance at 1 m/s
+  constexpr double kShare = 0.1;  // initial drag by back-EMF over the resistance, at 1 m/s
   double& guess = options.initial_guess[at(ParameterId::kBackEmf)];
   if (!(guess > 0.0)) guess = kShare * options.initial_guess[at(ParameterId::kSurgeAlpha)] / 4.0;
   if (!options.frees(ParameterId::kBackEmf)) options.free.push_back(ParameterId::kBackEmf);
@@ -82,13 +82,13 @@ Finding back_emf_finding(const std::string& file, const FamilyFit& with, const F
   double std_error = 0.0;
   const double k = fitted_back_emf(with, std_error);
   return {file, 0, Severity::kWarning, "back-emf",
-          fmt::format("motors with a force independent of speed do not describe these logs. The "
-                      "model with back-EMF, {:.3g} +- {:.2g} of the largest force per m/s, {} and "
+          fmt::format("a motor force independent of the speed does not describe these logs. The "
+                      "model with back-EMF, {:.3g} +- {:.2g} of the largest force per m/s, {}. It "
                       "is used; the coasting sections then determine the resistance",
                       k, std_error,
                       without.fit.usable ? fmt::format("has an AIC lower by {:.0f}",
                                                        aic_lead(with.fit, without.fit))
-                                         : "converges, the one without does not,")};
+                                         : "converges, while the model without it does not")};
 }
 
 }  // namespace awmr

@@ -1,9 +1,10 @@
 /// Estimation of the motors' back-EMF k_e from logs. Private to identify/.
 ///
 /// While the motors drive, back-EMF cannot be separated from a linear resistance. Straight ahead,
-///     m' du/dt = 4 (F' - k_e u) - g1(u)
-/// (F': force that the command gives at rest, over F_max; k_e in s/m.) With the motors off only g1
-/// acts. Logs for k_e therefore need driving and coasting.
+///     m' du/dt = n (F' - k_e u) - g1(u)
+/// (n: number of driven wheels; F': force of one wheel at rest under its command, over F_max; k_e
+/// in s/m.) With the motors off, only g1 acts. To identify k_e, logs must contain driving and
+/// coasting.
 #pragma once
 
 #include <string>
@@ -20,10 +21,9 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 /// Returns the options with k_e free, and with an initial guess of k_e if there was none.
 LogFitOptions with_back_emf(LogFitOptions options);
 
-/// True if another fit should be tried that also estimates k_e: because the score test of k_e
-/// predicts a decrease of -2 ln L above 4, because a slow drift of a channel may hide k_e, or
-/// because `fit` did not converge. False if k_e is not among `candidate_terms`, the terms that
-/// `fit` tested.
+/// True if a further fit should also estimate k_e. One of these reasons suffices: the score test of
+/// k_e predicts a decrease of -2 ln L above 4; a slow drift of a channel may hide k_e; `fit` did
+/// not converge. False if k_e is not among `candidate_terms`, the terms that `fit` tested.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
 /// True if the fit with k_e lowers AIC by more than kFamilyAicThreshold and identifies k_e.

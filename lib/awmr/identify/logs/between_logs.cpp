@@ -143,11 +143,11 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   return disagreements;
 }
 
-/// Of the delays and command errors that the common fit does not contain, the one whose value by
-/// score test differs most between the logs. Empty if no value differs by more than three standard
-/// errors (root mean square). The standard errors are those of the noise model, because the scatter
-/// between blocks does not contain this difference: all blocks of a log have the same command
-/// error.
+/// Selects among the delays and command errors that the common fit does not contain: returns the
+/// one whose score-test value differs most between the logs. Empty if no value differs by more than
+/// three standard errors (root mean square). The standard errors are those of the noise model. The
+/// scatter between blocks does not show this difference, because all blocks of a log have the same
+/// command error.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {
@@ -189,7 +189,8 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
   return {{term->name(), p_value, by_log.files, by_log.coordinates, true}};
 }
 
-/// True for errors of the commands, and for the forces of extra_forces.h except Stribeck friction.
+/// True for errors of steering and force commands (trim, dead band, asymmetry, imbalance,
+/// saturation), and for the forces of extra_forces.h except Stribeck friction.
 bool invalidates_all(std::string_view name) {
   constexpr std::string_view kOfCommands[] = {kSteeringTrimName, kSteeringDeadBandName,
                                               kSteeringAsymmetryName, kForceImbalanceName,

@@ -18,14 +18,14 @@ struct LogDisagreement {
   std::vector<std::string> files;  ///< logs that determine the quantity on their own
   std::vector<double> values;      ///< value by each of these logs
   bool withdraws = false;          ///< true: all intervals of the common fit are invalid
-  bool refuses = false;            ///< true: refused, because the widened interval is too wide
+  bool refuses = false;  ///< true: the quantity gets no value, as its widened interval is too wide
 };
 
 /// Result of compare_logs().
 struct LogComparison {
   std::vector<LogDisagreement> disagreements;
-  /// For a single log: set if its halves agree, but a fit of the first half does not predict the
-  /// last fifth of the log.
+  /// Only for a single log: present if its halves agree, but a fit of the first half does not
+  /// predict the last fifth of the log.
   std::optional<HeldOut> missed;
 };
 
@@ -39,20 +39,23 @@ struct LogComparison {
 /// with the variance tau^2 between logs. The logs disagree if p < 0.001 (Bonferroni over all
 /// quantities). The standard error of the common fit is then raised to at least that of the mean
 /// over such logs, and the interval covers that mean, not an individual log. A quantity is refused
-/// if its standard error then exceeds kUnknown large changes (identifiability.h). Sensor biases are
-/// not compared, because they may differ between logs.
+/// if its raised standard error exceeds kUnknown times its large change (identifiability.h). Sensor
+/// biases are not compared, because they may differ between logs.
 ///
 /// The common fit may lack a delay or command error that differs between the logs, for example a
 /// steering trim that was changed between two logs. A score test of each such term is therefore
-/// made on every log. The term whose results differ most between the logs is fitted to each log, if
-/// they differ by more than three standard errors. If the logs disagree on this term, or on an
-/// error of the commands or a force of extra_forces.h (except Stribeck friction) of the common fit,
-/// all intervals of the common fit are invalid, because the other quantities absorb the effect.
+/// made on every log. If the results for a term differ between the logs by more than three standard
+/// errors, the term with the largest difference is fitted to each log.
+///
+/// A disagreement on some terms makes all intervals of the common fit invalid, because the other
+/// quantities absorb the effect. These terms are the one that was fitted in addition, and in the
+/// common fit the steering trim, the dead band and asymmetry of the steering, the force imbalance
+/// and saturation, and the forces of extra_forces.h except Stribeck friction.
 ///
 /// A single log of 20 s or more is split: a fit of its first half predicts its second half and its
-/// last fifth (held_out.h). If both are predicted (p > 0.05), there is no disagreement. Otherwise
-/// the halves are compared like two logs. If the halves agree, a last fifth that is not predicted
-/// (p < 0.001) is returned as `missed`.
+/// last fifth (held_out.h). If both predictions are accepted (p > 0.05), there is no disagreement.
+/// Otherwise the halves are compared like two logs. If the halves agree, but the prediction of the
+/// last fifth is rejected (p < 0.001), the last fifth is returned as `missed`.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

@@ -36,10 +36,10 @@ std::int64_t numbers_integrated(const LogProblem& problem) {
 }
 
 /// Evaluates all windows in parallel at each new point, before Ceres requests the first window.
-/// Derivatives are always computed, because they take little more time than the residuals. A
-/// coordinate at its bound is fixed, by setting its derivatives to 0, if the cost would decrease
-/// beyond the bound. (Ceres would cut the step at the bound, which is wrong for the other
-/// coordinates.)
+/// Derivatives are always computed, because they take little more time than the residuals. If the
+/// cost would decrease beyond the bound of a coordinate, the coordinate is fixed at the bound by
+/// setting its derivatives to 0. (Ceres would instead cut the step at the bound, which makes the
+/// step of the other coordinates wrong.)
 class Evaluator : public ceres::EvaluationCallback {
  public:
   Evaluator(const LogProblem& problem, const SearchPoint& point)

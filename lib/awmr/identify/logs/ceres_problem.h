@@ -13,15 +13,15 @@ struct Solved {
   SearchPoint point;  ///< end of the search, converged or not
   double cost = std::numeric_limits<double>::infinity();
   bool converged = false;
-  bool usable = false;  ///< the search did not fail: its cost is at most that of the start
+  bool usable = false;  ///< true: the search did not fail, and did not increase the cost
   std::string stop_reason;
 };
 
 /// Minimises the cost by Levenberg-Marquardt steps within the bounds, starting at `from`. Each
-/// window's initial state is eliminated from the linear system. Ends when a step changes the cost
-/// by less than `function_tolerance`, relative to the cost, or when further steps promise less than
-/// 0.05 of -ln L. Ends without convergence after 60 steps, at the limit of effort or at the
-/// deadline.
+/// window's initial state is eliminated from the linear system. Converges when a step changes the
+/// cost by less than `function_tolerance` (relative), or when further steps are predicted to lower
+/// -ln L by less than 0.05. Ends without convergence after 60 steps, at the limit of effort or at
+/// the deadline.
 Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance);
 
 }  // namespace awmr

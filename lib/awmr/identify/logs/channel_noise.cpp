@@ -82,9 +82,9 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// Selects the errors from which a channel's drift is estimated: all if there are fewer than
-/// 2 kEnough, else about kEnough to 1.5 kEnough, in whole windows spread over the logs. kEnough
-/// errors determine the standard deviations to 1 %.
+/// Selects the errors from which a channel's drift is estimated. Takes all if there are fewer than
+/// 2 kEnough. Otherwise takes about kEnough to 1.5 kEnough errors, in whole windows spread over the
+/// logs. kEnough errors determine the standard deviations to 1 %.
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;
@@ -129,8 +129,8 @@ NoiseCandidate likeliest_share(std::span<const ErrorSeries> series, double corre
 }
 
 /// Most likely first-order drift. Its correlation time is between half the sample interval and the
-/// length of a window; a coarse grid is refined by a search. `white_cost`: cost without a drift.
-/// The search is skipped if the grid lowers this cost so little that no drift can be significant.
+/// length of a window. A coarse grid of correlation times is refined by a search, unless the grid
+/// lowers the cost so little that no drift can be significant. `white_cost`: cost without a drift.
 NoiseCandidate likeliest_drift(std::span<const ErrorSeries> series, double step_s,
                                double white_cost) {
   constexpr double kWorthASearch = 4.0;  // smallest decrease of -2 ln L for a finer search
@@ -228,8 +228,8 @@ double second_order_cost(unsigned, const double* x, double*, void* data) {
   return drift.cost;
 }
 
-/// Nelder-Mead search from the point `from` [NLopt, LN_NELDERMEAD]. Returns the best point found,
-/// also if the search fails, because the caller compares it with the other noise models.
+/// Nelder-Mead search from the point `from` [NLopt, LN_NELDERMEAD]. Returns the best point found
+/// even if the search fails: the caller compares this point with the other noise models.
 NoiseCandidate likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
                               const SecondOrderRange& range) {
   constexpr int kMaxEvaluations = 150;

@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// The error e_k of sample k at the time t_k is the sum of white noise of the sensor and a drift d,
-/// which is correlated in time and comes from model errors and sensor filters.
+/// The error e_k of sample k at the time t_k is the sum of white noise of the sensor and a drift d.
+/// The drift is correlated in time; model errors and sensor filters cause it.
 ///
 ///     e_k = d(t_k) + white_k,   E[white_k^2] = sigma_w^2,   E[d^2] = sigma_d^2
 ///
@@ -21,8 +21,8 @@ namespace awmr {
 /// The second order describes a suspension, a filter or a smoothed sensor: the drift is smooth from
 /// sample to sample, and oscillates if zeta < 1.
 ///
-/// In place of a drift, the white noise can be differenced, as in a speed that is computed from
-/// counts or positions, or in a yaw rate from headings:
+/// Instead of a drift, a channel can have differenced white noise. A speed that is computed from
+/// counts or positions, or a yaw rate from headings, has such noise:
 ///
 ///     e_k = n_k - theta n_{k-1},   E[n^2] = sigma_w^2
 struct ChannelNoise {
@@ -44,9 +44,10 @@ struct ChannelNoise {
   int numbers() const {
     return drift_std > 0.0 ? (second_order() ? 4 : 3) : differenced > 0.0 ? 2 : 1;
   }
-  /// True if the drift is above half of the sensor noise and lasts `longest_s` or more, or above
-  /// one and a half times the noise for half of that. It is then a model error or a sensor drift;
-  /// sensor filters are faster.
+  /// True if the drift is a model error or a sensor drift, because it is larger and slower than
+  /// that of a sensor filter: above 0.5 times the sensor noise with a correlation time of at least
+  /// `longest_s`, or above 1.5 times the sensor noise with a correlation time of at least half of
+  /// it.
   bool of_the_model(double longest_s = 0.5) const {
     return (drift_std > 0.5 * sensor_std && correlation_s >= longest_s) ||
            (drift_std > 1.5 * sensor_std && correlation_s >= 0.5 * longest_s);
@@ -57,8 +58,8 @@ struct ChannelNoise {
     constexpr double kMany = 2.5;
     return of_the_model(longest_s) && drift_std > kMany * sensor_std;
   }
-  /// True if the drift is above a quarter of the sensor noise and lasts over 0.2 s: a missing term
-  /// of the model may cause such a drift.
+  /// True if the drift is above a quarter of the sensor noise and its correlation time is above
+  /// 0.2 s: a missing term of the model may cause such a drift.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
@@ -87,12 +88,14 @@ using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 /// innovations nu_k and their variances S_k (whitener.h).
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
-/// Maximum-likelihood noise model of these errors. It has a first-order drift if this lowers -2 ln
-/// L by more than 10, and a second-order drift if this lowers -2 ln L by more than another 10;
-/// differenced noise in their place if this lowers -2 ln L by more than another 10.
+/// Maximum-likelihood noise model of these errors. Starts with white noise and replaces it in these
+/// steps, each only if it lowers -2 ln L by more than 10:
+///   1. white noise with a first-order drift;
+///   2. a second-order drift in place of the first-order drift, if step 1 succeeded;
+///   3. differenced noise in place of the model so far.
 /// `free_share`: degrees of freedom of the fit over the number of errors, in (0, 1]; the variances
-/// are divided by it. `before`: noise model of the round before; its sensor_std and count are kept,
-/// and the search for a second-order drift starts at that of `before`, if it has one.
+/// are divided by it. `before`: noise model of the previous round. Its sensor_std and count are
+/// kept. If it has a second-order drift, the search for a second-order drift starts there.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

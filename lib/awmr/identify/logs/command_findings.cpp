@@ -50,7 +50,7 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
 }
 
 /// Reports motor lag, dead time or late time stamps of the commands. If the fit has found none of
-/// these, but a latency of every measured channel (two or more), reports a common cause in the
+/// these, but every measured channel (at least two) has a latency, reports a common cause in the
 /// commands.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
@@ -159,8 +159,8 @@ std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& 
   for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayOffset)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "sway-sensor",
-         fmt::format("sway_mps shows the sideways speed {:.3f} +- {:.3f} m {} the centre of "
-                     "gravity. The fit compensates this; mount the sensor at the centre of "
+         fmt::format("sway_mps is the sideways speed of a point {:.3f} +- {:.3f} m {} the centre "
+                     "of gravity. The fit compensates this; mount the sensor at the centre of "
                      "gravity, or subtract its distance ahead times the yaw rate",
                      std::abs(one.value), one.error, one.value > 0.0 ? "ahead of" : "behind")});
   }
@@ -176,8 +176,8 @@ std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& 
   return findings;
 }
 
-/// `steering-delay`, if the steering reacts later than the forces, beyond the servo's lag, or if
-/// its commands are stamped later.
+/// `steering-delay`, if the steering has a delay relative to the forces in addition to the servo's
+/// lag, or if the time stamps of its commands are late (negative delay).
 std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
@@ -197,15 +197,15 @@ std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::strin
   return findings;
 }
 
-/// `servo-rate`, if the steering turns more slowly than the vehicle file says.
+/// `servo-rate`, if the steering is slower than the rate limit of the vehicle file.
 std::vector<Finding> servo_rate_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& rate : found_terms(fit, FreeQuantity::Kind::kServoRate)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "servo-rate",
-         fmt::format("the steering turns with at most {:.1f} +- {:.1f} deg/s; the fit uses this "
-                     "limit in place of the vehicle file's. Set steering.max_rate_degps in the "
-                     "vehicle file to this value",
+         fmt::format("the steering rate is limited to {:.1f} +- {:.1f} deg/s; the fit uses this "
+                     "limit in place of that of the vehicle file. Set steering.max_rate_degps in "
+                     "the vehicle file to this value",
                      degrees(rate.value), degrees(rate.error))});
   }
   return findings;
@@ -221,7 +221,7 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
              "larger ones move them by that much less. The fit compensates this, but "
              "simulations and gains do not; reduce the play of the linkage, or increase the "
              "magnitude of every command by {:.2f} deg before it is sent, and log the "
-             "commands before that",
+             "commands without this increase",
              degrees(band.value), degrees(band.error), degrees(band.value))});
   }
   for (const FoundTerm& asymmetry : found_terms(fit, FreeQuantity::Kind::kSteeringAsymmetry)) {
@@ -236,8 +236,8 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
   return findings;
 }
 
-/// `steering-trim` and `force-imbalance` for constant errors of the commands. If the commands
-/// cannot separate the two, only one of them is in the fit.
+/// `steering-trim` and `force-imbalance` for constant errors of the commands. If the logged
+/// commands cannot separate the two errors, the fit contains only one of them.
 std::vector<Finding> constant_error_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
@@ -280,7 +280,7 @@ double sharpness_of(const LogFit& fit) {
   return kDefaultSharpness;
 }
 
-/// `force-saturation`, if large commands push less than in proportion.
+/// `force-saturation`, if the force at large commands is less than proportional to the command.
 std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWithoutIntervals =
       " (without intervals and without a comparison of parts of the logs, because the true form of "
@@ -291,10 +291,10 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
     const double p = exponent.quantity.value(exponent.value);
     findings.push_back(
         {file, 0, Severity::kWarning, "force-saturation",
-         fmt::format("the wheels push with the command to the power of {:.3f} +- {:.3f}: large "
-                     "commands push less than in proportion to small ones. The fit compensates "
-                     "this{}, but simulations and gains assume proportional forces: log commands "
-                     "that are proportional to the force, |command|^{:.2f}",
+         fmt::format("the wheel force is proportional to the command to the power of {:.3f} +- "
+                     "{:.3f}: large commands give less force than in proportion. The fit "
+                     "compensates this{}, but simulations and gains assume proportional forces: "
+                     "log commands that are proportional to the force, |command|^{:.2f}",
                      p, p * exponent.error, withdrawn, p)});
   }
   const double n = sharpness_of(fit);

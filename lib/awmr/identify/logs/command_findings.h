@@ -9,18 +9,17 @@
 
 namespace awmr {
 
-/// One finding for each delay, lag, error of commands or sensors and force (force_findings()) that
-/// the fit identifies. Ignores a value that is below two standard errors, or below the limit for
-/// its kind (LogFit::is_significant()).
-/// `withdrawn`: true if the intervals of the fit are withdrawn, which the messages then state.
-/// `file`: the log that the findings name.
+/// One finding for each delay, lag, command error, sensor error and additional force
+/// (force_findings()) that the fit identifies. Omits values that are not significant
+/// (LogFit::is_significant()). `withdrawn`: true if the intervals of the fit are withdrawn; the
+/// messages then state this. `file`: log file of the findings.
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::string& file);
 
-/// True if the fit has found a saturation that takes more than 5 % of the force at the largest
-/// command, or an exponent of the forces below 0.95. The logs do not show the true form of the
-/// saturation, and with it the force of small commands, on which all other values depend: the
-/// intervals of the fit are too narrow.
+/// True if the fit has found a large saturation: more than 5 % of the force is lost at the largest
+/// command, or the exponent of the forces is below 0.95. The intervals of such a fit are too
+/// narrow. Reason: the logs do not determine the true form of the saturation, so the force of small
+/// commands is uncertain, and all other values depend on it.
 bool saturates_much(const LogFit& fit);
 
 }  // namespace awmr

@@ -39,8 +39,9 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   return found;
 }
 
-/// Considers a filter of each channel, continuous or at the rows of the log, with its lag. A filter
-/// is kept only if it lowers AIC by more than kLikelierFilter.
+/// Considers a low-pass filter of each channel in `lags_s`, with the lag as initial guess: the
+/// better one of a continuous filter and a filter with one step per row. Keeps a filter only if its
+/// AIC is lower than that of the best fit so far by more than kLikelierFilter.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {
@@ -68,7 +69,7 @@ double fastest_of(const LogProblem& problem, LogChannel channel) {
   return largest > 0.0 ? largest : 1.0;
 }
 
-/// The candidate with the terms that are freed together with it.
+/// The candidate, and the terms that must be estimated together with it.
 std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateTerm& candidate) {
   std::vector<FreeTerm> terms{{candidate.quantity, candidate.value}};
   for (const auto& [force, channel] : {std::pair(ExtraForce::kSurgeStribeck, LogChannel::kSpeed),
@@ -91,13 +92,15 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
-/// Much weaker candidates are skipped at first and tested again after the best term was added.
+/// Candidates that are much weaker than the strongest are skipped. They are tested again after the
+/// best term was added.
 constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
 constexpr double kBeyondDoubt = 20.0;
 
-/// Considers smoothing of the channels that are candidates for it: of all together, because one
-/// program often smooths several, and of the most significant one alone; each as a moving average
-/// and as a Gaussian kernel. Returns the first of these fits.
+/// Considers smoothing of the channels whose smoothing is a candidate term. Tries all these
+/// channels together, because one program often smooths several channels, and the most significant
+/// channel alone; each with a Gaussian kernel and with a moving average. Returns the first of these
+/// fits.
 std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
                                                  const std::vector<CandidateTerm>& terms, Loss loss,
                                                  LowestAic& lowest) {
@@ -118,8 +121,8 @@ std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
   return first;
 }
 
-/// The slip of the speed together with slip of the same form of the yaw rate, if that is a
-/// candidate too.
+/// Slip of the speed together with slip of the yaw rate in the same form. Empty if the latter is
+/// not a candidate.
 std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<CandidateTerm>& terms,
                                                       const CandidateTerm& of_speed) {
   const FreeQuantity yaw = wheel_slip_of(LogChannel::kYawRate, of_speed.quantity.is_ratio);
@@ -129,8 +132,8 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
-/// Considers two replacements for the command delay `found_s`: a motor lag in its place, and a
-/// motor lag together with a delay (negative if time stamps are late).
+/// Considers two replacements for the fitted command delay `found_s`: a motor lag together with a
+/// delay (negative if time stamps are late), and, if the delay is positive, a motor lag alone.
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;

@@ -1,5 +1,5 @@
-/// Search for delays, lags and constant errors of sensors and commands in a log fit. Each of these
-/// terms is freed if it improves the fit significantly. Private to identify/.
+/// Search for delays, lags and constant errors of sensors and commands in a log fit. A term becomes
+/// a free quantity of the fit if it lowers AIC significantly. Private to identify/.
 #pragma once
 
 #include "awmr/identify/logs/noise_iteration.h"
@@ -8,15 +8,16 @@ namespace awmr {
 
 /// Adds the terms of further_terms() one at a time to the converged fit `settled`, until none
 /// improves the fit. Score tests select candidates, and one round of settle_noise() ranks them. The
-/// best candidate is kept if its final fit lowers AIC by more than 10. (Without these terms,
+/// best candidate is kept if its final fit lowers AIC by more than 10. (Without these terms, a
 /// latency of the speed, for example, would bias the mass upwards.)
 ///   - The delay of the commands is negative if their time stamps are late.
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
 ///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw
 ///     rate or the heading.
-///   - As soon as no term is added, the terms of actuator_terms.h are tried.
+///   - When no candidate is kept, a slower servo and then a motor lag are tried (actuator_terms.h).
+///     After each added term, one motor lag is tried in place of all filters.
 ///   - Steering trim and force imbalance have nearly the same effect. If one of them is found and
-///     the commands allow both, both are freed.
+///     the commands can show both, both become free.
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss);
 
 }  // namespace awmr

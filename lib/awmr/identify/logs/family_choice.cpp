@@ -33,9 +33,9 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
   return most;
 }
 
-/// True if a family with more terms may be better: because the score test of a term predicts a
-/// large decrease of -2 ln L, because the errors have a slow drift, which can hide a missing term,
-/// or because `fit` did not converge. `of_yaw`: true for terms of yaw, false for terms of surge.
+/// True if a family with more terms may be better. One of these reasons suffices: the score test of
+/// a term predicts a large decrease of -2 ln L; the errors have a slow drift, which can hide a
+/// missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
   if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
@@ -74,8 +74,8 @@ Finding taken(const std::string& file, const FamilyFit& best, const LogFit& powe
               why};
 }
 
-/// The finding `family-undecided` if the alternative is better than the selected family, but not
-/// significantly, and gives a parameter a significantly different value.
+/// The finding `family-undecided` if the alternative has a lower AIC than the selected family, but
+/// not significantly, and a parameter differs between the two by more than two standard errors.
 std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                                  const FamilyFit& alternative) {
   constexpr double kApart = 2.0;
@@ -183,7 +183,7 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, const LogFitOpti
   }
 }
 
-/// Searches delays, lags and command errors again for the best families, because terms that were
+/// Searches delays, lags and command errors again for the best families. Reason: terms that were
 /// found with other families may only have compensated for a wrong resistance. Keeps the new fit if
 /// it is better.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
@@ -206,9 +206,10 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
 
 /// Returns the families of one axis (yaw if `of_yaw`, else surge) to compare again, and removes
 /// them from `others`. `winner`: the fit first selected on this axis. `best`: the fit after the
-/// other axis and the delays were selected too. A family is compared again if it lost to `winner`
-/// by less than `best` has improved on `winner`, or if `best` has other delays, lags or command
-/// errors: without them, the true family can lose by any amount.
+/// other axis and the delays were selected too. A family is compared again if its AIC was close:
+/// above that of `winner` by less than `best` has improved on `winner`. It is also compared again
+/// if its fit had other delays, lags or command errors than `best`: with wrong terms, the true
+/// family can lose by any amount.
 std::vector<Contender> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
                                         std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);
@@ -319,8 +320,8 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
                        FamilyFit first, const FamilyContest& contest) {
   const std::map<bool, bool> is_suspect{{false, is_contested(power_law, first, contest, false)},
                                         {true, is_contested(power_law, first, contest, true)}};
-  // The axis (surge or yaw) whose score tests have the larger gain goes first, because its wrong
-  // law also causes errors in the other axis.
+  // The axis (surge or yaw) whose score tests have the larger gain goes first, because a wrong
+  // resistance law of one axis also causes errors in the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   const std::pair start{first.surge, first.yaw};
@@ -330,8 +331,9 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
                               start, {}};
   BestFamily& result = comparison.result;
   for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {
-    // The errors of a wrong law of one axis hide those of the other, and friction that is no power
-    // law in one axis is likely in the other.
+    // After a change of one axis, the other axis is compared too. Reasons: the errors of a wrong
+    // law of one axis can hide those of the other, and if the friction of one axis is not a power
+    // law, that of the other is probably not one either.
     const bool is_open = is_suspect.at(of_yaw) || (comparison.families() != comparison.start &&
                                                    (of_yaw ? contest.yaw : contest.surge));
     if (!is_open || comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;

@@ -12,8 +12,9 @@ struct FamilyContest {
   bool surge = true;  ///< true: compares all surge families; false: keeps that of `first`
   bool yaw = false;   ///< true: compares all yaw families; false: keeps that of `first`
   double lead = 0.0;  ///< a family replaces that of `first` if its AIC is lower by more than this
-  /// True: fits other families only if a score test or a slow drift suggests a missing term, or if
-  /// `first` did not converge.
+  /// True: fits other families of an axis (surge or yaw) only for one of these reasons: a score
+  /// test or a slow drift suggests a missing term, `first` did not converge, or another family was
+  /// selected for the other axis.
   bool only_candidates = true;
 };
 
@@ -32,14 +33,15 @@ struct BestFamily {
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
-/// Number of other families that best_family() fits at least once each; close losers may be fitted
-/// again. It fits fewer if the limit of effort or time is reached (FamilyContest).
+/// Number of other families that best_family() compares according to `first`. The number of fits
+/// can be larger, because close families are fitted again and a change of one axis can add the
+/// families of the other. It is smaller if the limit of effort or time is reached.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 
 /// Fits the families in turn and returns the best converged fit, compared as in family_score.h.
-/// Each fit starts from the best optimum so far, so that a family is not worse than a special case
-/// of it. `first`: the fit to improve on, usually of power laws.
+/// Each fit starts from the best optimum so far, so that its result is not worse than that of a
+/// special case of its family. `first`: the fit to improve on, usually of power laws.
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest);
 

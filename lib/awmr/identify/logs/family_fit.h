@@ -19,8 +19,8 @@ struct FamilyFit {
 /// True if the limit of effort or of time is reached, so that no further model is to be fitted.
 bool is_over(const LogFitOptions& options);
 
-/// Returns the options for a fit that starts only at the optimum of `fit`. It has the delays and
-/// command errors of `fit`, searches no others and tests no candidate terms.
+/// Returns the options for a fit that starts only at the optimum of `fit`. The new fit has the
+/// delays and command errors of `fit`, searches no others and tests no candidate terms.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
 /// Fits the logs under the families `surge` and `yaw`. Precondition: `options` already frees the
@@ -33,10 +33,10 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
                      Family surge, Family yaw);
 
 /// Fits the logs under the families `surge` and `yaw`, starting from the optimum of `inner`, a fit
-/// of other families. There are two starts: the curves of the new families nearest to those of
-/// `inner`, and the values of `inner`, with the initial guess of `power_law` for terms that are 0
-/// in `inner`. If `inner` did not converge, does the same as fit_family(). `more`: further terms to
-/// estimate.
+/// of other families. There are two starts. One has the curves of the new families that are nearest
+/// to those of `inner`. The other has the values of `inner`, with the initial guess of `power_law`
+/// for terms that are 0 in `inner`. If `inner` did not converge, does the same as fit_family().
+/// `more`: further terms to estimate.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw,
                    const std::vector<FreeTerm>& more = {});

@@ -1,9 +1,9 @@
 /// AIC comparison of log fits with different models under one noise model. Private to identify/.
 ///
-/// Two models are compared under the noise of the fit with the smaller errors. Each fit estimates
-/// its own noise, whose correlated drift absorbs the error of its model. If each model were
-/// evaluated under its own noise, a model with a smooth error of 0.2 m/s could be likelier than a
-/// model with an error of 3 mm/s.
+/// Two models are compared under one noise model, that of the fit with the smaller errors. Reason:
+/// each fit estimates its own noise, and the drift in this noise absorbs the error of the fit's own
+/// model. Under their own noise models, a model with a smooth error of 0.2 m/s could be likelier
+/// than a model with an error of 3 mm/s.
 #pragma once
 
 #include "awmr/identify/logs/log_fit.h"

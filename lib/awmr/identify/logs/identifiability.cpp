@@ -19,8 +19,8 @@ namespace {
 /// Largest standard error of an identified quantity, in its large changes. The limit is lower for
 /// the sway resistance a_s, so that 1/a_s is at least 4 standard errors from 0. Reason: the logs
 /// measure the reciprocal, through the lateral speed v ~ m' r u / a_s. The standard error of ln a_s
-/// is a_s times that of 1/a_s. This error becomes smaller if noise makes a_s too small, so the
-/// common limit would favour such values.
+/// is a_s times that of 1/a_s. So the standard error of ln a_s is too small when noise makes a_s
+/// too small, and the common limit would favour such values.
 double unknown_from(const FreeQuantity& q) {
   constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;
@@ -53,9 +53,9 @@ void refuse_direction(const Eigen::VectorXd& direction, double std,
   for (const std::size_t i : parts) refusal_reason[i] = why;
 }
 
-/// True if the search stopped at an end of the quantity's range. A delay, a lag or a term of a
-/// family at 0 does not count, because 0 is a possible value; nor does the form of a saturation
-/// (sharpness) or of Stribeck friction (speed scale), whose limits are possible too.
+/// True if the search stopped at an end of the quantity's range. Two cases do not count, because
+/// the end of the range is a possible value: a delay, lag or term of a family at 0, and the form of
+/// a force (FreeQuantity::is_form(), for example the sharpness of a saturation).
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   if (q.is_form()) return false;
   if (q.may_be_zero()) return coordinate >= bounds.hi;
@@ -74,9 +74,9 @@ Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
   return m / (m - 1.0) * variances;
 }
 
-/// Raises the factors of the standard errors to the scatter of these parts (blocks or logs), where
-/// the variance by scatter over that by the noise model exceeds `allowed` and the factor becomes
-/// larger.
+/// Raises the factors of the standard errors according to the scatter of these parts (blocks or
+/// logs). A factor is raised if the variance by scatter exceeds `allowed` times the variance by the
+/// noise model.
 void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
                   Identifiability& found) {
   if (scores.size() < 2) return;
@@ -89,8 +89,9 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Raises standard errors to those computed from the scatter of the scores, if the scores of blocks
-/// scatter more than the noise model predicts, or those of three or more logs significantly more.
+/// Raises standard errors to those computed from the scatter of the scores. Blocks count if they
+/// scatter more than the noise model predicts, whole logs if there are at least three and they
+/// scatter significantly more.
 void widen(const Scores& scores, Identifiability& found) {
   constexpr double kManyDegrees = 1e6;  // with these, Student's t is the normal distribution
   constexpr std::size_t kEnoughLogs = 3;
@@ -105,8 +106,8 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses all quantities correlated (by more than kDependent) with quantity number `stopped`,
-/// whose search ended at a bound.
+/// Refuses all quantities whose correlation with the quantity `stopped` exceeds kDependent in
+/// magnitude. `stopped`: index of a quantity whose search ended at a bound.
 void refuse_dependent(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
                       Identifiability& found) {
   constexpr double kDependent = 0.3;  // smallest correlation that counts
@@ -131,9 +132,9 @@ std::string why_stopped(const FreeQuantity& q, double coordinate) {
   return why;
 }
 
-/// Pointer to the empty reason of the parameter `dependent`, to be filled in, if `cause` is
-/// refused. Null if `cause` is not refused, `dependent` already has a reason, or one of them is not
-/// free.
+/// If the parameter `cause` is refused, returns a pointer to the refusal reason of `dependent`, for
+/// the caller to set. Null if `cause` is not refused, `dependent` already has a reason, or one of
+/// them is not free.
 std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, ParameterId dependent,
                            ParameterId cause, Identifiability& found) {
   const auto place = place_of(quantities, dependent);

@@ -12,9 +12,9 @@
 
 namespace awmr {
 
-/// Standard error, in large changes of the coordinate (FreeQuantity::large_change), from which on a
-/// quantity is not identified. The 95 % interval is then a factor of 2.7 to either side for a
-/// logarithmic coordinate, and +-1 for an exponent.
+/// Largest standard error of an identified quantity, divided by the large change of its coordinate
+/// (FreeQuantity::large_change). At this limit, the 95 % interval is a factor of 2.7 to either side
+/// for a logarithmic coordinate, and +-1 for an exponent.
 inline constexpr double kUnknown = 0.5;
 
 /// Covariance and identifiability of the n coordinates of a log fit.
@@ -35,22 +35,25 @@ struct Identifiability {
 };
 
 /// Computes the covariance from the information H (n x n), a weak prior P and the scores s_b of m
-/// parts of the logs. The scores allow for errors of the noise model. In units of large changes,
+/// parts of the logs. The scatter of the scores corrects for errors of the noise model. In units of
+/// large changes,
 ///
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
 ///     D_ii^2 = max(1, V_ii / C_ii)
 ///
-/// The parts are blocks of some seconds. With three or more logs the parts are also whole logs, if
-/// these scatter significantly more (5 %), as with a model error that differs between logs. A
-/// quantity is refused if its standard error exceeds kUnknown large changes (half of that for the
-/// sway resistance). It is also refused if it contributes a tenth or more to the squared length of
-/// a direction (eigenvector of H) that the logs do not determine.
+/// The parts are blocks of some seconds. With three or more logs, whole logs are used as parts too
+/// if their scatter exceeds the prediction significantly (5 %), as with a model error that differs
+/// between logs. The larger D_ii applies. A quantity is refused if its standard error exceeds
+/// kUnknown large changes (half of that for the sway resistance). It is also refused if it
+/// contributes a tenth or more to the squared length of a direction (eigenvector of H) that the
+/// logs do not determine.
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
-/// Refuses every quantity whose search ended at an end of its range, and the quantities with a
-/// correlation above 0.3 with such a quantity. Also refuses the coefficient alpha of a resistance
-/// of which c, q or the dead zone is refused, and the exponent beta if alpha is refused.
+/// Refuses every quantity whose search ended at an end of its range, and every quantity whose
+/// correlation with such a quantity exceeds 0.3 in magnitude. If c, q or the dead zone of a
+/// resistance is refused, also refuses its coefficient alpha. If alpha is refused, also refuses the
+/// exponent beta.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

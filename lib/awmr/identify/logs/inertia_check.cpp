@@ -14,12 +14,13 @@
 namespace awmr {
 namespace {
 
-/// Usual range of I'z/m' of real vehicles, divided by that of a uniform box.
+/// Usual range of the ratio of I'z/m' of real vehicles to that of a uniform box.
 constexpr Interval kUsual{0.3, 2.0};
 
-/// Names a unit of the speed that would explain I'z/m'. Empty if I'z/m' is not too large, or if the
-/// logs have positions, with which the speed was compared before. (A speed that reads k times the
-/// true speed makes m' 1/k of the true m', and I'z/m' k times the true ratio.)
+/// Names a unit of the speed that would explain I'z/m'. Empty if I'z/m' is not too large. Empty
+/// also if the logs have positions, because the speed was already compared with these. (If the
+/// logged speed is k times the true speed, the fitted m' is 1/k of the true m', and I'z/m' is k
+/// times the true ratio.)
 std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_over_box) {
   const bool is_compared = std::ranges::all_of(
       logs, [](const DrivingLog& log) { return log[LogChannel::kX] || !log[LogChannel::kSpeed]; });
@@ -53,9 +54,9 @@ void note_unusual_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>&
   if (range.lo < kUsual.hi && range.hi > kUsual.lo) return;
   stage.findings.push_back(
       {logs.front().file, 0, Severity::kWarning, "inertia-mismatch",
-       fmt::format("the fitted I'z/m' is {:.3g} times Iz/m of the vehicle; usual are {:g} to {:g} "
-                   "times. Check the units of the speed and the yaw rate, and the size of the "
-                   "vehicle",
+       fmt::format("the fitted I'z/m' is {:.3g} times Iz/m of the vehicle; the usual range is {:g} "
+                   "to {:g} times. Check the units of the speed and the yaw rate, and the size of "
+                   "the vehicle",
                    inertia_over_vehicle(vehicle, *inertia->value, *mass->value), kUsual.lo,
                    kUsual.hi)});
 }

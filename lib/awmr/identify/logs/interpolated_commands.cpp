@@ -25,8 +25,8 @@ bool changes_often(const DrivingLog& log) {
   return 2 * changes >= log.rows();
 }
 
-/// Where the rows of an interpolated log are: after row `row` of the log by the fraction `share` of
-/// the time to the next row, < 1.
+/// Time of one row of an interpolated log: after row `row` of the original log, by the fraction
+/// `share` of the time to the next row, 0 <= share < 1.
 struct RowPart {
   std::size_t row;
   double share;
@@ -44,7 +44,8 @@ std::vector<RowPart> places_of(const DrivingLog& log) {
   return places;
 }
 
-/// The signal at the places, shifted by `later` of the time between two rows, < 1.
+/// The signal at the places, linearly interpolated. `later`: fraction of the time between two rows
+/// by which the places are shifted, < 1.
 std::vector<double> at_places(const std::vector<double>& signal, const std::vector<RowPart>& places,
                               double later) {
   std::vector<double> values;
@@ -59,7 +60,7 @@ std::vector<double> at_places(const std::vector<double>& signal, const std::vect
 }
 
 DrivingLog interpolated(const DrivingLog& log) {
-  constexpr double kMiddle = 0.5 / kParts;  // of a part: the mean of the command over it
+  constexpr double kMiddle = 0.5 / kParts;  // middle of a part, where the command has its mean
   const std::vector<RowPart> places = places_of(log);
   DrivingLog fine = log;
   fine.has_interpolated_commands = true;

@@ -9,17 +9,21 @@
 
 namespace awmr {
 
-/// True if straight lines between the rows describe the commands better than steps: a joystick or a
-/// controller changes them more often than the log has rows. The families of `first` are fitted to
-/// interpolated(log) as well, with a free delay of the commands, and the AIC of that fit is lower
-/// by more than kFamilyAicThreshold. If `first` has late commands, which resemble lines, it may be
-/// higher by 10. Logs are fitted only if a command changes in at least half of the rows.
-/// `power_law`: options of `first`.
+/// True if straight lines between the rows describe the commands better than steps, because a
+/// joystick or a controller changes the commands more often than the log has rows. False without a
+/// fit if the commands of any log change in less than half of its rows, or are already interpolated
+/// or held set-points.
+///
+/// Fits the families of `first` also to interpolated(logs), with a free delay of the commands. True
+/// if the AIC of this fit is lower by more than kFamilyAicThreshold. If `first` has late commands,
+/// whose effect resembles that of lines, the AIC may even be higher by up to 10. `power_law`:
+/// options of `first`.
 bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          const FamilyFit& first, const IdentifyOptions& options);
 
-/// The logs with rows without measurements between their rows, where the commands lie on the
-/// straight lines between those of the rows. A gap in the log (kGapSteps) is not interpolated.
+/// Returns the logs with additional rows between their rows. The additional rows have no
+/// measurements, and the commands follow straight lines between the logged ones. A gap in the log
+/// (kGapSteps) is not interpolated.
 std::vector<DrivingLog> interpolated(const std::vector<DrivingLog>& logs);
 
 /// The warning `interpolated-commands`.

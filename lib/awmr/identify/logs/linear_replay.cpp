@@ -380,8 +380,8 @@ double steering_delay_s(const CommandPath& path) {
   return force_delay_s(path) + (path.steering_delay ? path.steering_delay->delay_s : 0.0);
 }
 
-/// The command that reaches the wheels over [t, t + h], in which the commands of `rows` act. Forces
-/// of motors with lag are the mean over this time.
+/// The command that reaches the wheels over [t, t + h], while the commands of `rows` act. If the
+/// motors have a lag, the forces are means over this time.
 DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, double t_s,
                             double h_s, const CommandPath& path) {
   DelayedCommand at{logged_command(*signals.log, rows)};

@@ -54,13 +54,14 @@ struct CommandPath {
   /// Dead band, rad, and asymmetry e of steering_asymmetry(); not for logs with measured angles.
   std::optional<OffsetColumn> steering_dead_band = {};
   std::optional<OffsetColumn> steering_asymmetry = {};
-  std::optional<OffsetColumn> servo_rate = {};  ///< rad/s, in place of the plant's
+  std::optional<OffsetColumn> servo_rate = {};  ///< rate limit, rad/s, in place of the plant's
   std::optional<OffsetColumn> imbalance = {};   ///< e: left forces times 1 - e, right times 1 + e
   std::optional<OffsetColumn> exponent = {};    ///< p of force_exponent(); derivatives by ln p
   std::optional<OffsetColumn> saturation = {};  ///< L of force_saturation()
   double full_command = 1.0;                    ///< F'm of force_saturation()
   std::optional<OffsetColumn> sharpness = {};   ///< n; the derivatives are by ln n
-  /// True (motors with back-EMF): a motor is off as soon as its command is 0, whatever its lag.
+  /// True (motors with back-EMF): a motor is off as soon as its command is 0, regardless of its
+  /// lag.
   bool switches_off = false;
 };
 
@@ -96,8 +97,8 @@ struct DelayedCommand {
   double steering_by_asymmetry = 0.0;  ///< d steering / d asymmetry, rad
 };
 
-/// Calls visit(column, by) for each free quantity that changes the forces of `command`, with the
-/// derivative of the forces by it.
+/// Calls visit(column, by) for each free quantity that changes the forces of `command`. `by`:
+/// derivative of the forces by this quantity.
 template <class Visit>
 void for_each_force_column(const CommandColumns& c, const DelayedCommand& command, Visit visit) {
   if (c.delay) visit(*c.delay, command.by_delay);
@@ -199,9 +200,9 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   }
 }
 
-/// Returns the motion delay.delay_s >= 0 seconds before the last of `motions`, which are the
-/// motions at the rows from `begin` on. Integrates from the row before that time. If that time is
-/// before the first of these rows, extrapolates with the rates at this row.
+/// Returns the motion delay.delay_s >= 0 seconds before the last of `motions`. `motions` are the
+/// motions at the rows from `begin` on. Integrates from the last row before that time. If that time
+/// is before the first of these rows, extrapolates with the rates at the first row.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,

@@ -42,7 +42,7 @@ struct LogFitOptions {
   std::vector<ParameterId> free;
   bool frees(ParameterId id) const { return std::ranges::find(free, id) != free.end(); }
   /// Terms of resistance families, and back-EMF, that are fixed at 0 in this fit. A score test of
-  /// each estimates how much it would improve the fit.
+  /// each term estimates how much the term would improve the fit.
   std::vector<ParameterId> candidate_terms;
   /// Free delays, lags and command errors. A motor lag from the vehicle file is fixed and not
   /// listed.
@@ -59,7 +59,7 @@ struct LogFitOptions {
   int multistart = 6;          ///< number of random initial guesses in addition to the given one
   int bootstrap = 0;           ///< number of resamples of the block bootstrap; 0: no bootstrap
   int threads = 0;             ///< 0: every core; the result does not depend on it
-  /// Counts the work of the searches and limits it; shared by all fits. Absent: no limit.
+  /// Counts the work of the searches and limits it. All fits share this counter. Absent: no limit.
   std::shared_ptr<Effort> effort;
   /// Time at which all searches stop. Absent: no time limit.
   std::optional<std::chrono::steady_clock::time_point> deadline;

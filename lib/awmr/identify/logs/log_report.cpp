@@ -34,8 +34,8 @@ std::string in_words(const NoiseLevels& levels) {
   return text;
 }
 
-/// Quantity `i` with its 95 % interval: by the bootstrap if available, else Student's t in the
-/// coordinate.
+/// Quantity `i` with its 95 % interval: by the bootstrap if available, else by Student's t for the
+/// coordinate. No interval if the quantity is refused.
 EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
   const FreeQuantity& q = input.problem.model.quantities[i];
   const double x = input.solved.point.coordinates[i];

@@ -105,7 +105,8 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
                           const IdentifyOptions& options) {
   LogFitOptions fit;
   fit.vehicle = vehicle;
-  // Commands that were logged too slowly are known only up to a delay of their own step.
+  // If the commands were logged too slowly, the time of each change is known only to about one row
+  // interval. The delay of the commands is therefore estimated.
   const bool is_interpolated = std::ranges::any_of(logs, &DrivingLog::has_interpolated_commands);
   if (options.fit_input_delay || is_interpolated) fit.terms = {{input_delay(), 0.0}};
   fit.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
@@ -136,15 +137,16 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     const Estimate& known = model[parameter.id];
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(requested, parameter.id) || !known.value;
-    // A servo whose command never changes has no effect. But with its time constant free, the
-    // fitted steering angle at the beginning of each window would act like a trim.
+    // The time constant of a servo whose command never changes stays fixed, because it has no
+    // effect. If it were free, the fitted steering angle at the beginning of each window would act
+    // like a trim.
     const bool never_acts =
         parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
     if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
-    // In logs with turns, an unidentifiable parameter affects the others. It therefore stays free,
-    // so that its uncertainty is included, and is refused later.
+    // In logs with turns, an unidentifiable parameter affects the other parameters. It therefore
+    // stays free, so that their intervals include its uncertainty. It is refused after the fit.
     if (!why.empty() && (!turning || never_acts)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);
@@ -152,8 +154,9 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
   if (fit.frees(ParameterId::kBackEmf)) fit = with_back_emf(std::move(fit));
 }
 
-/// True if back-EMF is to be tested: it is not given, no parameters were requested, no resistance
-/// comes from a table fit, which would have absorbed it, and the logs contain enough coasting.
+/// True if back-EMF is to be tested: it is not given, no parameters were requested, the logs
+/// contain enough coasting, and no resistance comes from a table fit (which would include the
+/// back-EMF).
 bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const Model& model) {
   return options.requested.empty() && !vehicle.back_emf_s_per_m &&

@@ -124,8 +124,8 @@ Finding impossible_servo_finding(const std::string& file) {
                       kSlowestServo_s, option_text("starts"))};
 }
 
-/// Copies the parameters that the fit identifies to `stage`. Parameters with a value from other
-/// trials are replaced only if `overrule` is true.
+/// Copies the parameters that the fit identifies to `stage`. A parameter with a value from other
+/// trials is copied only if `overrule` is true.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
@@ -154,10 +154,11 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
   }
 }
 
-/// Compares the logs with each other, or the halves of a single log. Adds what contradicts the fit
-/// to the findings.
+/// Compares the logs with each other, or the halves of a single log. Adds a finding for each
+/// contradiction, and withdraws the intervals if necessary.
 void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogStage& stage) {
-  // An inexact form of a large saturation gives every part of the logs other values.
+  // The true form of a large saturation is unknown. With the fitted form, the values differ from
+  // part to part of the logs, so a comparison would be meaningless.
   const bool saturates = saturates_much(chosen.fit);
   const LogComparison compared = saturates ? LogComparison{} : compare_logs(logs, chosen);
   stage.withdraws_intervals =
@@ -167,14 +168,15 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
-/// The logs with their commands read in another way, and the finding that reports it.
+/// The logs with another interpretation of their commands, and the finding that reports it.
 struct ReadAgain {
   std::vector<DrivingLog> logs;
   Finding finding;
 };
 
-/// Other commands that describe the logs significantly better than the fit `first`; empty if there
-/// are none.
+/// Another interpretation of the logged commands that the fits prefer to that of `first`: held
+/// set-points, straight lines between the rows, or measured steering angles. Empty if there is
+/// none.
 std::optional<ReadAgain> read_again(const std::vector<DrivingLog>& logs,
                                     const LogFitOptions& power_law, const FamilyFit& first,
                                     const IdentifyOptions& options) {

@@ -39,12 +39,13 @@ struct LogStage {
 
 /// Fits the logs, starting from the values in `model`. The `requested` parameters and those without
 /// a value are free, the others fixed. `overrule`: true: values from the logs also replace those
-/// from tables. Findings: `estimates-disagree` (logs against tables, p < 0.01),
+/// from other trials. Findings: `estimates-disagree` (logs against other trials, p < 0.01),
 /// `coloured-residuals`, `model-inadequate`, `power-law-inadequate`, `family-undecided`,
-/// `back-emf`, `steering-measured`, `speed-controlled`, `logs-disagree`, `not-identifiable`,
-/// `not-converged`, `held-out-misses`, `inertia-mismatch`, `families-not-compared`
-/// (a limit was reached), and those of command_findings.h. Errors (input): that of check_replay(),
-/// for a time constant that is too small.
+/// `back-emf`, `steering-measured`, `interpolated-commands`, `interpolated-set-points`,
+/// `wheel-slip`, `speed-controlled`, `logs-disagree`, `not-identifiable`, `not-converged`,
+/// `held-out-misses`, `inertia-mismatch`, `families-not-compared` (a limit was reached), and those
+/// of command_findings.h. Errors (input): that of check_replay(), for a time constant that is too
+/// small.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
                                const std::vector<ParameterId>& requested, const Model& model,

@@ -90,8 +90,8 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
            kind == Kind::kSteeringAsymmetry;
   });
   const FamilyFit follows = fit_first_family(with_measured_steering(logs), from, options);
-  // A servo lag together with equally late time stamps also describes measured angles, but with two
-  // more terms.
+  // A servo lag together with equally late time stamps also describes measured angles, but needs
+  // two more terms. A lower AIC of the model without these terms therefore suffices.
   const double threshold = late_stamps_s > 0.0 ? 0.0 : kFamilyAicThreshold;
   return follows.fit.usable && aic_lead(follows.fit, first.fit) > threshold;
 }
@@ -141,10 +141,11 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return chosen;
 }
 
-/// Tests whether the motors have back-EMF: refits the families of `ideal`, a result without
-/// back-EMF, with back-EMF. If that is significantly better, makes back-EMF a free parameter of
-/// `power_law`, selects the families again, and returns the new result, with the best fit of
-/// `ideal` among its alternatives. Else returns `ideal`, with the refit among its alternatives.
+/// Tests whether the motors have back-EMF. `ideal`: result without back-EMF, whose best families
+/// are fitted again with back-EMF. If this fit is significantly better, makes back-EMF a free
+/// parameter of `power_law`, selects the families again, and returns the new result, with the best
+/// fit of `ideal` among its alternatives. Else returns `ideal`, with the refit among its
+/// alternatives.
 BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                             const IdentifyOptions& options, BestFamily ideal) {
   show_step(options, "trying back-EMF of the motors");

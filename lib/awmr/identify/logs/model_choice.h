@@ -1,5 +1,5 @@
-/// Selection of the model that the logs are fitted with: resistance families, back-EMF, steering
-/// commands that are measured angles. Private to identify/.
+/// Selection of the model that is fitted to the logs: resistance families, back-EMF, and whether
+/// the logged steering commands are measured angles. Private to identify/.
 #pragma once
 
 #include <string>
@@ -21,10 +21,11 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
 /// Returns the logs with the steering command as the measured steering angle.
 std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs);
 
-/// True if the column of steering commands seems to contain measured angles. Two conditions: in the
-/// fit `first`, the servo's time constant minus the time by which the steering's time stamps are
-/// late is below half of the row spacing; and a fit that uses the column as the angle is
-/// significantly better.
+/// True if the column of steering commands seems to contain measured angles. Three conditions:
+/// every log has steering commands but no measured angle; in the fit `first`, the servo's time
+/// constant minus the time by which the steering's time stamps are late is at most half of the row
+/// spacing; and a fit that uses the column as the angle is significantly better (if the time stamps
+/// are late: has any lower AIC).
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                           const FamilyFit& first, const IdentifyOptions& options);
 

@@ -35,10 +35,11 @@ LogProblem rough_problem(const LogProblem& problem) {
   return rough;
 }
 
-/// Random initial guess. Each parameter in `guessed` is multiplied by a factor in [e^-2, e^2]. An
-/// exponent in `guessed` is drawn from [0.3, 1.3] and limited to its range. Terms of a family do
-/// not change. Uses one random number per quantity, changed or not, so that the draws of the others
-/// do not depend on `guessed`.
+/// Random initial guess. Each parameter in `guessed` with a logarithmic coordinate is multiplied by
+/// a factor in [e^-2, e^2]. An exponent in `guessed` is drawn from [0.3, 1.3] and limited to its
+/// range. Terms of a family do not change. Draws one random number for every quantity, also for
+/// those that do not change, so that the guess of one quantity does not depend on which others are
+/// in `guessed`.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;

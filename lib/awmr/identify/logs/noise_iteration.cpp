@@ -72,9 +72,11 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
   return levels;
 }
 
-/// Largest change of the noise of any channel: change of its total or drift standard deviation over
-/// the total one, change of theta of differenced noise, or, for drifts above a tenth of the total noise, a tenth of the relative change
-/// of the correlation time.
+/// Largest change of the noise of any channel. The change of a channel is the largest of these:
+///   - changes of the total and of the drift standard deviation, relative to the total one;
+///   - change of theta of differenced noise;
+///   - for drifts above a tenth of the total noise, a tenth of the relative change of the
+///     correlation time.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   double change = 0.0;
   for (const auto& [channel, noise] : after) {

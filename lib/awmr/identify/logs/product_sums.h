@@ -31,8 +31,8 @@ class ProductSums {
   Eigen::VectorXd gradient_;  ///< J^T r at the last call
 };
 
-/// Matrix [R z; 0 rest] with few rows that replaces M = [J r] in least squares: both have the same
-/// M^T M. R is triangular up to a permutation of its columns.
+/// Matrix T = [R z; 0 rest] with few rows that replaces M = [J r] in least squares, because
+/// T^T T = M^T M. R is triangular up to a permutation of its columns.
 struct Triangle {
   Eigen::MatrixXd r;
   Eigen::VectorXd z;

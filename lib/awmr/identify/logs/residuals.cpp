@@ -13,10 +13,11 @@
 namespace awmr {
 namespace {
 
-/// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured,
-/// `row` has its derivatives, one per column; the visitor may overwrite it. Empty without columns.
-/// A sensor with latency is compared with the state one delay earlier, a filtered sensor with the
-/// output of the filter, a smoothed channel with the mean over earlier and later rows.
+/// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured.
+/// `row` has the derivatives of the error, one per column (empty if `columns` is 0); `visit` may
+/// overwrite them. A sensor with latency is compared with the state one delay earlier, a filtered
+/// sensor with the output of the filter, a smoothed channel with the mean over earlier and later
+/// rows.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
                     std::size_t columns, Visit visit) {
@@ -31,9 +32,9 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Simula
     if (columns > 0 && bias_column) by[*bias_column] += 1.0;
     visit(i, reading + vehicle.sensors.bias[at(c)] - log[c]->value[samples[i].row], by);
   };
-  const bool waits = vehicle.sensors.any_smoothed();  // for the rows after a row
+  const bool waits = vehicle.sensors.any_smoothed();  // smoothing needs later rows
   SensorReadings readings(model, window, vehicle, columns);
-  std::array<ReadingSeries, kChannelCount> series;  // if smoothing waits for later rows
+  std::array<ReadingSeries, kChannelCount> series;  // used only if `waits`
   std::size_t next = 0;
   replay_linear(*window.signals, window.rows.begin, window.rows.end, vehicle.path, stepper, h,
                 first_motion(model, vehicle, columns),

@@ -1,8 +1,9 @@
 /// Residuals of one window of a log, with derivatives. Private to identify/.
 ///
 /// The model is simulated with the logged commands and compared with all measurements. Correlated
-/// errors of a channel are whitened. The Jacobian J has a row per sample. J is not stored, only J^T
-/// J. (Only smoothed channels keep the readings of a window and their derivatives.)
+/// errors of a channel are whitened. The Jacobian J has a row per sample, but only J^T J is stored.
+/// (Exception: if a channel is smoothed, the readings of a window and their derivatives are
+/// stored.)
 #pragma once
 
 #include <Eigen/Core>

@@ -24,8 +24,8 @@ struct ScoreTest {
 ///     value = -(g_c - H_ct H_tt^-1 g_t) / (H_cc - H_ct H_tt^-1 H_tc)
 ///
 /// The noise model is replaced by with_white_noise(), so that drift cannot absorb the effect of a
-/// candidate. `point`: the solution without the candidates. A candidate that the data contain no
-/// information about has the result 0, and so have all if the simulation is not finite.
+/// candidate. `point`: the solution without the candidates. All numbers of a result are 0 if the
+/// data contain no information about the candidate, or if the simulation is not finite.
 /// Precondition: the coordinate of each candidate is its value.
 std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<FreeQuantity>& candidates);

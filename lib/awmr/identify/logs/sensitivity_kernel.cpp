@@ -3,14 +3,15 @@
 namespace awmr {
 namespace {
 
-// Functions must be inlined to be compiled for the instruction set of their caller.
+// The functions below must be inlined, so that they are compiled for the instruction set of their
+// caller.
 #if defined(__GNUC__)
 #define AWMR_INLINE inline __attribute__((always_inline))
 #else
 #define AWMR_INLINE inline
 #endif
 
-// Tells the compiler that the columns are independent, which it cannot prove.
+// Asserts that the columns are independent, which the compiler cannot prove.
 #if defined(__GNUC__) && !defined(__clang__)
 #define AWMR_INDEPENDENT_COLUMNS _Pragma("GCC ivdep")
 #else

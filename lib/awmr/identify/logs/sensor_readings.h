@@ -15,25 +15,25 @@ class ReadingSeries {
  public:
   /// Adds the reading at the next row. `row`: its derivatives.
   void add(double value, const std::vector<double>& row);
-  /// Returns the reading at the place i, smoothed if there is a smoothing; `row` gets its
-  /// derivatives. A pair of rows i - n and i + n of which one is outside of the window counts as
-  /// twice the row i.
+  /// Returns the reading at the row with the index i, smoothed if `smoothing` is present. `row`
+  /// receives its derivatives. If row i - n or i + n is outside of the window, row i replaces both.
   double read(std::size_t i, const std::optional<Smoothing>& smoothing,
               std::vector<double>& row) const;
 
  private:
   std::vector<double> values_;
-  std::vector<double> rows_;  ///< [place][column]
+  std::vector<double> rows_;  ///< [index of the row][column]
 };
 
-/// Readings of all sensors while the motion of a window is simulated, row by row; latency and
-/// filters included, smoothing not.
+/// Computes the readings of all sensors row by row, while the motion of a window is simulated.
+/// Latency and filters are included, smoothing is not.
 class SensorReadings {
  public:
   /// The arguments must outlive the object. `columns`: number of derivatives.
   SensorReadings(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
                  std::size_t columns);
-  /// Goes to the next row of the window, the first one at first. `now`: the motion there.
+  /// Goes to the next row of the window. The first call goes to the first row. `now`: the motion at
+  /// this row.
   void go_on(const LinearMotion& now);
   /// Returns the reading of a channel at this row. row() then has its derivatives.
   double read(LogChannel c, const LinearMotion& now);

@@ -1,5 +1,5 @@
-/// Sensor models of a log fit: latency, filter, symmetric smoothing, wheel slip and bias, with
-/// derivatives. Private to identify/.
+/// Sensor models of a log fit, with derivatives: latency, filter, symmetric smoothing, wheel slip,
+/// scale error, mounting of the sway sensor, and bias. Private to identify/.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct Smoothing {
   double rows2_per_s2;  ///< variance in rows^2 over the variance in s^2
 };
 
-/// Errors of the sensors at one point of the search, one per channel, with their columns.
+/// Errors of the sensors at one point of the search, with the columns of their derivatives.
 struct SensorTerms {
   std::array<double, kChannelCount> bias{};
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
@@ -36,7 +36,7 @@ struct SensorTerms {
   bool any_smoothed() const;
 };
 
-/// Readings of the sensors at the motion of one time, without latency, filter, smoothing and bias.
+/// Readings of the sensors for the motion at one time, without latency, filter, smoothing and bias.
 class LogSensors {
  public:
   /// All arguments must outlive the object. `columns`: number of derivatives.

@@ -28,8 +28,8 @@ double resolution_of(Signal signal) {
   return smallest;
 }
 
-/// By row: true where a straight line ends. A row is on a line if its value differs from that of
-/// the line through its neighbours by at most `tolerance`.
+/// One per row: true where a straight line ends. A row is on a line if its value differs from that
+/// of the line through its neighbours by at most `tolerance`.
 std::vector<bool> line_ends(const Signal& t_s, const Signal& signal, double tolerance) {
   std::vector<bool> ends(signal.size(), true);
   for (std::size_t i = 1; i + 1 < signal.size(); ++i) {
@@ -52,8 +52,9 @@ std::vector<std::size_t> lengths_of(const Signal& signal, const std::vector<bool
   return lengths;
 }
 
-/// Number of rows per set-point: the most frequent length of a line, if most changes of the signal
-/// lie on lines of a multiple of it, and it is at least two rows and at most 0.5 s. Else 0.
+/// Number of rows per set-point: the most frequent length of a line. 0 if it is shorter than two
+/// rows or longer than 0.5 s, if the signal changes in fewer than kFewest rows, or if at most half
+/// of these rows are on lines whose length is a multiple of it.
 std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
                               const std::vector<bool>& ends) {
   constexpr double kLongest_s = 0.5;
@@ -76,12 +77,12 @@ std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
   return is_usual ? usual : 0;
 }
 
-/// By row: the row of its set-point, if the signal is interpolated. Set-points are the ends of
-/// lines, and the rows at multiples of rows_of_set_point() after them. The values on the lines may
-/// be exact or rounded.
+/// One per row: the row of its set-point. Empty if the signal is not interpolated. Set-points are
+/// the ends of lines, and the rows at multiples of rows_of_set_point() after them. The values on
+/// the lines may be exact or rounded.
 std::optional<std::vector<std::size_t>> set_points_of(const Signal& t_s, const Signal& signal) {
-  constexpr double kExact = 1e-3;    // of the resolution
-  constexpr double kRounded = 1.05;  // a row and the mean of its neighbours, by half of it each
+  constexpr double kExact = 1e-3;    // tolerances relative to the resolution
+  constexpr double kRounded = 1.05;  // half for the row and half for the mean of its neighbours
   const double resolution = resolution_of(signal);
   for (const double share : {kExact, kRounded}) {
     const std::vector<bool> ends = line_ends(t_s, signal, share * resolution);

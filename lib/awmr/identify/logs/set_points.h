@@ -1,8 +1,8 @@
 /// Logs whose commands were interpolated between set-points by the program that wrote the log.
 /// Private to identify/.
 ///
-/// A controller holds each set-point until the next one. A log with more rows than set-points that
-/// is filled by linear interpolation shows straight lines between them instead.
+/// A controller holds each set-point until the next one. If a log has more rows than set-points and
+/// its program interpolates linearly, the log shows straight lines between the set-points instead.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,18 @@
 
 namespace awmr {
 
-/// The logs with every command held at its last set-point. Empty if no command looks interpolated:
-/// less than half of its changes lie on straight lines of a multiple of the same number of rows, or
-/// these are more than 0.5 s.
+/// The logs with every interpolated command held at its last set-point. A command counts as
+/// interpolated if it changes in at least 40 rows, and most of these lie on straight lines whose
+/// lengths are multiples of the same number of rows. This number is at least 2, and its rows last
+/// at most 0.5 s. Empty if no command is interpolated, or if the logs were already changed in this
+/// or a similar way (DrivingLog::has_held_set_points, has_interpolated_commands).
 std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<DrivingLog>& logs);
 
-/// True if `held`, the logs with held set-points, describe the motion as well as the logs
-/// themselves: the AIC of the families of `first`, fitted to them without delays or motor lag at
-/// first, is at most 10 higher. Straight lines of equal length are hardly ever real commands, so
-/// they need not be better. `power_law`: options of `first`.
+/// True if `held`, the logs with held set-points, describe the motion about as well as the logs
+/// themselves. The families of `first` are fitted to `held`, starting without command delays and
+/// motor lag. The AIC of this fit may be up to 10 higher than that of `first`. It need not be
+/// lower, because straight lines of equal length are hardly ever real commands. `power_law`:
+/// options of `first`.
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
                          const FamilyFit& first, const IdentifyOptions& options);
 

@@ -64,7 +64,7 @@ Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ra
 }
 
 /// Returns the terms with late commands instead of slip. If only the speed has slip, the yaw rate
-/// gets a latency, so that only the speed can be ahead of the commands.
+/// gets a latency, so that only the speed can respond before the logged commands.
 Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels) {
   constexpr double kGuess_s = 0.01;
   using Kind = FreeQuantity::Kind;

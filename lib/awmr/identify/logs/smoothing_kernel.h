@@ -16,8 +16,7 @@ struct SmoothingKernel {
   std::vector<double> by_variance;
 };
 
-/// Largest variance of a kernel, rows^2. Kernels with a larger variance, or with one that is not a
-/// number, are those of this variance, or of 0.
+/// Largest variance of a kernel, rows^2. A larger variance is replaced by this value, and NaN by 0.
 inline constexpr double kWidestKernel = 2500.0;
 
 /// Discrete Gaussian kernel of the variance s >= 0 (rows^2) [Lindeberg, Scale-space for discrete
@@ -26,8 +25,8 @@ inline constexpr double kWidestKernel = 2500.0;
 ///     w_n = e^-s I_n(s),   dw_n/ds = (w_{n-1} + w_{n+1})/2 - w_n
 SmoothingKernel gaussian_kernel(double variance);
 
-/// Moving average of the variance s >= 0 (rows^2). With k whole rows to either side and the weight
-/// f in [0, 1) of the next ones, relative to theirs:
+/// Moving average with the variance s >= 0 (rows^2). k rows to either side have the weight of the
+/// middle row. The next row on either side has f times this weight, f in [0, 1):
 ///
 ///     s = (2 sum_{n <= k} n^2 + 2 f (k + 1)^2)/(2 k + 1 + 2 f)
 SmoothingKernel moving_average(double variance);

@@ -8,9 +8,10 @@
 
 namespace awmr {
 
-/// Median ratio of the steady speeds of the wheels to their commands, m/s. Empty if a ratio differs
-/// from it by more than 5 %, if fewer than six speeds are known within 5 %, or if their commands
-/// differ by less than a factor of 3. (A power law with b1 = 0.9 gives differences of 6 %.)
+/// Median ratio of the steady speeds of the wheels to their commands, m/s. Uses only speeds with a
+/// standard error below 5 %. Empty if there are fewer than six of them, if their commands differ by
+/// less than a factor of 3, if a ratio differs from the median by more than 5 %, or if the median
+/// is not positive. (A power law with b1 = 0.9 gives differences of 6 %.)
 std::optional<double> speed_per_set_point(const Vehicle& vehicle,
                                           const std::vector<DrivingLog>& logs);
 

@@ -1,14 +1,14 @@
 /// Slip of wheels whose rotation measures the speed or the yaw rate, with derivatives. Private to
 /// identify/.
 ///
-/// A wheel that pushes rolls faster than the ground passes below it. Where the ground passes with
-/// w = u -+ d r (left, right), the wheels of a side with the force F' roll at
+/// A wheel that pushes rolls faster than it moves over ground. The wheels of a side move over
+/// ground with w = u - d r (left) or u + d r (right). With the force F' they roll at one of
 ///
-///     w + s F'        (in m/s at F' = 1; 0 where the wheel stands)
-///     w + s F' |w|    (s is the slip ratio at F' = 1; WheelSlip::is_ratio)
+///     w + s F'        s in m/s; no slip if w = 0
+///     w + s F' |w|    s: slip ratio at F' = 1 (WheelSlip::is_ratio)
 ///
-/// The speed is the mean of both sides, and the yaw rate is their difference over 2 d. F' is the
-/// force after the motors' lag, dead zone and back-EMF.
+/// The measured speed is the mean of both sides, and the measured yaw rate is their difference
+/// (right - left) over 2 d. F' is the force after the motors' lag, dead zone and back-EMF.
 #pragma once
 
 #include <vector>
@@ -31,8 +31,8 @@ struct SlippingWheels {
   CommandColumns columns;
 };
 
-/// Returns what the slip adds to the reading of its channel, and adds the derivatives to
-/// `by_column` (`columns` numbers).
+/// Returns the change of the channel's reading by the slip, and adds its derivatives to `by_column`
+/// (`columns` numbers).
 double add_wheel_slip(const WheelSlip& slip, const SlippingWheels& wheels,
                       const DelayedCommand& command, const LinearMotion& motion,
                       std::size_t columns, double* by_column);

@@ -56,7 +56,7 @@ struct DriftStep {
 ///     x = F x,   P = F P F^T + sigma_d^2 (I - F F^T)
 ///     nu = e - x_0,   S = P_00 + sigma_w^2,   x += (P_.0/S) nu,   P -= P_.0 P_.0^T/S
 ///
-/// With differenced noise, the state is the last n with the variance P, sigma_w^2 at first:
+/// With differenced noise, the state is the previous n. Its variance P starts at sigma_w^2:
 ///
 ///     nu = e + theta n,   S = sigma_w^2 + theta^2 P,   n = (sigma_w^2/S) nu
 ///     P = sigma_w^2 (1 - sigma_w^2/S)
@@ -109,7 +109,8 @@ class WhitenerGains {
  private:
   static bool near(double a, double b) { return std::abs(a - b) <= 1e-14 * std::abs(b); }
 
-  /// After a gap of more than kGap steps, the last n is not the one that is subtracted.
+  /// Gains for differenced noise e_k = n_k - theta n_{k-1}. Restarts after a gap of more than kGap
+  /// steps, because n_{k-1} is then not the n of the last residual before the gap.
   const Step& next_differenced(double white, double since_s) {
     constexpr double kGap = 1.5;
     last_.restarts = since_s_ > 0.0 && since_s > kGap * since_s_;

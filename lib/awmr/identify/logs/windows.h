@@ -39,13 +39,14 @@ struct FitWindow {
 };
 
 /// Divides all logs into windows, within the time interval `only_s` if given. Omits windows without
-/// samples, and the first second of a log that begins in motion, because motors and filters then
-/// depend on unknown earlier commands. The logs must outlive the windows.
+/// samples. Also omits the first second of a log of 5 s or more that begins in motion, because
+/// motors and filters then depend on unknown earlier commands. The logs must outlive the windows.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
                                    const std::optional<Interval>& only_s = {});
 
-/// Divides a window into parts with equal numbers of rows, each with its own initial state. A part
-/// lasts about `longest_s` seconds or less, but has at least three rows.
+/// Divides a window into parts with about equal numbers of rows, each with its own initial state. A
+/// part lasts about `longest_s` seconds or less, but has at least three rows. Omits parts without
+/// samples.
 std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
 
 /// A component of the initial state that is fitted in every window.

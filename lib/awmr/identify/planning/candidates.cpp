@@ -208,8 +208,9 @@ std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptio
 
 namespace {
 
-/// Range of the scrub moment, m: its 95 % interval, cut at 0. Without an interval: from the largest
-/// moment at which the vehicle did not turn (else 0) to the moment of sliding tyres.
+/// Range of the scrub moment, m: its 95 % interval, cut at 0. If the scrub was not measured: from
+/// the largest moment at which the vehicle did not turn (0 if none is known) to the moment of
+/// sliding tyres.
 Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   const double held_m = model.yaw_held_m.value_or(0.0);
   if (const auto& scrub = model.yaw_scrub) {

@@ -18,8 +18,8 @@ struct CandidateTrial {
   std::function<std::vector<double>(const Plant<double>&)> standardised;
 };
 
-/// All candidates, within the limits of the wheel forces and the steering. Only trials that the
-/// model can simulate: if it has only parameters of straight motion, the candidate logs drive
+/// All candidates within the limits of the wheel forces and the steering that the model can
+/// simulate. If the model has only parameters of straight motion, the candidate logs drive
 /// straight.
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options);
 

@@ -1,4 +1,4 @@
-/// Precision of a model's parameters, from which a command decides whether more trials are needed.
+/// Precision of a model's parameters, by which commands decide whether more trials are needed.
 #pragma once
 
 #include <optional>

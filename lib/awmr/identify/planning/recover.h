@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// Which trials are simulated.
+/// Trials to simulate.
 enum class RecoverPlan {
   kTables,  ///< tables with the settings of the model's own trials
   kCurve,   ///< these tables with a coast-down curve in place of the stop times

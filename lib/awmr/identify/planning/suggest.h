@@ -23,7 +23,7 @@ struct SuggestTarget {
 struct SuggestOptions {
   /// Target of the ranking: the name of a parameter or of one of `metrics`. Empty: all parameters
   /// (A-optimality), that is, the root of the sum of their squared relative standard errors. In
-  /// this sum the error of an exponent is absolute, and that of a family's term is relative to the
+  /// this sum the error of an exponent is absolute. The error of a family's term is relative to the
   /// resistance with all its terms at 1 m/s or 1 rad/s.
   std::string parameter = {};
   /// Sensor noise of future curves and logs. Use the robot's own values if they are known.
@@ -58,9 +58,9 @@ struct MissingParameter {
 struct ScrubTurn {
   double yaw_rate_degps = 0.0;  ///< yaw rate to reach, > 0
   /// Wheel forces F' (over F_max) for this yaw rate under the smallest and under the largest scrub
-  /// moment. The two scrub moments are the ends of the measured 95 % interval. Without it, they are
-  /// the largest moment at which the vehicle did not turn (else 0) and the moment of sliding tyres
-  /// (friction 0.8).
+  /// moment. The two scrub moments are the ends of the measured 95 % interval. If the scrub was not
+  /// measured, the smallest one is the largest moment at which the vehicle did not turn (0 if none
+  /// is known), and the largest one is the moment of sliding tyres (friction 0.8).
   SideForces<double> least, most;
 };
 
