@@ -53,9 +53,9 @@ class FrameLink : public Chip {
     return ask(::pil::kFollow, writer.bytes(), 0);
   }
 
-  /// Executes one step. If the chip does not answer, it may have been reset: it then answers
-  /// nothing before a start request. It is started, gets its points, and the step is requested
-  /// again.
+  /// Executes one step. A chip that was reset answers no request before a start request. If the
+  /// chip does not answer, it is therefore started again and gets its points, and the step is
+  /// requested again.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> request = pack(input);
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(::pil::kStep, request, kStepBytes));

@@ -44,8 +44,8 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
   return in;
 }
 
-/// While the vehicle is disarmed, its last command is made older by this, ms, which is longer than
-/// every timeout: the control step then gives the safe command, as on the board.
+/// Age that is added to the last command while the vehicle is disarmed, ms. It is longer than every
+/// timeout, so the control step gives the safe command, as on the board.
 constexpr std::uint32_t kSilence_ms = 4'000'000;
 
 void inject(Injection injection, AutopilotInput& in) {

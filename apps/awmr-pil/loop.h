@@ -36,8 +36,8 @@ struct LoopRow {
   double steering_command_rad = 0.0;  ///< steering angle that the servo receives in this step
 };
 
-/// Copies noise and latency of the scenario's GPS to the model's vehicle, from which the firmware's
-/// position filter is computed: it is then the simulator's filter.
+/// Copies noise and latency of the scenario's GPS to the model's vehicle. The firmware's position
+/// filter is computed from them, so that it equals the filter of the simulator.
 void know_receiver(const Gps& gps, Model& model);
 
 /// True if the simulated speed sensor gives |u|; the firmware then has to find the direction of

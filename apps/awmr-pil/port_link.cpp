@@ -19,7 +19,8 @@ namespace {
 
 constexpr int kStartTimeout_ms = 500;   ///< the check of the parameters takes 50 ms
 constexpr int kAnswerTimeout_ms = 300;  ///< 140 bytes take 146 ms at 9600 baud
-/// Waiting time after opening the port, which resets a Mega 2560: its boot loader waits first.
+/// Waiting time after opening the port. Opening it resets a Mega 2560, whose boot loader waits
+/// before it starts the firmware.
 constexpr int kBootTime_ms = 2000;
 
 class Port : public Line {

@@ -24,8 +24,8 @@ inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
   command
       .add_option_function<std::string>(
           "--allocation", set,
-          "Forces and angle by the exact inverse, or by the paper's small angles (default: "
-          "from scenario or vehicle, else exact)")
+          "Compute wheel forces and steering angle from thrust and yaw moment exactly, or by the "
+          "paper's equations for small angles (default: from scenario or vehicle, else exact)")
       ->check(one_of(names_in(kAllocationFormNames)));
 }
 

@@ -303,8 +303,8 @@ void add_compare(CLI::App& app, Session& session) {
   add_preferences(*sub, *texts);
   sub->add_flag(
       "--break-even", command->compare.break_even,
-      "Also compute how large the tyre scrub of differential turns (a constant yaw moment against "
-      "the turn) must be for a mode with less of it to become better");
+      "Also compute the break-even tyre scrub of differential turns (a constant yaw moment against "
+      "the turn): the scrub at which a mode with smaller force differences becomes as good");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit, "measured, if the model has that rate");

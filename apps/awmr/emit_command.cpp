@@ -86,8 +86,8 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
            name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
 }
 
-/// Warns if motors that differ by 16 % cause a steady heading error of more than half of
-/// kMaxOnCourse_rad, beyond which the sketches report a failure (fault 17).
+/// Warns if motors that differ by 16 % cause a steady heading error above kMaxOnCourse_rad/2. At an
+/// error above kMaxOnCourse_rad, the sketches report a failure (fault 17).
 void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
                       Outcome& outcome) {
   if (2.0 * parameters.steady_error_rad <= kMaxOnCourse_rad) return;

@@ -44,8 +44,8 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
                  "trajectory (default with --log)")
       ->check(one_of(names_in(kMethodNames)));
   sub.add_option("--noise", words.noise,
-                 "Quantity with the measurement error in the nonlinear fit: force, speed or time "
-                 "(default with --method nonlinear: time if every run was timed, else speed)")
+                 "Quantity that has the measurement error in the nonlinear fit: force, speed or "
+                 "time (default with --method nonlinear: time if every run was timed, else speed)")
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,
@@ -77,9 +77,9 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
                  "intervals (default 0: intervals from the covariance alone)")
       ->check(within(0, 1000000));
   sub.add_option("--time-limit", command.identify.time_limit_s,
-                 "Time limit for log fits, s (default: none). Fits that have not converged are "
-                 "refused; without the comparison of families the intervals are withdrawn. The "
-                 "result then depends on the machine")
+                 "Time limit for log fits, s (default: none). Fits that have not converged by then "
+                 "are refused. If not all resistance families were compared, the intervals are "
+                 "withdrawn. With a limit, the result depends on the speed of the machine")
       ->check(within(0.1, 1e6));
   sub.add_option("--seed", command.identify.seed,
                  "Random seed of the starts and of the bootstrap (default 1)")
@@ -104,8 +104,10 @@ void add_end_options(CLI::App& sub, TrialOptions& trials, std::vector<std::strin
 }
 
 void add_reading_options(CLI::App& sub, IdentifyWords& words) {
-  sub.add_flag("--as-is", words.command.trials.as_is,
-               "Accept trials with contradictory units, signs or sides, and keep gross outliers");
+  sub.add_flag(
+      "--as-is", words.command.trials.as_is,
+      "Accept trials that appear to have wrong units or signs, or left and right exchanged, "
+      "and keep gross outliers");
   sub.add_option(
          "--prefer", words.prefer,
          "If a row's speed or yaw rate disagrees with the one computed from its time: use the "

@@ -29,7 +29,7 @@ struct LiveUpdate {
 /// Half widths of the 95 % intervals as text: "surge.alpha +-0.12 %, yaw.beta +-0.012", or "-" if
 /// unknown. Those of exponents are absolute, others are relative to the value.
 std::string widths_text(const LiveUpdate& update);
-/// Text that every interval is narrow enough ("enough: ..."), or else the next manoeuvre to drive.
+/// Returns "enough: ..." if every interval is narrow enough, else the next manoeuvre to drive.
 std::string verdict_text(const LiveUpdate& update);
 
 /// Shows the updates on stderr.

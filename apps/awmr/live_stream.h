@@ -61,8 +61,8 @@ class RecorderStream {
 };
 
 /// During its lifetime SIGINT, SIGTERM and SIGHUP (terminal closed) do not end the program; came()
-/// tells whether one arrived. After a SIGHUP, further ones are ignored, because kernel and shell
-/// each send one and the results must still be written. Only one object may exist at a time.
+/// returns true after one arrived. After a SIGHUP, further ones are ignored, because kernel and
+/// shell each send one and the results must still be written. Only one object may exist at a time.
 class Interruption {
  public:
   Interruption();

@@ -1,4 +1,5 @@
-/// Command-line options whose value is a file or a directory, as help, manual and completions show.
+/// Command-line options whose value is a file or a directory. The help, the manual pages and the
+/// completions show which of the two.
 #pragma once
 
 #include <CLI/CLI.hpp>

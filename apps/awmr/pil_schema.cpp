@@ -74,7 +74,8 @@ void describe_pil(JsonObject& json) {
 }  // namespace
 
 std::string pil_schema() {
-  return json_schema_text("awmr.pil/1", "The firmware on the chip against the host", describe_pil);
+  return json_schema_text("awmr.pil/1", "Comparison of the firmware on the chip with the host",
+                          describe_pil);
 }
 
 }  // namespace awmr::cli

@@ -79,7 +79,7 @@ inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Fin
   findings.push_back(
       {choice.tyres_file->string(), 0, Severity::kNote, "tyres-simulated",
        fmt::format("the four-wheel plant has fitted tyres (friction {:.3g}, {:.3g} per rad); on "
-                   "held-out parts of their logs {}",
+                   "the parts of the logs that were held out from the fit, {}",
                    fit.tyres.friction, fit.tyres.cornering_per_rad,
                    fit.better ? fmt::format("the {} plant predicts better: rely on results of it",
                                             name_in(kPlantKindNames, *fit.better))

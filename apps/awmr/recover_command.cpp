@@ -109,8 +109,8 @@ void add_estimator(CLI::App& sub, RecoverWords& words) {
   sub.add_option("--noise", words.noise, "Noise model of the estimator, as in identify")
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option("--error", words.error,
-                 "Quantity with the simulated error of table rows: log-force, force, speed or time "
-                 "(default: as the estimator assumes)")
+                 "Quantity to which the error of table rows is added: log-force, force, speed or "
+                 "time (default: as the estimator assumes)")
       ->check(one_of(names_in(kRecoverErrorNames)));
   sub.add_option("--fit", words.requested, "Parameters to fit, as in identify")->delimiter(',');
   sub.add_flag("--joint", words.command.recover.identify.joint,
@@ -152,7 +152,7 @@ void add_recover(CLI::App& app, Session& session) {
   auto words = std::make_shared<RecoverWords>();
   CLI::App* sub = add_command(
       app, session, "recover",
-      "Simulate trials of the model, identify them, compare: bias and interval coverage",
+      "Simulate trials of the model, refit the model to them, report bias and interval coverage",
       "awmr recover --model model.json --runs 200 -o recover.json", [words]() -> Result<Outcome> {
         AWMR_ASSIGN_OR_RETURN(const RecoverCommand command, command_of(*words));
         return execute(command);

@@ -141,7 +141,7 @@ std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
 std::string tuning_details(const Tuning& tuning) {
   std::string text = "objective by scenario and mode\n";
   for (const ModeScore& score : tuning.scores) {
-    text += fmt::format("  {:<22} {:<13} {:.4f} of the baseline's\n", score.scenario,
+    text += fmt::format("  {:<22} {:<13} {:.4f} times the baseline's\n", score.scenario,
                         name_of(score.mode), score.objective);
   }
   text += "constraints\n";

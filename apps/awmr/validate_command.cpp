@@ -192,7 +192,7 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
       ->needs("--log");
   add_end_options(sub, command.trials, excluded);
   sub.add_flag("--as-is", command.trials.as_is,
-               "Accept logs with contradictory units, signs or sides");
+               "Accept logs that appear to have wrong units or signs, or left and right exchanged");
   sub.add_option("--column", columns.columns, kColumnHelp);
   add_file(sub, "--columns-file", columns.file, kColumnsFileHelp);
 }

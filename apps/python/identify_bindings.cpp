@@ -97,7 +97,8 @@ void bind_identify(py::module_& module) {
       py::arg("starts") = 6, py::arg("bootstrap") = 0, py::arg("time_limit_s") = 0.0,
       py::arg("threads") = 0,
       "Fits the parameters of a vehicle to its trials. The arguments are the options of the same "
-      "names of `awmr identify`, whose results these equal. `method`: \"log-linear\", "
+      "names of `awmr identify`, and the results equal those of that command. `method`: "
+      "\"log-linear\", "
       "\"nonlinear\" or \"trajectory\" (None: chosen by the data); `noise`: the quantity that has "
       "the errors, \"force\", \"speed\" or \"time\"; `family`, `fit`: lists of the values of "
       "--family and --fit; `time_limit_s`: 0 is no limit; `threads`: 0 is all cores, and the "
@@ -106,12 +107,13 @@ void bind_identify(py::module_& module) {
   module.def(
       "suggest", suggested, py::arg("model"), py::kw_only(), py::arg("parameter") = "",
       py::arg("repeats") = 3,
-      "The trials to record next, best first, as a list of dicts: `kind`, `settings` as "
-      "text, the settings as `numbers`, and `std_error_before` and `std_error_after` the "
-      "trial, of `parameter` in its unit. The argument `parameter` selects whose standard "
-      "error is to be reduced (\"\": those of all parameters together), `repeats` the number "
-      "of runs of each trial. Trials that identify parameters without a value come first; "
-      "these have only `parameter` and `settings`. Raises InputError.");
+      "Returns the trials to record next, best first, as a list of dicts. The keys are `kind`, "
+      "`settings` (text), `numbers` (the settings as a dict of numbers), `parameter` (whose "
+      "standard error the trial reduces), and `std_error_before` and `std_error_after`, this "
+      "standard error before and after the trial, in the parameter's unit. Arguments: `parameter` "
+      "is the parameter whose standard error is to be reduced (\"\": all parameters together), "
+      "`repeats` the number of runs of each trial. Trials for parameters without a value come "
+      "first; these have only the keys `parameter` and `settings`. Raises InputError.");
 }
 
 }  // namespace awmr::python

@@ -75,8 +75,8 @@ void bind_vehicle(py::module_& module) {
       .def_property_readonly("inertia_kgm2", &Vehicle::inertia_kgm2,
                              "Iz, kg m^2: the measured yaw inertia, else that of a uniform box");
   py::class_<VehicleOfFile, Vehicle>(module, "VehicleOfFile",
-                                     "A vehicle as read_vehicle() returns it: a model identified "
-                                     "for it names its file.");
+                                     "A vehicle that read_vehicle() returned. A model identified "
+                                     "for it records the name and hash of its file.");
   bind_read(module, "read_vehicle", read_with_its_file, "Reads a vehicle.json. Raises InputError.");
 }
 
@@ -220,12 +220,14 @@ void bind_gains(py::module_& module) {
       module, "Gains",
       "The controller's gains, all > 0. Heading law: slope lambda_ of the sliding surface (1/s), "
       "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary layer "
-      "(rad/s), and friction_width_radps, the yaw rate below which Coulomb friction is fed forward "
-      "in part in steering mode (combined mode: combined_friction_width_radps, by default half, at "
-      "least 0.02; differential: 0.02; with an observer: all the same). Speed law: speed_mu "
-      "(m/s^2) and speed_epsilon (m/s), likewise. Disturbance "
-      "observer (three zeros: none): observer_bandwidth_radps, and the largest compensated yaw "
-      "moment observer_yaw_max_m (m) and force observer_surge_max, both over F_max.");
+      "(rad/s), and the friction width, the yaw rate (rad/s) below which Coulomb friction is fed "
+      "forward only in part. It is friction_width_radps in steering mode, "
+      "combined_friction_width_radps in combined mode (default: half of friction_width_radps, at "
+      "least 0.02), and 0.02 in differential mode; with an observer, it is friction_width_radps in "
+      "all modes. Speed law: largest corrective acceleration speed_mu (m/s^2), half width "
+      "speed_epsilon of the boundary layer (m/s). Disturbance observer (all three 0: no observer): "
+      "observer_bandwidth_radps, and the largest compensated yaw moment observer_yaw_max_m (m) and "
+      "force observer_surge_max, both over F_max.");
   bound.def(py::init(&gains_from), py::kw_only(), py::arg("lambda_"), py::arg("mu"),
             py::arg("epsilon"), py::arg("speed_mu"), py::arg("speed_epsilon"),
             py::arg("friction_width_radps") = kFrictionWidth_radps.min,

@@ -66,7 +66,7 @@ py::dict metrics_dict(const Metrics& metrics) {
 
 void bind_simulate(py::module_& module) {
   py::class_<Scenario>(module, "Scenario",
-                       "What a run has to follow (headings, waypoints, ...), with the obstacles, "
+                       "Guidance of a run (headings, waypoints, ...), with the obstacles, "
                        "disturbances and sensor noise (scenario.json).")
       .def_readonly("name", &Scenario::name)
       .def_readonly("duration_s", &Scenario::duration_s, "longest duration of a run, s");

@@ -315,8 +315,8 @@ std::optional<Finding> turn_mismatch(const DrivingLog& log,
   }
   return scale_finding(
       log,
-      fmt::format("by the positions, the vehicle turns {:.3f} +- {:.3f} times as far as by {}: "
-                  "their scale is wrong (track width of the odometry, gyroscope). Map with {}",
+      fmt::format("by the positions, the vehicle turns {:.3f} +- {:.3f} times the angle of {}: "
+                  "wrong scale (track width of the odometry, or gyroscope). Map with {}",
                   scale->value, scale->std_error, fmt::join(columns, " and "),
                   fmt::join(options, " and ")));
 }

@@ -206,9 +206,10 @@ std::vector<RowSpan> equal_runs(std::span<const double> value) {
   return runs;
 }
 
-/// How long, in s, the command differs during `run` from its value at the start of `run` by more
-/// than `notable`. Means of the command over 0.3 s are compared, because a speed controller changes
-/// its command in every row, but hardly on average. The last 0.3 s of the run do not count.
+/// Returns the time, s, for which the command differs during `run` by more than `notable` from its
+/// value at the start of `run`. Means of the command over 0.3 s are compared, because a speed
+/// controller changes its command in every row, but hardly on average. The last 0.3 s of the run do
+/// not count.
 double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,
                  double notable) {
   constexpr double kMean_s = 0.3;

@@ -36,20 +36,22 @@ struct ChannelQuality {
 /// measurement.
 ChannelQuality find_repeats(std::span<const double> value);
 
-/// Resolution of readings that were written only when they had changed; 0 if they were not. Such
-/// readings never repeat, although most of them change by one step of the resolution, so that
-/// readings at regular times would repeat. At least 30 readings are needed. Zeros may repeat (0 and
-/// -0 are written differently).
+/// Returns the resolution of readings that were written only when they had changed; 0 for other
+/// readings. The criterion: no reading equals the one before it, and most readings differ from it
+/// by one step of the resolution. (Readings at regular times that change so little would sometimes
+/// stay the same.) Needs at least 30 changes. Zeros may repeat, because 0 and -0 are written
+/// differently.
 double resolution_of_changes(std::span<const double> readings);
 
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any unit. A signal that is constant while `activity` changes is stuck.
 ///
-/// A slow sensor changes its value at multiples of its sample interval, two rows or more. A coarse
-/// sensor can change it in any row, mostly by one step of its resolution. Rows of a slow sensor are
-/// measurements only if they have a new reading. Every row of a coarse sensor is a measurement,
-/// because an unchanged value means that the signal did not reach the next step. Rows with spikes,
-/// stuck values (except the first one) or saturated values are not measurements.
+/// The value of a slow sensor changes only at multiples of the sensor's sample interval, which is
+/// two rows or more. The value of a coarse sensor can change in any row, mostly by one step of the
+/// resolution. Rows of a slow sensor are measurements only if they have a new reading. Every row of
+/// a coarse sensor is a measurement, because an unchanged value means that the signal did not reach
+/// the next step. Rows with spikes, stuck values (except the first one) or saturated values are not
+/// measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

@@ -40,8 +40,8 @@ std::optional<Scale> by_unit_in_name(const std::string& quoted, const Words& wor
                fmt::format("the name ends in the unit {}", unit->spelling)};
 }
 
-/// True for the words of names in ROS 2 messages, which are in SI units by convention, and of
-/// ArduPilot's gyros, which are in rad/s.
+/// True if the words of a name indicate a field of a ROS 2 message, which is in SI units by
+/// convention, or a gyroscope of ArduPilot, which is in rad/s.
 bool is_si_by_convention(const Words& words) {
   const bool ros = has_any(words, {"twist", "pose", "drive"}) ||
                    (has_any(words, {"angular"}) && has_any(words, {"velocity", "z"}));

@@ -16,10 +16,11 @@ struct CourseAtRest {
   double jump_rad = 0.0;          ///< largest change between headings at rest, [0, pi]
 };
 
-/// Finds the rows at rest whose headings are invalid, because the heading jumps by more than 20 deg
-/// at rest. `present`: the rows with a heading, ascending. `speed_mps` and `heading_rad` have one
-/// value per row; the heading may wrap. If the headings before and after the rest differ, nothing
-/// is reported, because the vehicle may have been turned by hand.
+/// Finds the rows with an invalid heading. If the heading jumps by more than 20 deg during a rest,
+/// or at its beginning or end, the headings of all rows at rest are invalid. A rest is not searched
+/// for jumps if the headings before and after it differ by more than 20 deg, because the vehicle
+/// may have been turned by hand. `present`: the rows with a heading, ascending. `speed_mps` and
+/// `heading_rad` have one value per row; the heading may wrap.
 CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const double> heading_rad,
                             std::span<const std::size_t> present);
 

@@ -2,8 +2,9 @@
 ///
 /// Every record begins with the bytes A3 95 and its type. An FMT record defines the length and the
 /// fields of one type. Signals are named `NAME.FIELD`. If an FMTU record marks a field as the
-/// instance number of similar sensors, signals are named `NAME[2].FIELD`. Text fields are omitted.
-/// Numbers are scaled by their format character: c, C, e, E are hundredths, L is 1e-7 degrees.
+/// instance number of similar sensors, signals are named `NAME[2].FIELD`. Texts, arrays and 16-bit
+/// floats are omitted. Numbers are scaled by their format character: c, C, e, E are hundredths, L
+/// is 1e-7 degrees.
 #pragma once
 
 #include <string>

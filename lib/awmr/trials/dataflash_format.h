@@ -21,7 +21,7 @@ inline constexpr std::size_t kRecordHeaderBytes = 3;
 struct FieldKind {
   char character;
   std::size_t bytes;
-  double scale;  ///< value = stored number times this; 0: the field is text or an array
+  double scale;  ///< value = stored number times this; 0: the field is not read
 };
 /// A named field of a record.
 struct Field {

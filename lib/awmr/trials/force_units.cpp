@@ -22,9 +22,9 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
                                                 {1023.0, "10-bit PWM counts"},
                                                 {4095.0, "12-bit PWM counts"}}};
 constexpr double kEndOfScale = 0.005;  // relative tolerance of "the largest force is full power"
-// The trials of any vehicle reach this fraction of full power.
+// Assumption: the trials of every vehicle reach this fraction of full power.
 constexpr double kMinShare = 0.2;
-// Up to this times F'max, forces may be divided by a smaller F_max.
+// Forces of up to this times F'max may have been divided by a force below F_max.
 constexpr double kPlainlyBeyond = 1.05;
 
 constexpr ForceUnit kMicroseconds{

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// A jump is more than kTimes times the usual change between two readings: the quantile kQuantile
-/// of the changes per second, times the time between the readings.
+/// A change between two readings is a jump if it exceeds kTimes times the usual change. The usual
+/// change is the quantile kQuantile of all changes per second, times the time between the readings.
 constexpr double kTimes = 10.0;
 constexpr double kQuantile = 0.95;
 /// Smallest jump of the position that is reported, in vehicle lengths. A smaller one may be a

@@ -53,8 +53,8 @@ LaggedForces::Side LaggedForces::side(const std::vector<double>& command, std::s
 
 LaggedForces::Value LaggedForces::at(const Side& side, const std::vector<double>& command,
                                      double t_s) const {
-  // Integration steps end at the times of rows only up to rounding, so times that differ by less
-  // are the same.
+  // The end of an integration step can differ from the time of its row by rounding. Times that
+  // differ by less than this count as equal.
   constexpr double kRounding_s = 1e-9;
   const auto first = log_->t_s.begin() + static_cast<std::ptrdiff_t>(first_row_);
   const auto last = first + static_cast<std::ptrdiff_t>(side.force.size());

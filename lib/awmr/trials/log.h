@@ -45,12 +45,16 @@ struct DrivingLog {
   std::vector<int> line;            ///< by row: line in the file
   std::vector<std::size_t> mapped;  ///< mappings that were used: indices in TrialOptions::columns
   bool joined = false;              ///< joined from signals of different rates: unequal time steps
-  bool has_interpolated_commands = false;  ///< rows without measurements were inserted between rows
-  bool has_held_set_points = false;  ///< interpolated commands were replaced by held set-points
-  bool is_geographic = false;        ///< x_m is east and y_m north, from latitude and longitude
-  std::vector<double> t_s;           ///< time, s, strictly rising
-  std::vector<double> force_left;    ///< F'L of each left wheel, over F_max, forward positive
-  std::vector<double> force_right;   ///< F'R of each right wheel, over F_max, forward positive
+  /// True: between the rows of the file, rows with interpolated commands and without measurements
+  /// were inserted.
+  bool has_interpolated_commands = false;
+  /// True: commands that the logger had interpolated, if any, were replaced by the set-points, each
+  /// constant until the next one.
+  bool has_held_set_points = false;
+  bool is_geographic = false;       ///< x_m is east and y_m north, from latitude and longitude
+  std::vector<double> t_s;          ///< time, s, strictly rising
+  std::vector<double> force_left;   ///< F'L of each left wheel, over F_max, forward positive
+  std::vector<double> force_right;  ///< F'R of each right wheel, over F_max, forward positive
   /// d_ro, command of the steering servo, rad, left positive. Absent if the log has only the
   /// steering angle d_r, which is then the steering input of the model.
   std::optional<std::vector<double>> steering_command_rad;

@@ -54,8 +54,8 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
 }
 
-/// The command that moves a channel, by row, in any scale: for heading and yaw rate the yaw moment
-/// of force difference and steering, else the thrust.
+/// The command that moves a channel, by row, in an arbitrary unit: for heading and yaw rate the yaw
+/// moment of force difference and steering, else the thrust.
 std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
   const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
   std::vector<double> activity(log.rows());
@@ -92,8 +92,8 @@ ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel chann
   return quality;
 }
 
-/// True if most times between the rows are about equal, as for the readings of a slow sensor, or if
-/// every row but those of a gap is in `rows`.
+/// True if at least 80 % of the times between successive `rows` are about equal. This is the case
+/// for readings of a slow sensor, and for a channel that only lacks the rows of a gap.
 bool are_regular(const std::vector<double>& t_s, const std::vector<std::size_t>& rows) {
   constexpr double kAbout = 1.5;  // factor
   constexpr double kMost = 0.8;
@@ -113,8 +113,8 @@ void note_changes_only(LogChannel channel, const DrivingLog& log,
   const ChannelInfo& about = info(channel);
   findings.push_back(
       {log.file, 0, Severity::kNote, "only-changes",
-       fmt::format("{} has {} values in {} rows, each of them changed, mostly by its resolution "
-                   "of {:.3g}: it is taken as unchanged in rows without a value",
+       fmt::format("{} has {} values in {} rows; each differs from the one before it, mostly by "
+                   "the resolution of {:.3g}. In rows without a value, it is taken as unchanged",
                    about.column, rows.size(), log.rows(), resolution / about.to_si)});
 }
 
@@ -124,7 +124,8 @@ std::vector<std::size_t> rows_between(std::size_t first, std::size_t last) {
   return rows;
 }
 
-/// The values with those outside of `rows` replaced by the last one in `rows`.
+/// Returns the values; each one after the first of `rows` that is not in `rows` is replaced by the
+/// last value in `rows` before it.
 std::vector<double> held_between(const std::vector<std::size_t>& rows, std::vector<double> values) {
   auto next = rows.begin();
   for (std::size_t i = rows.front() + 1; i < values.size(); ++i) {

@@ -13,11 +13,11 @@ namespace awmr {
 /// Minimum number of rows of a run in a log.
 inline constexpr std::size_t kShortestLog = 10;
 
-/// Builds a channel. `values`: one per row, SI. `rows`: the rows in which the file has a value.
-/// Precondition: the log has its times and commands. If the file has a value
-/// only where it changes, at irregular times (resolution_of_changes()), the rows between its first
-/// and last value get the value before them. Findings:
-/// `only-changes`, `spikes`, `stuck-sensor`, `saturated-channel`, `quantised-samples`.
+/// Builds a channel. `values`: one per row, SI. `rows`: the rows in which the file has a value. If
+/// the file has a value only in rows in which it changed, at irregular times
+/// (resolution_of_changes()), each row between the first and the last value gets the last value
+/// before it, as a measurement. Findings: `only-changes`, `spikes`, `stuck-sensor`,
+/// `saturated-channel`, `quantised-samples`. Precondition: the log has its times and commands.
 Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings);

@@ -4,7 +4,8 @@
 ///
 /// From the vehicle file: sample_time_s is compared with the row spacing, wheel_force with the
 /// forces, the steering stop with the steering angles. The other comparisons need no model of the
-/// vehicle. They are made over windows of one second (changes of a reading: between two readings):
+/// vehicle. They are made over windows of one second, except the change of a reading, which is
+/// taken between two readings:
 ///
 ///     change of heading      with   integral of the yaw rate
 ///     distance of positions  with   integral of the speed

@@ -15,9 +15,9 @@ namespace {
 
 /// Approximate time from a command to the vehicle's response.
 constexpr double kResponse_s = 0.2;
-/// Adds the means of the commands to which the vehicle responds in the window, which are those
-/// logged kResponse_s earlier. Without this delay if the log has the steering angle instead of the
-/// command.
+/// Adds the means of the commands to which the vehicle responds in the window. These are the
+/// commands that were logged kResponse_s earlier or, if the log has the steering angle instead of
+/// the steering command, those logged in the window.
 void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window,
                   EvidenceWindow& sums) {
   const double delay_s = log.steering_command_rad ? kResponse_s : 0.0;

@@ -92,7 +92,8 @@ std::optional<double> turned_over_rate(const Evidence& evidence) {
   if (!ratio) return std::nullopt;
   const double size = std::abs(ratio->ratio);
   if (agree(size)) return std::nullopt;
-  // A large gyro bias changes the ratio, too, but not that of the deviations from the medians.
+  // A large gyro bias also changes this ratio, but not the ratio of the deviations from the
+  // medians.
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
   if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   return size;

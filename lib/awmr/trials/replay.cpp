@@ -53,8 +53,8 @@ std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   return (n * ty - t * y) / (n * tt - t * t);
 }
 
-/// True if the vehicle probably moves backward at the start of the window, because the mean force
-/// of the second before is negative. For the first window of a log: that of its first half second.
+/// True if the mean force in the second before the window (for the first window of a log: in its
+/// first half second) is negative, so that the vehicle probably moves backward at its start.
 bool moves_backward(const LogWindow& window) {
   constexpr double kBefore_s = 1.0;
   constexpr double kAfter_s = 0.5;
@@ -169,8 +169,9 @@ constexpr double kChordSpeed = 0.01;
 
 /// Longest step h, s, that resolves a resistance g(w) without its Coulomb friction:
 ///   h <= inertia w/(max(1, beta) g(w))
-/// w is kChordSpeed and the steady speed under `force`: g(w)/w is largest at the first for beta <
-/// 1, at the second for beta > 1. The Runge-Kutta method is stable up to 2.78 times this step.
+/// This bound is computed at two speeds w, kChordSpeed and the steady speed under `force`, because
+/// g(w)/w is largest at the first for beta < 1 and at the second for beta > 1. The Runge-Kutta
+/// method is stable up to 2.78 times this step.
 double resistance_step_s(Resistance<double> law, double inertia, double force) {
   law.coulomb = 0.0;
   double step_s = std::numeric_limits<double>::infinity();

@@ -146,8 +146,8 @@ class ModelStep {
       : plant_(without_stop_of_logged_angle(plant, log)), friction_(friction_rates(plant_)) {
     if (friction_.any()) plant_ = without_friction(plant_);
   }
-  /// The plant without Coulomb friction, which the steps add, and with the stop of
-  /// without_stop_of_logged_angle().
+  /// The plant with the steering stop of without_stop_of_logged_angle(), and without Coulomb
+  /// friction, which rates() and the integration step add.
   const Plant<T>& plant() const { return plant_; }
   /// Time derivatives of the state, with friction.
   State<T> rates(const State<T>& at, const SideForces<T>& force, const T& steering) const {

@@ -67,9 +67,9 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   return {};
 }
 
-/// The sign of course_relation() for logs without a heading; the integral of the yaw rate takes its
-/// place. Because this integral drifts, parts of 60 windows (about a minute) are evaluated
-/// separately. 0 if two parts contradict each other, or if no part determines the sign.
+/// The sign of course_relation() for logs without a heading, with the integral of the yaw rate in
+/// place of the heading. Because this integral drifts, parts of 60 windows (about a minute) are
+/// evaluated separately. 0 if two parts contradict each other, or if no part determines the sign.
 int turning_sign(std::span<const EvidenceWindow> windows) {
   constexpr std::size_t kPart = 60;
   int sign = 0;
@@ -238,10 +238,11 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
                        scaled_mapping(evidence, "speed_mps", -1.0)};
 }
 
-/// How well the sum and the difference of the logged forces explain a signal y (such as the speed):
-/// fractions of sum y^2 over the windows,
+/// Fractions of sum y^2 over the windows, for a signal y such as the speed, that are explained by
+/// the sum and by the difference of the logged forces:
 ///
-///     R^2 = (sum y s)^2 / (sum y^2 sum s^2)   for s = F'L + F'R and for s = F'R - F'L
+///     R^2 = (sum y s)^2 / (sum y^2 sum s^2)   for s = F'L + F'R, and for s = tau_diff, which is
+///                                             proportional to F'R - F'L if the wheels are straight
 struct SideShares {
   double of_sum = 0.0;
   double of_difference = 0.0;
@@ -268,10 +269,10 @@ SideShares side_shares(const std::vector<EvidenceWindow>& windows, Y y_of) {
 }
 
 /// Detects a speed that is proportional to F'R - F'L instead of F'L + F'R. If heading or yaw rate
-/// follow F'R - F'L as well, the forces are right, and the speed is wrong: it comes from wheels of
+/// follow F'R - F'L as well, the forces are right and the speed is wrong: it comes from wheels of
 /// which one side is reversed, or it is another column. Otherwise a force column has the wrong
-/// sign. If the log has a yaw rate but no heading, speed and yaw rate from wheel odometry with one
-/// side reversed are possible, too.
+/// sign. If the log has a yaw rate but no heading, there is another possible cause: speed and yaw
+/// rate come from wheel odometry with one side reversed.
 std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   constexpr std::size_t kMinSeconds = 10;
   if (!evidence.has(LogChannel::kSpeed) || evidence.windows.size() < kMinSeconds) {

@@ -42,7 +42,7 @@ void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
 
 /// Cause of the turn in a row of the file: steering, or a force difference.
 struct Turn {
-  double left = 0.0;        ///< steering_deg or F'R - F'L, whichever turns; positive to the left
+  double left = 0.0;        ///< steering_deg or, of a differential turn, F'R - F'L; left positive
   std::string in_words;     ///< "steering_deg 5", for messages
   double computed_m = 0.0;  ///< tau_turn computed from the forces, m, >= 0
   std::string equation;     ///< equation of computed_m, for messages
