@@ -118,7 +118,8 @@ TEST_F(Check, TablesWithoutASwayResistanceGiveGainsAndAHeader) {
   EXPECT_GT(factor, 5.6);
   EXPECT_LT(factor, 6.2);
   const auto& names = model["covariance"]["parameters"];
-  EXPECT_THAT(names, ::testing::Contains("sway.alpha")) << "what is tuned for is drawn from it";
+  EXPECT_THAT(names, ::testing::Contains("sway.alpha"))
+      << "tune draws plants from the covariance, which must include the assumed value";
   EXPECT_THAT(read_all(path("out/awmr_params.h")), HasSubstr("#define AWMR_SWAY_ALPHA"));
 }
 

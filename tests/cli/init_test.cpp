@@ -87,7 +87,7 @@ TEST_F(Init, OverwritesNothingAndThenWritesNothing) {
   EXPECT_EQ(read_all(path("surge.csv")), "precious");
   EXPECT_FALSE(fs::exists(path("vehicle.json")));
   fs::remove(path("surge.csv"));
-  EXPECT_EQ(init().exit_code, 0) << "other files are in nobody's way";
+  EXPECT_EQ(init().exit_code, 0) << "files with other names do not prevent init";
   EXPECT_EQ(read_all(path("scenarios/mine.json")), "mine");
 }
 

@@ -61,7 +61,7 @@ TEST(Tutorial, LeadsFromABlankVehicleToTheBoardAndToTheTruth) {
   }
   expect_true(directory.path() / "out/model.json");
   const json sway = json::parse(read_all(directory.path() / "out/model.json"))["sway"]["alpha"];
-  EXPECT_LE(sway["ci95"][0].get<double>(), 60.0) << "assumed of common tyres";
+  EXPECT_LE(sway["ci95"][0].get<double>(), 60.0) << "the value assumed for common tyres";
   EXPECT_GE(sway["ci95"][1].get<double>(), 60.0);
   expect_true(directory.path() / "driven.json");
 }

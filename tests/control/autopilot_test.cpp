@@ -274,7 +274,7 @@ TEST_F(AutopilotLeads, AnObserverTunedWithTheGainsIsOnFromTheStart) {
     EXPECT_EQ(by_gains.command.force.left, by_call.command.force.left);
   }
   EXPECT_FALSE(start_autopilot(other, &block_, nullptr, 0, nullptr, 0, crc_, nullptr, &tuned))
-      << "the check sum goes over the observer, too";
+      << "the check sum must cover the observer";
 }
 
 TEST_F(AutopilotLeads, WithForcesThatMakeUpForADeadZone) {
@@ -288,7 +288,7 @@ TEST_F(AutopilotLeads, WithForcesThatMakeUpForADeadZone) {
   EXPECT_EQ(out.command.force.right, with_dead_zone(plain.command.force.right, 0.1F));
   EXPECT_NE(out.command.force.left, plain.command.force.left);
   EXPECT_FALSE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_, &rest))
-      << "the check sum is also over what is known of rest";
+      << "the check sum must cover the RestBlock";
 }
 
 TEST_F(AutopilotLeads, WithDrivesThatMakeUpForBackEmfAndForcesThatItLeaves) {
@@ -322,7 +322,7 @@ TEST_F(AutopilotLeads, NeedingAPositionOnlyIfAPartUsesIt) {
   follow_line(autopilot_, {corners, 2, 0.0F, {1.0F, 1.0F, false}}, 0.01F);
   EXPECT_EQ(fault_without_position(), kFaultNotFinite);
   follow_path(autopilot_, {10.0F, 10.0F, 0.1F, 0.3F}, 0.0F);
-  EXPECT_EQ(fault_without_position(), kFaultNone) << "an open path is one of time alone";
+  EXPECT_EQ(fault_without_position(), kFaultNone) << "a path without feedback needs no position";
   follow_path(autopilot_, {10.0F, 10.0F, 0.1F, 0.3F}, 0.5F);
   EXPECT_EQ(fault_without_position(), kFaultNotFinite);
   follow_waypoints(autopilot_, {nullptr, 0, 0.0F, false});
@@ -440,7 +440,7 @@ TEST_F(AutopilotLeads, AFixWithoutTheEstimateIsAFault) {
   EXPECT_EQ(out.fault, kFaultRange);
 }
 
-TEST_F(AutopilotLeads, AGuidanceThatIsNoNumberIsAFaultInEveryMode) {
+TEST_F(AutopilotLeads, ANaNHeadingReferenceIsAFaultInEveryMode) {
   static constexpr Position<float> kNowhere[] = {{kNaN, 5.0F}, {10.0F, kNaN}};
   constexpr std::uint8_t kModes[] = {0, 1, 2};
   for (const std::uint8_t mode : kModes) {

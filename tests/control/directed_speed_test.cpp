@@ -79,7 +79,7 @@ class RollingVehicle : public PaperAutopilot {
 TEST_F(RollingVehicle, RunsAwayBackwardWithoutADirection) {
   vehicle_.u = -0.3;
   for (int i = 0; i < 1000 && vehicle_.u > -1.0; ++i) step(0.0F, false);
-  EXPECT_LT(vehicle_.u, -0.8) << "the hazard that the direction removes";
+  EXPECT_LT(vehicle_.u, -0.8) << "with |u| as input, the law must accelerate this vehicle backward";
 }
 
 TEST_F(RollingVehicle, ComesToRestFromAnyPush) {
@@ -114,7 +114,8 @@ TEST_F(RollingVehicle, BrakesFromADriveAndStaysAtRest) {
       step(0.0F);
       slowest = std::min(slowest, vehicle_.u);
     }
-    // The model brakes a lighter vehicle too long, by the fraction that it is lighter.
+    // The predicted speed of a lighter vehicle falls too slowly, so the law brakes it for too long
+    // and pushes it backward.
     EXPECT_GT(slowest, -0.35) << mass;
     EXPECT_LT(std::abs(vehicle_.u), 0.05) << mass;
     EXPECT_LT(std::abs(vehicle_.x - from_m), 4.0) << mass;
@@ -135,7 +136,7 @@ TEST_F(RollingVehicle, IsNeverPushedFasterDownASlope) {
     step(0.0F);
     slowest = std::min(slowest, vehicle_.u);
   }
-  EXPECT_GT(slowest, -1.5) << "coasting alone it would roll at 0.3/0.2 m/s";
+  EXPECT_GT(slowest, -1.5) << "without braking, the vehicle would reach 0.3/0.2 = 1.5 m/s";
 }
 
 TEST(RunsAwayUnsigned, IsTheConditionOfTheLaw) {

@@ -147,7 +147,7 @@ TEST_F(AutopilotFaults, EachMeasurementAndReferenceHasItsRange) {
   }
 }
 
-TEST_F(AutopilotFaults, ThePositionCountsOnlyOnTheWayToPoints) {
+TEST_F(AutopilotFaults, ThePositionIsCheckedOnlyWhileWaypointsAreFollowed) {
   AutopilotInput in = good();
   for (float Position<float>::*axis : {&Position<float>::x_m, &Position<float>::y_m}) {
     in = good();
@@ -205,7 +205,7 @@ TEST_F(AutopilotFaults, AStepIsLateAfterItsTimeoutAndTheNextOneIsNot) {
   EXPECT_EQ(fault_at(1091), kFaultNone);
 }
 
-TEST_F(AutopilotFaults, TheCheckSumIsOverTheLastByteOfEveryTable) {
+TEST_F(AutopilotFaults, TheCheckSumCoversTheLastByteOfEveryTable) {
   ResistanceLine surge[3] = {}, yaw[2] = {};
   RestBlock rest{};
   ObserverBlock observer{};
@@ -230,11 +230,11 @@ TEST_F(AutopilotFaults, DamagedParametersGiveTheSafeCommandForGood) {
   expect_fault(good(), kFaultParameters, "check sum");
 }
 
-TEST_F(AutopilotFaults, ACommandOutsideItsLimitsIsNotGivenOut) {
+TEST_F(AutopilotFaults, ACommandOutsideItsLimitsIsReplacedByTheSafeCommand) {
   // A NaN resistance passes every check of the input.
   block_.surge_alpha_beta[0] = kNaN;
   crc_ = crc32_of_parameters(&block_, nullptr, 0, nullptr, 0);
-  expect_fault(good(), kFaultOutput, "a force that is no number");
+  expect_fault(good(), kFaultOutput, "the force is NaN");
 }
 
 }  // namespace

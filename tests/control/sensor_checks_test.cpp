@@ -163,8 +163,8 @@ TEST(GpsReceiver, KeepsUpWithAPortThatNeverRests) {
     time_ms = board.gps.time_ms;
   }
   EXPECT_LE(board.port.most, 64);
-  // 400 steps of 39 characters arrive; each fix has a pair of sentences with 110 characters
-  // together.
+  // In 400 steps, 400 * 39 characters arrive. Each fix takes two sentences with 110 characters in
+  // total.
   EXPECT_GE(fixes, 400 * 39 / 110 - 3);
 }
 
@@ -255,7 +255,7 @@ TEST(GpsCheck, RefusesRepeatedOldAndDisplacedFixes) {
   EXPECT_EQ(gps.check.fault(gps.now_ms), kGpsRepeated);
   Receiver late;
   ASSERT_TRUE(late.drive(10));
-  EXPECT_FALSE(late.next(200, 900)) << "it came 700 ms later than the others";
+  EXPECT_FALSE(late.next(200, 900)) << "this fix arrives 700 ms later than the others";
   EXPECT_FALSE(late.next(200, 200));
   Receiver back;
   ASSERT_TRUE(back.drive(10));
@@ -269,7 +269,7 @@ TEST(GpsCheck, RefusesRepeatedOldAndDisplacedFixes) {
   displaced.fix.speed_mps = 0.0F;
   int taken = 0;
   for (int i = 0; i < 10; ++i) taken += displaced.next() ? 1 : 0;
-  EXPECT_GT(taken, 0) << "disarmed, the new position is taken over";
+  EXPECT_GT(taken, 0) << "a disarmed vehicle accepts the new position";
 }
 
 TEST(GpsCheck, ToleratesAClockThatIsOffByHalfAPercent) {
@@ -320,7 +320,7 @@ TEST(GpsCheck, FindsAPositionThatDoesNotFollowTheSpeed) {
   EXPECT_EQ(frozen.check.fault(frozen.now_ms), kGpsInconsistent);
   frozen.at.direction = 0;
   frozen.at.is_armed = false;
-  ASSERT_TRUE(frozen.drive(500)) << "nothing moves, nothing is to move";
+  ASSERT_TRUE(frozen.drive(500)) << "no motion is commanded, so constant fixes are no fault";
   // A speed that is stuck at 1 m/s while the vehicle rests is detected after 10 s and 12 m.
   Receiver stuck;
   ASSERT_TRUE(stuck.drive(10));
@@ -358,7 +358,7 @@ TEST(GpsCheck, FindsAVehicleThatMovesTheWrongWay) {
   gps.at.is_armed = false;
   gps.fix.speed_mps = 0.0F;
   gps.next();
-  EXPECT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << "at rest the next arming may come";
+  EXPECT_EQ(gps.check.fault(gps.now_ms), kSensorGood) << "disarming at rest clears the fault";
 }
 
 /// Drives at 1 m/s for `seconds` and turns by `turn_radps` until the heading is `wanted_rad`.
@@ -531,7 +531,7 @@ TEST(Arming, NeedsACommandAfterEveryReasonToStop) {
   EXPECT_EQ(arming.reason, DisarmReason::kReset);
   EXPECT_FALSE(arming.arm(kFaultHeadingStale | kFaultCommandTimeout, 0));
   EXPECT_FALSE(arming.arm(kFaultNone, kGpsSilent));
-  EXPECT_TRUE(arming.arm(kFaultCommandTimeout, 0)) << "nobody has commanded yet";
+  EXPECT_TRUE(arming.arm(kFaultCommandTimeout, 0)) << "a command time-out does not prevent arming";
   EXPECT_FALSE(arming.observe(kFaultNone, 0));
   EXPECT_TRUE(arming.observe(kFaultCommandTimeout, 0));
   EXPECT_EQ(arming.reason, DisarmReason::kTimeout);

@@ -194,7 +194,7 @@ TEST_F(FileTest, QueriesReportExistenceAndLookUpErrors) {
   }
   EXPECT_TRUE(check_output_directory(path("new") / "newer"));
   EXPECT_FALSE(make_directory(path("new") / std::string(256, 'n')));
-  EXPECT_FALSE(path_exists(path("new")).value()) << "nothing is made";
+  EXPECT_FALSE(path_exists(path("new")).value()) << "no directory may be created";
   EXPECT_THAT(faults_of(check_output_directory(path("a.txt"))),
               ElementsAre(HasSubstr("this is a file, but a directory is needed")));
   EXPECT_THAT(list_directory(path("")).value(),

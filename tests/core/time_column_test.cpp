@@ -62,7 +62,7 @@ TEST(FindTime, RefusesTwoPossibleTimes) {
                     HasSubstr("\"gps_timestamp_us\" in us")));
   EXPECT_THAT(meaning_of({"a.sec", "a.nanosec", "b.sec", "b.nanosec"}), HasSubstr("refused"));
   EXPECT_THAT(meaning_of({"time_s", "time_ns"}), HasSubstr("refused"))
-      << "seconds with a fraction and all nanoseconds are two times";
+      << "time_s can have a fraction, so time_ns is a second time and not its fraction";
 }
 
 TEST(FindTime, TakesDates) {

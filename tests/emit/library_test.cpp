@@ -257,12 +257,12 @@ TEST(ResistanceTables, AreTheBestOnesWithoutABound) {
   const double reached = best->surge.largest_relative_error();
   EXPECT_GT(reached, kTableError);
   EXPECT_EQ(best->table_error, reached);
-  EXPECT_LE(best->yaw.largest_relative_error(), kTableError) << "the other one is no worse for it";
+  EXPECT_LE(best->yaw.largest_relative_error(), kTableError) << "the yaw table keeps the bound";
   const auto requested = [&](double bound) {
     return autopilot_parameters(steep_robot(), kPaperGains, paper_inputs(), {.table_error = bound});
   };
   EXPECT_FALSE(requested(kTableError));
-  EXPECT_FALSE(requested(0.99 * reached)) << "there is a better one";
+  EXPECT_FALSE(requested(0.99 * reached)) << "a table with a smaller error exists";
   EXPECT_TRUE(requested(reached));
 }
 

@@ -248,7 +248,7 @@ TEST_F(SafeSketches, AreNeverDrivenDownASlopeAtSpeedZero) {
   }
 }
 
-TEST_F(SafeSketches, StopWhereTheCompassIsTurnedOnTheVehicleOrTheServoReversed) {
+TEST_F(SafeSketches, StopIfTheCompassIsMountedAtAnAngleOrTheServoIsReversed) {
   for (const double offset_deg : {57.0, 90.0, -90.0}) {
     auto seen = drive(*paper_, fmt::format("HeadingHold wrong {}", offset_deg));
     EXPECT_GE(seen["stopped_s"], 0.0) << offset_deg;

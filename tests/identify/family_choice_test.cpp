@@ -256,7 +256,7 @@ TEST(Families, DropTermsOfThePreviousFamily) {
   for (const Family other : {Family::kDeadZone, Family::kPower}) {
     const FamilyFit fit = fit_from(logs, options, rubbing, other, Family::kPower);
     EXPECT_EQ(fitted_values(fit.options, fit.fit)[at(ParameterId::kSurgeCoulomb)], 0.0)
-        << "held at the other family's, it is in the fit and not in the model";
+        << "a fixed Coulomb term of the other family would be in the fit but not in the model";
     EXPECT_GT(aic_lead(rubbing.fit, fit.fit), 10.0);
   }
 }
@@ -324,7 +324,7 @@ TEST(Families, AreComparedUnderTheNoiseOfTheSmallerErrors) {
   const LogFit right = fit_with_errors(small), wrong = fit_with_errors(smooth);
   EXPECT_TRUE(wrong.noise.at(LogChannel::kSpeed).overwhelms_sensor());
   EXPECT_LT(wrong.noise.at(LogChannel::kSpeed).cost, right.noise.at(LogChannel::kSpeed).cost)
-      << "each under its own noise, the wrong one would be taken";
+      << "if each fit is compared under its own noise, the wrong one is better";
   EXPECT_GT(aic_lead(right, wrong), 1e4);
   EXPECT_EQ(aic_lead(right, wrong), -aic_lead(wrong, right));
   LogFit none;

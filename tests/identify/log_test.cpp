@@ -742,9 +742,9 @@ TEST(Log, DetectsAnOscillatingErrorAsSecondOrder) {
       const auto series = swinging(9.4, zeta, white_std, 0.01);
       const ChannelNoise found = likeliest_noise(series, 1.0, {});
       EXPECT_TRUE(found.second_order());
-      // A hundred seconds contain some 150 oscillations: the frequency is known to a few
-      // hundredths, damping and level to a tenth. The bounds are three times that, and twice as
-      // much again if one of two time constants, the slow 4 zeta/omega, hides the other.
+      // A hundred seconds contain about 150 oscillations, which determine the frequency to a few
+      // per cent, and damping and level to a tenth. The bounds are three times that. They are
+      // doubled for zeta > 1, because the slow time constant, 2 zeta/omega, hides the fast one.
       const double loose = zeta > 1.0 ? 2.0 : 1.0;
       EXPECT_NEAR(std::log(found.frequency_radps / 9.4), 0.0, 0.2 * loose);
       EXPECT_NEAR(std::log(found.damping / zeta), 0.0, 0.35 * loose);

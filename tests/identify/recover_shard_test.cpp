@@ -110,7 +110,7 @@ TEST_F(RecoverShards, RefusesInPartsWhatItRefusesAsAWhole) {
   std::vector<fs::path> parts;
   for (const int i : {1, 2, 3}) {
     const auto part = recover_part(model(), options, {i, 3}, {});
-    ASSERT_TRUE(part) << "a part does not know of the others";
+    ASSERT_TRUE(part) << "a single part cannot know that all runs fail";
     parts.push_back(write({i, 3}, *part));
   }
   const auto merged = merge_recover_shards(parts);

@@ -100,7 +100,7 @@ RC_GTEST_PROP(FourWheels, NoWheelLeavesItsCircleOfFriction, ()) {
 
 /// The kinetic energy changes by the power of the wheels along their rolling direction minus the
 /// lateral tyre losses, which are never negative. With the motors off it only falls.
-RC_GTEST_PROP(FourWheels, TyresOnlyTakeEnergyAndNothingElseDoesBesideTheDrives, ()) {
+RC_GTEST_PROP(FourWheels, OnlyDrivesAndTyresChangeTheEnergyAndTyresOnlyReduceIt, ()) {
   const FourWheels<double> vehicle = any_vehicle();
   const Plant<double>& p = vehicle.body;
   const State<double> s = any_state();
@@ -137,10 +137,10 @@ RC_GTEST_PROP(FourWheels, MirroredMotionHasMirroredRates, ()) {
   RC_ASSERT(std::abs(a.r_radps + b.r_radps) <= 1e-11);
 }
 
-/// Basis of the step size: v and r decay at most at twice the tyre rate. This is the bound of the
-/// coupled system by row sums of the matrix -d(v_dot, r_dot)/d(v, r), scaled to be symmetric, plus
-/// the rotation of the velocity and the resistance of the drives.
-RC_GTEST_PROP(FourWheels, NothingSidewaysIsMuchFasterThanTheTyresRate, ()) {
+/// The integration step is chosen from the tyre rate, so this rate must bound the rates of sway and
+/// yaw. For small slip, the coupled system -d(v_dot, r_dot)/d(v, r), scaled to be symmetric, has
+/// rates of at most twice the tyre rate, plus the rotation of the velocity.
+RC_GTEST_PROP(FourWheels, TheTyreRateBoundsTheRatesOfSwayAndYaw, ()) {
   FourWheels<double> vehicle = any_vehicle();
   vehicle.body.surge.alpha = 0.0;
   const State<double> s = any_state();

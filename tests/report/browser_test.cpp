@@ -244,7 +244,7 @@ TEST_F(ReportInBrowser, OnAPhoneNothingIsWiderThanThePageAndItOpensShort) {
   EXPECT_THAT(page.at("overflowing"), IsEmpty()) << page.at("overflowing");
   EXPECT_THAT(page.at("clipped"), IsEmpty()) << page.at("clipped");
   EXPECT_THAT(page.at("wide_tables"), IsEmpty()) << page.at("wide_tables");
-  EXPECT_LT(page.at("first_height"), 4000) << "what is closed at first takes a line each";
+  EXPECT_LT(page.at("first_height"), 4000) << "each closed section must take one line";
 }
 
 // The path turns back in x: a chart that assumes sorted points draws only a part of it.

@@ -49,8 +49,9 @@ double overshoot_rad(const awmr::Run& run, double psi_rad) {
   return most;
 }
 
-/// The slowest pole of the loop is -0.24 1/s: of the initial error of 3 deg from the moment,
-/// exp(-0.24 100) is left. world_test.cpp has the error of the sliding mode.
+/// The moment first causes a heading error of 3 deg. The slowest pole of the loop is -0.24 1/s, so
+/// after 100 s the fraction exp(-24) of this error remains. world_test.cpp checks the error of the
+/// sliding mode.
 TEST(LqiInTheLoop, LeavesNoHeadingErrorUnderAConstantYawMoment) {
   Scenario s = heading_scenario(0.0, 100.0);
   s.disturbance.yaw = {constant(0.01)};
@@ -63,8 +64,8 @@ TEST(LqiInTheLoop, LeavesNoHeadingErrorUnderAConstantYawMoment) {
   }
 }
 
-/// A loop with an integral overshoots every step because the integral of e must return to 0. Limits
-/// add windup. With a tenth of the force the turn takes three times as long; an integral that
+/// A loop with an integral overshoots every step, because the integral of e must return to 0. Force
+/// limits would add windup: with a fifth of the force the turn takes longer, and an integral that
 /// continued meanwhile would overshoot by far more.
 TEST(LqiInTheLoop, DoesNotWindUpInALargeTurnAtTheLimitsOfTheForces) {
   const double psi_rad = radians(170.0);
@@ -115,7 +116,8 @@ TEST(PurePursuitInTheLoop, ReachesALineFromTheSide) {
   }
 }
 
-/// Near the line e_dot = -k e u/(k_s + u), whatever the speed: after ln(10)/k s a tenth is left.
+/// Near the line the distance e decreases as e_dot = -k e u/(k_s + u), which is about -k e at every
+/// speed well above k_s. After ln(10)/k seconds, a tenth of the distance remains.
 TEST(StanleyInTheLoop, ApproachesTheLineInTheSameTimeAtAnySpeed) {
   for (const double speed_mps : {0.5, 1.0}) {
     Scenario s = line_scenario({{0.0, 0.0}, {100.0, 0.0}}, Stanley<double>{0.2, 0.01, true}, 0.3);
@@ -127,9 +129,9 @@ TEST(StanleyInTheLoop, ApproachesTheLineInTheSameTimeAtAnySpeed) {
   }
 }
 
-/// The corner is cut on the inside. With the target on a circle of radius L about the vehicle it
-/// stays within L/2 of a right angle. Steering, with a minimum radius of 5 m, swings out by some of
-/// that.
+/// The corner is cut on the inside. Because the goal is at the distance L from the vehicle, the
+/// vehicle stays within L/2 of the lines that form a right angle. Steering mode is not tested: with
+/// its minimum turning radius of 5 m, the vehicle swings out.
 TEST(PurePursuitInTheLoop, RoundsACornerOnItsInside) {
   const Scenario s =
       line_scenario({{0.0, 0.0}, {30.0, 0.0}, {30.0, 40.0}}, PurePursuit<double>{4.0, true});

@@ -121,9 +121,9 @@ bool is_near(const Metrics& batch, const Metrics& scalar) {
   return true;
 }
 
-/// Amplification of small changes by a run: the largest effect on a metric of changing the mass or
-/// the inertia by the fraction 1e-12, up and down. Several changes are tried, because it is a
-/// matter of chance whether one of them moves the time at a limit by a sample.
+/// Sensitivity of a run to small changes: the largest effect on a metric if the mass or the inertia
+/// increases or decreases by the fraction 1e-12. Four changes are tried, because it is a matter of
+/// chance whether one of them changes the time at a limit by a sample.
 struct Amplification {
   double largest = 0.0;            ///< relative change of a metric
   std::set<std::size_t> is_there;  ///< metrics that exist only with or only without such a change
@@ -149,10 +149,10 @@ Amplification amplification_of(const Reference& reference) {
   return amplified;
 }
 
-/// Rounding leaves about 1e-13 in a run that does not amplify it. The amplification of a run that
-/// differs by more than kRounding is measured, because some of the vehicles are unstable with these
-/// gains. It is a property of the run, not of a single metric: a time at a limit changes by whole
-/// samples or not at all.
+/// Rounding changes the metrics by about 1e-13, unless the run amplifies it: some of the vehicles
+/// are unstable with these gains. If a metric differs by more than kRounding, the amplification of
+/// the run is measured. The largest amplification applies to all metrics, because a single metric
+/// can be unaffected by chance: a time at a limit changes by whole samples or not at all.
 void expect_near(const Metrics& batch, const Reference& reference, const std::string& where) {
   if (is_near(batch, reference.metrics)) return;
   const Amplification amplified = amplification_of(reference);

@@ -157,7 +157,8 @@ TEST(Work, OfCopperIsThatOfTheMotorsThatRun) {
   failing.faults.push_back(
       {.wheels = {Wheel::kFrontLeft}, .window = {.from_s = 1.0}, .share = 0.0});
   EXPECT_NEAR(copper(failing), 4.0 * 0.25 + 3.0 * 3.0 * 0.25, 1e-3);
-  // 0.25 (1 - exp(-t/tau))^2 over 4 s: 4 - 2 tau + tau/2 beyond exp(-20).
+  // F'^2 is 0.25 (1 - exp(-t/tau))^2. Its integral over 4 s is 0.25 (4 - 2 tau + tau/2), except for
+  // terms of exp(-20).
   Scenario lagging = driven_straight();
   lagging.actuators.emplace().motor_time_constant_s = 0.2;
   EXPECT_NEAR(copper(lagging), 4.0 * 0.25 * (4.0 - 2.0 * 0.2 + 0.1), 1e-4);

@@ -66,7 +66,7 @@ void check_out_of_range(const char* name, const F& f, double x, double y) {
 
 int main() {
   if (!has_instructions()) {
-    printf("this processor has not the instructions\n");
+    printf("this processor does not have the instructions\n");
     return 0;
   }
   const auto raise = [](const Lanes& x, const Lanes& y) { return pow(x, y); };

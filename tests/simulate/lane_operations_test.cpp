@@ -71,7 +71,7 @@ T of(const T&, const T&, const T&, const T& result) {
 }
 
 int main() {
-  if (!has_instructions()) return std::puts("this processor has not the instructions"), 0;
+  if (!has_instructions()) return std::puts("this processor does not have the instructions"), 0;
   AWMR_CHECK(x + y);
   AWMR_CHECK(x - y);
   AWMR_CHECK(x * y);

@@ -118,8 +118,8 @@ TEST(Metrics, WorkIsPositiveForceTimesTheWheelsSpeed) {
     row.state.r_radps = 0.5;
     row.acting = {-0.2, 0.6, -0.2, 0.6};
   }
-  // d = 0.36 m: the left wheels run at 0.8 - 0.18 m/s and brake, the right ones at 0.98 m/s: 2 x
-  // 0.6 x 0.98 over 4 s.
+  // d = 0.36 m: the left wheels run at 0.62 m/s and brake, so only the two right ones, which run at
+  // 0.98 m/s, do positive work: 2 x 0.6 x 0.98 per second, for 4 s.
   const Metrics m = evaluate(run);
   EXPECT_NEAR(m.energy_mech, 4.0 * 2.0 * 0.6 * 0.98, 1e-12);
   EXPECT_NEAR(m.energy_electric, 4.0 * 2.0 * (0.04 + 0.36), 1e-12);

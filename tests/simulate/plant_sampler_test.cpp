@@ -61,9 +61,10 @@ TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
   }
 }
 
-/// Standard errors of 32 independent draws: sigma/sqrt(32) = 0.18 sigma for the mean, sqrt(2/32) =
-/// 0.25 for the mean square, 0.11 for the mean square over five seeds. The stratified draws must
-/// have a mean within a third of the first and a mean square over the seeds within twice the last.
+/// With 32 independent draws, the standard errors would be sigma/sqrt(32) = 0.18 sigma for the
+/// mean, sqrt(2/32) = 0.25 for the mean square, and 0.11 for the mean square over five seeds. The
+/// mean of the stratified draws must be accurate to a third of 0.18, their mean square over the
+/// seeds to twice 0.11.
 TEST(PlantSampler, EvenDrawsHaveTheModelsMeanAndSpreadWhileTheyAreFew) {
   constexpr int kFew = 32;
   constexpr int kSeeds = 5;
@@ -104,7 +105,7 @@ TEST(PlantSampler, DrawsHaveTheQuantilesThatTheModelShows) {
   }
 }
 
-TEST(PlantSampler, AQuarterOfTheDrawsHasTheMassThatTheGripAsksFor) {
+TEST(PlantSampler, AQuarterOfTheDrawsHasTheMassThatTheGripRequires) {
   Model model = uncertain_model();
   model.mass_norm_by_grip = 0.26;
   const double ratio =
@@ -121,7 +122,7 @@ TEST(PlantSampler, AQuarterOfTheDrawsHasTheMassThatTheGripAsksFor) {
   EXPECT_EQ(gripped, 8);
 }
 
-TEST(PlantSampler, PlantsAtGivenNormalsDoNotHaveTheMassThatTheGripAsksFor) {
+TEST(PlantSampler, PlantsAtGivenNormalsDoNotHaveTheMassThatTheGripRequires) {
   const Model bare = uncertain_model();
   Model model = bare;
   model.mass_norm_by_grip = 0.26;
@@ -197,8 +198,8 @@ TEST(PlantSampler, DrawsNoNegativeExponent) {
   }
 }
 
-/// A term of a family may be exactly 0. A normal about 0 restricted to values >= 0 is its half:
-/// mean sigma sqrt(2/pi) and variance sigma^2 (1 - 2/pi).
+/// The estimate of an optional term can be exactly 0. Draws below 0 are repeated, so the draws have
+/// a half-normal distribution: mean sigma sqrt(2/pi), variance sigma^2 (1 - 2/pi).
 TEST(PlantSampler, DrawsATermFittedAsZeroFromTheHalfOfItsNormalAboveZero) {
   constexpr double kSigma = 0.02;
   Model model = fitted_paper_model();
@@ -264,7 +265,8 @@ TEST(PlantSampler, DrawsFromASingularCovariance) {
   ASSERT_TRUE(sampler);
   for (int sample = 1; sample <= 100; ++sample) {
     const auto plant = sampler->draw(1, sample);
-    // The zero eigenvalue is rounding, 1e-16 of 5e-4: its root is 2e-10, times normals up to 5.
+    // By rounding, the eigenvalue 0 becomes up to 1e-16 of 5e-4. Its square root, 2e-10, is
+    // multiplied by normals up to 5.
     EXPECT_NEAR(std::log(plant->mass_norm / plant->surge.alpha), std::log(c), 1e-8);
   }
 }

@@ -106,13 +106,16 @@ bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
   return true;
 }
 
-/// Position and orientation do not matter. Rounding of 1e-14 m at positions near 100 m passes
-/// through guidance and control, which are damped: 1e-6 allows for the sectors' tolerance. A leg
-/// that ends within rounding of a sample's time may end one sample later, which moves the rest by
-/// at most u T_s = 0.01 m. Near r = 0, where the slope of g3 is infinite, a plant that differs from
-/// the controller's model has a limit cycle of some 0.001 rad/s in which differences grow (tenfold
-/// in 1.5 s): 20 s are compared. The estimate of the position reads cos psi and sin psi in turns,
-/// one in a step, so that it rotates with the world to within the turn of a step.
+/// A run does not depend on position and orientation in the world. Tolerances:
+/// - Rounding of 1e-14 m at positions near 100 m passes through guidance and control, which are
+///   damped; 1e-6 allows for the tolerance of the sectors.
+/// - A leg that ends within rounding of a sample's time may end one sample later, which moves the
+///   rest of the run by at most u T_s = 0.01 m.
+/// - Only 20 s are compared. Near r = 0, where the slope of g3 is infinite, a plant that differs
+///   from the controller's model has a limit cycle of about 0.001 rad/s, in which differences grow
+///   tenfold in 1.5 s.
+/// - The position estimate updates cos psi and sin psi in different steps. Therefore it rotates
+///   with the world only up to the angle by which the vehicle turns in a step.
 TEST_P(ScenarioFiles, IsInvariantUnderTranslationAndRotation) {
   Scenario s = scenario();
   if (std::holds_alternative<LissajousPath>(s.guidance)) return;

@@ -490,9 +490,10 @@ INSTANTIATE_TEST_SUITE_P(
                   "x_m", "mm"}),
     [](const auto& turn) { return turn.param.name; });
 
-// About 0.2 m/s and fixes of 0.2 m: the ends of a window of 1 s lie sqrt(0.2^2 + 4*0.2^2) = 0.45 m
-// apart, 2.2 times as far as the vehicle drives, which is beyond the 1.6 of an agreement.
-TEST(LogConsistency, PositionsAreNoOtherUnitWhereTheirNoiseIsTheDistance) {
+// The vehicle drives at about 0.2 m/s, and fixes have a noise of 0.2 m. The measured ends of a
+// window of 1 s are sqrt(0.2^2 + 4*0.2^2) = 0.45 m apart, 2.2 times the distance driven. Without
+// regard to noise, a factor above 1.6 would count as another unit.
+TEST(LogConsistency, NoiseAsLargeAsTheDistanceIsNotTakenForAnotherUnit) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     DrivingLog log = sound_log(seed);
     Random random(seed, 12);
@@ -520,7 +521,7 @@ TEST(LogConsistency, AFixThatComesBackAndOneAfterADropoutAreNoOtherRun) {
 }
 
 /// A small rover turns by more than a radian within a window of one second.
-TEST(LogConsistency, OfAVehicleThatTurnsQuicklyAMirroredYIsNamed) {
+TEST(LogConsistency, NamesAMirroredYOfAVehicleThatTurnsQuickly) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     DrivingLog log = sound_log(seed, {.sides_apart = false});
     double psi = 0.0, x = 0.0, y = 0.0;

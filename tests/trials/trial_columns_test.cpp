@@ -34,7 +34,7 @@ TEST(TrialColumns, AMappingThatNoFileUsedIsRefused) {
               AllOf(HasSubstr("distance_m=D"), HasSubstr("unused")));
   EXPECT_THAT(refusal_of({"tau_speed=tau", "speed_mps=V/3.6", "heading_deg=V"}),
               HasSubstr("unused"))
-      << "a column of another kind of trial";
+      << "heading_deg is no column of a surge table";
   EXPECT_THAT(refusal_of({"tau_speed=tau", "other.csv:speed_mps=V/3.6"}), HasSubstr("no speed"));
 }
 

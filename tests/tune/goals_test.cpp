@@ -160,7 +160,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
   EXPECT_EQ(held->robust->goals.front().gains, "robust");
   EXPECT_EQ(held->robust->goals.front().runs, 100);
   EXPECT_NE(held->gains.heading.lambda, free->gains.heading.lambda);
-  EXPECT_GT(held->objective, 0.99 * free->objective) << "what is limited is no better";
+  EXPECT_GT(held->objective, 0.99 * free->objective) << "a limit cannot improve the objective";
 }
 
 TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {

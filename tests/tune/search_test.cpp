@@ -220,7 +220,7 @@ TEST(Tune, ReportsProgressUpToItsEnd) {
   EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
   EXPECT_LT(done.front(), total / 2);
   EXPECT_LE(done.back(), total);
-  EXPECT_GT(done.back(), total / 4) << "the total is what the search may take at most";
+  EXPECT_GT(done.back(), total / 4) << "the total is an upper bound of the search's length";
 }
 
 /// At the optimum, mu and epsilon can be scaled together with nearly no effect on the objective.

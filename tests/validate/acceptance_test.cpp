@@ -80,8 +80,8 @@ const FaultHypothesis* hypothesis(const Acceptance& acceptance, std::string_view
 }
 
 TEST(Acceptance, AcceptsTheVehicleOfThePredictionAtTheStatedRate) {
-  // 40 vehicles are drawn from the model's uncertainty. On average 2 are rejected by chance; in 1 %
-  // of such series, more than 6 (binomial).
+  // 40 vehicles are drawn from the model's uncertainty. On average, 2 of them are rejected by
+  // chance. More than 6 are rejected in 0.3 % of such series (binomial).
   const auto sampler = PlantSampler::make(uncertain_model());
   ASSERT_TRUE(sampler);
   int rejected = 0;
@@ -171,10 +171,10 @@ TEST(Acceptance, ABandWithoutGivenNoiseTakesTheLogsOwn) {
                               [](const ChannelAcceptance& one) { return one.channel == "x_m"; });
   ASSERT_NE(x, acceptance.channels.end());
   EXPECT_TRUE(x->noise_from_log);
-  // The standard deviation of 400 readings is known to 1/sqrt(2 * 400) = 3.5 %, by medians to some
-  // 5 %.
+  // The standard deviation of 400 readings has a standard error of 1/sqrt(2 * 400) = 3.5 %; if
+  // estimated by medians, about 5 %.
   EXPECT_NEAR(x->noise, 0.05, 0.01);
-  EXPECT_FALSE(x->inside) << "the vehicle drove 8 m, and the position does not change";
+  EXPECT_FALSE(x->inside) << "the predicted vehicle drives 8 m, the measured position is constant";
 }
 
 TEST(Acceptance, RefusesALogThatDoesNotMatchTheScenario) {

@@ -41,8 +41,8 @@ TEST(TyreTruths, AreFoundWithinTheirIntervals) {
   RecordProperty("held", held);
   RecordProperty("shown", shown);
   EXPECT_GE(shown, 34);
-  // Each of 36 intervals contains the truth with 95 %: fewer than 30 do with a probability of 1 in
-  // 250.
+  // Each of 36 intervals contains the true value with a probability of 95 %. If they were
+  // independent, fewer than 30 would do so in 1 of 550 cases.
   EXPECT_GE(held, 30) << "of " << shown;
   EXPECT_GE(four_wheel, 16);
 }

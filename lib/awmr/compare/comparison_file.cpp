@@ -249,8 +249,8 @@ Json ranking_json(const Preferences& preferences) {
   json["decision"] = fmt::format(
       "decided: one mode has rank 1 in the ranking and under every change; level: several modes "
       "have; undecided: no mode has. Changes: any weights within a factor {:g}; with option plant "
-      "both, also the other plant, and the rates of both closed loops multiplied and divided by "
-      "{:.3g}, each with up to {} samples",
+      "both, also the other plant and, for a single set of gains, the rates of both closed loops "
+      "multiplied and divided by {:.3g}, each with up to {} samples",
       kWeightFactor, kGainsFactor, kBatchRuns - 1);
   return json;
 }

@@ -135,8 +135,8 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
   m.u_mps = math::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
 }
 
-/// Force, over F_max, with which the speed law, with |u| as its input, pushes a vehicle further
-/// backward that rolls backward at the speed u = speed_mps > 0. At u_ref = 0 the law commands
+/// Force, over F_max, with which the speed law accelerates a vehicle that rolls backward, if the
+/// input of the law is |u|. The vehicle rolls at u = speed_mps > 0. At u_ref = 0 the law commands
 ///   tau_speed = -(m' mu_s sat(u/eps_s) + f)
 /// f is the Coulomb friction that the law feeds forward: g1(w0) sat(u/w0) with
 /// w0 = feed_forward_rest_speed(), or 0 if g1 does not jump at rest. `surge`: g1 of the model.

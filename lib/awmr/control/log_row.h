@@ -47,8 +47,8 @@ struct LogRow {
   float tau_turn_m;
   uint8_t mode;   ///< a YawMode
   uint8_t fault;  ///< SafetyFault bits
-  /// Sum of 1: tau_speed was limited; 2: d_r was limited; 4: a wheel force was limited; 8: too
-  /// little force to steer. Upper four bits: SensorFault (sensor_fault.h) modulo 16.
+  /// Bit 0: tau_speed was limited; bit 1: d_r was limited; bit 2: a wheel force was limited; bit 3:
+  /// too little force to steer. Bits 4 to 7: SensorFault (sensor_fault.h) modulo 16.
   uint8_t limits;
   /// Bits 0 to 4: cause of the last reset, from the board, the same in every row; bit 7: the
   /// SensorFault is >= 16.

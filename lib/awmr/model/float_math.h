@@ -155,8 +155,8 @@ inline float eighths_of_turn(uint8_t eighths) {
 
 }  // namespace detail
 
-/// The angle of (x, y) in (-pi, pi], 0 at the origin; the sign of a zero is ignored. Both finite
-/// and below 1.7e38. Worst error 5e-7 rad, and 9e-7 relative to the value.
+/// The angle of (x, y) in (-pi, pi], 0 at the origin; the sign of a zero is ignored. Precondition:
+/// |x| and |y| are below 1.7e38. Worst error 5e-7 rad, and 9e-7 relative to the value.
 ///
 /// Computed as an octant's angle, a multiple of pi/4, plus or minus the arc tangent of a ratio
 /// below tan(pi/8).

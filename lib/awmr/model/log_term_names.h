@@ -19,8 +19,8 @@ inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
 /// Further forces: Stribeck friction (larger friction at low speed) with its speed scale, in surge
 /// and in yaw; acceleration by a slope along x and y; additional surge resistance in turns, with
-/// its exponents; relative excess of forces against the motion (braking), of backward forces, and
-/// of the surge resistance in backward motion.
+/// its exponents; the fractions by which motor forces are larger when they brake, by which backward
+/// motor forces are larger, and by which the surge resistance is larger in backward motion.
 inline constexpr std::array<std::string_view, 12> kExtraForceNames = {
     "surge.stribeck",
     "surge.stribeck_speed_mps",

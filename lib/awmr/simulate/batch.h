@@ -25,7 +25,7 @@ struct DrawnNoise {
 };
 
 /// Draws the numbers that the sensors of a run with this seed and `sample` (number of the draw)
-/// would draw. They take up to 24 bytes per sample time of the run.
+/// would draw. Memory: up to 24 bytes per sample time of the run.
 DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
                              std::uint64_t sample);
 

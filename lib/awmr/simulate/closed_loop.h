@@ -66,7 +66,8 @@ class ClosedLoop {
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
     PathRow path = {};                              ///< guidance columns of the present sample
-    /// Reason, other than the duration, why the current sample ends the run; kDuration: none.
+    /// Reason why the run ends at the current sample, before its duration is over. kDuration: there
+    /// is no such reason.
     RunEnd ending = RunEnd::kDuration;
     std::vector<RunRow> rows = {};
     std::optional<Ending> end = {};  ///< absent: the run continues, or it failed

@@ -1,5 +1,5 @@
-/// Conditions of the closed loop for tuning that are not in the model: sensor noise, latency and
-/// motor lag.
+/// Sensor noise, sensor latency and motor lag of the simulations for which gains are tuned. The
+/// model does not contain them.
 #pragma once
 
 #include "awmr/model/vehicle.h"
@@ -27,8 +27,8 @@ struct LoopConditions {
 /// The conditions that vehicle.json gives, with the defaults above for missing ones.
 LoopConditions conditions_of(const Vehicle& vehicle);
 
-/// The scenario with sensors and actuators by these conditions. If the scenario already has
-/// sensors, all of them are kept; likewise actuators.
+/// Adds sensors and actuators with these conditions to a scenario. Sensors or actuators that the
+/// scenario already has are kept unchanged.
 Scenario under(const LoopConditions& conditions, Scenario scenario);
 
 }  // namespace awmr

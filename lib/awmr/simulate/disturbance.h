@@ -14,8 +14,8 @@ namespace awmr {
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;  ///< number of the draw
-  /// The random stream for the use number `use` < 1024. The number of the stream has bit 62 set.
-  /// So it differs from those of compare/, which are small numbers or have bit 63 set.
+  /// Returns the random stream for the use with the number `use`, < 1024. The stream's number has
+  /// bit 62 set. The streams of compare/ have small numbers, or numbers with bit 63 set.
   Random random(std::uint64_t use) const {
     return {seed, (std::uint64_t{1} << 62U) | (sample << 10U) | use};
   }

@@ -47,9 +47,9 @@ WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// The motor commands `arriving`, which the lag has delayed, with 0 for each motor that is switched
-/// off. With back-EMF, a motor with the command 0 is switched off at once: if its lagging force
-/// were its drive, it would brake (motor_force() in dynamics.h).
+/// Returns the motor commands `arriving`, which the lag has delayed, with 0 for each motor that is
+/// switched off. With back-EMF, the command 0 switches a motor off at once. If the lagging command
+/// were still applied, the back-EMF would brake the wheel (motor_force() in dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {

@@ -23,7 +23,7 @@ inline constexpr NumberRule kForce{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kForceSize{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kRate{.min = 0.0, .max = 1e6, .min_excluded = true};
 inline constexpr NumberRule kSignedRate_radps{.min = -1e3, .max = 1e3};
-/// Noise, bias and quantum of a sensor, in its own unit.
+/// Noise and quantum of a sensor, and its bias, in the unit of the sensor.
 inline constexpr NumberRule kSensorSize{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kSensorBias{.min = -1e6, .max = 1e6};
 

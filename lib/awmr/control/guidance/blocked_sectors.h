@@ -23,7 +23,8 @@ struct Avoidance {
   /// mmd_per_speed, s, >= 0: growth of MMD with the speed; about the delay before a turn takes
   /// effect (servo, yaw inertia).
   T mmd_per_speed_s;
-  /// sigma, rad, in [0, pi/2): extra angle beyond the tangent at D_obs = 0. Larger: a wider berth.
+  /// sigma, rad, in [0, pi/2): extra angle beyond the tangent at D_obs = 0. Larger: the vehicle
+  /// passes the obstacle at a larger distance.
   T sigma_rad;
   /// vehicle_radius, m, >= 0: radius of the circle around the centre of gravity that encloses the
   /// vehicle.
@@ -33,7 +34,8 @@ struct Avoidance {
   /// m, >= 0: while the heading is turned away from obstacles, an obstacle counts until D_obs
   /// exceeds MMD by this. It prevents the avoidance from switching on and off at D_obs = MMD.
   T hysteresis_m;
-  /// rad, >= 0: the side changes only if the other side is nearer by more than this.
+  /// rad, >= 0: the side on which the vehicle passes changes only if the turn to the other side is
+  /// smaller by more than this.
   T side_hysteresis_rad;
   /// brake, m, > 0: free distance ahead below which the speed is reduced. At least the stopping
   /// distance.

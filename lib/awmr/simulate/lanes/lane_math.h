@@ -15,8 +15,8 @@ namespace AWMR_LANES {
 
 using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
 
-/// Reinterprets the 64 bits of each lane. The cast of xsimd 9 and later takes the type of a number,
-/// that of earlier versions the type of a register.
+/// Reinterprets the 64 bits of each lane. The template argument of the cast is the type of a lane
+/// in xsimd 9 and later, and the type of a register in earlier versions.
 AWMR_LANE_INLINE Bits to_bits(const Register& x) {
 #if XSIMD_VERSION_MAJOR < 9
   return xsimd::bitwise_cast<Bits>(x);

@@ -1,6 +1,6 @@
-/// `Lanes`: the doubles of one operation, one lane (element of a vector register) per run. It is
-/// the scalar type with which the templates of model/ and control/ simulate several vehicles at
-/// once. For kernel files only (kernel.inc).
+/// `Lanes`: a vector register of doubles, one lane (element) per run. It is the scalar type with
+/// which the templates of model/ and control/ simulate several vehicles at once. For kernel files
+/// only (kernel.inc).
 ///
 /// A kernel file defines AWMR_LANES, the name of its instruction set, before it includes this file.
 /// The name is a namespace around every type here, and so part of the name of every template

@@ -3,7 +3,7 @@
 // Products and sums are rounded separately, whatever the compiler's default is: with fused
 // multiply-add, which rounds a b + c once, the chip's results would differ from the host's.
 #if defined(__FAST_MATH__)
-#error "awmr: compile without -ffast-math; infinities and NaN have to be seen, and bits be the host's"
+#error "awmr: compile without -ffast-math; it hides infinities and NaN, and changes the results"
 #elif defined(__clang__)
 #pragma clang fp contract(off)
 #elif !defined(__AVR__)

@@ -175,13 +175,13 @@ void awmr_step(const awmr_input* input, awmr_output* output);
    acceptance_m. The points are not copied. count 0: ends guidance, psi_ref_rad is held again. */
 void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
 
-/* As awmr_follow, but skips a waypoint that was passed by, for a vehicle that cannot turn back to
-   it. */
+/* As awmr_follow, but a waypoint that the vehicle passes without reaching it is skipped: for a
+   vehicle that cannot turn back to the waypoint. */
 void awmr_follow_skipping(const awmr_point* points, int16_t count, float acceptance_m);
 
 #if AWMR_WITH_POSITION_ESTIMATE
-/* Returns how often the position estimate was set to a fix since the start, at most 255. This
-   happens after five fixes in a row that were too far from the estimate. */
+/* Returns how often the position estimate was reset to a fix since the start, at most 255. Five
+   fixes in a row that are too far from the estimate cause a reset. */
 uint8_t awmr_position_resets(void);
 #endif
 

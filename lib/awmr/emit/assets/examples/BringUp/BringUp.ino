@@ -62,7 +62,7 @@ void step() {
     input.r_radps = imu.r_radps;
     input.heading_ms =
         awmr_board::time_or_old(imu.has_heading(), imu.time_ms, input.now_ms, AWMR_HEADING_TIMEOUT_MS);
-    // The vehicle is on a box: it has no speed and needs no fix.
+    // The wheels are off the ground: the speed is 0, and no fix is needed.
     input.speed_ms = input.command_ms = input.now_ms;
     awmr_step(&input, &output);
     output.force_left = cut(output.force_left);

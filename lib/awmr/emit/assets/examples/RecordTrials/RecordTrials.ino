@@ -4,8 +4,8 @@
 // speed, a coast-down also the distance until rest. Over Serial (115200 baud), one command per
 // line: "ARM" first, and again after each stop or fault; "G" drives the announced run, "N" skips
 // it. A run needs a command, such as "KEEP", at least once per second; "STOP" or a longer pause
-// stops the run, which then waits to be driven again. Nobody steers in the runs with straight
-// wheels: stop the vehicle if it leaves its lane.
+// stops the run, which then waits to be driven again. In the runs with straight wheels, nothing
+// controls the heading: stop the vehicle if it leaves its lane.
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
