@@ -93,10 +93,14 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
   auto* nominal = sub.add_flag("--nominal", command.nominal,
                                "Tune for the model's own parameter values only, without parameter "
                                "draws, sensor noise, latency or motor lag");
-  sub.add_flag(
-      "--observer,!--no-observer", command.observer,
+  auto* observer = sub.add_flag_callback(
+      "--observer", [&command] { command.observer = true; },
       "Also tune a disturbance observer, for constant disturbances such as a slope or unequal "
       "motors (default: only if runs do not settle without it)");
+  sub.add_flag_callback(
+         "--no-observer", [&command] { command.observer = false; },
+         "Tune no disturbance observer, even if runs do not settle without it")
+      ->excludes(observer);
   sub.add_option("--baseline", command.baseline,
                  "Baseline gains, whose objective is 1 by definition: pole-placement (default), "
                  "paper or a gains.json")
