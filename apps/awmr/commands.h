@@ -103,7 +103,8 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
-  /// true: tune a disturbance observer; false: tune none. Absent: as tune.json says.
+  /// true: tune a disturbance observer; false: tune none. Absent: `observer` and `add_observer` of
+  /// tune.json apply.
   std::optional<bool> observer = {};
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json

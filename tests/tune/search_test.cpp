@@ -693,8 +693,8 @@ Model with_friction(double coulomb_m) {
   return model;
 }
 
-/// Dry friction leaves a heading error within the limit of the steering rate, which only an
-/// observer removes.
+/// With dry friction, gains that meet the limit of the steering rate leave a heading error. Only an
+/// observer removes it.
 TEST(Tune, AddsAnObserverIfRunsDoNotSettleWithoutIt) {
   const Model model = with_friction(0.03);
   TuneOptions options = short_options();

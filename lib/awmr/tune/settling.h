@@ -22,8 +22,8 @@ double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains
 /// and the first draws of the setting, without goals.
 ObjectiveSetting some_runs(ObjectiveSetting setting, const std::string& scenario, YawMode mode);
 
-/// True if in a scenario and mode fewer than kSettledShare of the runs settle with these gains, but
-/// at least this share with an observer.
+/// True if, in a scenario and mode, fewer than kSettledShare of the runs (some_runs()) settle with
+/// these gains, but at least this share with an observer and gains by pole placement.
 bool needs_observer(const ObjectiveSetting& setting, const ConstraintContext& context,
                     const Gains<double>& gains);
 

@@ -228,8 +228,9 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
                             const ConstraintContext& context, const TuneOptions& requested,
                             const Scenario& held_out);
 
-/// Gains with an observer, if it may be added (TuneOptions::adds_observer), runs with `gains` need
-/// it to settle, and more runs settle with it.
+/// Repeats the search with an observer. Empty if no observer may be added
+/// (TuneOptions::adds_observer), if the runs with `gains` do not need one to settle
+/// (needs_observer()), or if no more runs settle with the result than with `gains`.
 std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
                                            const ConstraintContext& context,
                                            const TuneOptions& requested, const Scenario& held_out,

@@ -190,15 +190,19 @@ struct TuneOptions {
   std::vector<Scenario> scenarios;
   GainBounds bounds;
   std::optional<ObserverSearch> observer = {};  ///< absent: see adds_observer
-  /// Without `observer`: true tunes one, with the defaults of ObserverSearch, if fewer than 95 % of
-  /// the runs of a scenario and mode settle without it, and at least 95 % with it. Dry friction in
-  /// yaw is the usual cause. false: no observer is tuned.
+  /// Used if `observer` is absent. true: repeats the search with an observer (with the defaults of
+  /// ObserverSearch) if, in a scenario and mode, fewer than 95 % of the runs settle with the tuned
+  /// gains, but at least 95 % with an observer and gains by pole placement (needs_observer() in
+  /// settling.h). The result with the observer is kept if more runs settle in total. Dry friction
+  /// in yaw is the usual cause. false: no observer is tuned.
   bool adds_observer = true;
   std::vector<TuningGoal> goals = {};  ///< robust search only
   /// Called with the number of evaluated sets of gains, and with the budget global_evaluations +
-  /// local_evaluations. The last stage of the search, on all draws, is not counted.
+  /// local_evaluations. The last stage of the search, on all draws, is not counted. The number
+  /// begins at 0 again if the search is repeated with an observer (adds_observer).
   Progress progress = {};
-  /// Called before a search of more than about 10 s, with its expected duration.
+  /// Called before a search of more than about 10 s, with its expected duration. Also called before
+  /// the search is repeated with an observer (adds_observer), with the reason.
   std::function<void(std::string_view)> notice = {};
 };
 
@@ -423,10 +427,10 @@ Result<Scenario> default_tuning_scenario(const Model& model);
 ///   2. The same with the heading rate limited to the highest measured yaw rate. It favours gains
 ///      that are accurate where the model is valid. Left out if the model has no measured yaw rate,
 ///      or if `choice` (--heading-rate-limit) is not empty: then the caller applies `choice`.
-///   3. Only if an observer is tuned: the last of these with a constant disturbance, because
-///      without a disturbance an observer only adds noise. The moment is kPush times the largest
-///      moment of the weaker mode (turning_authority_m()). The force is kPush times g1(u_d),
-///      against the motion.
+///   3. Only if TuneOptions::observer is present: the last of these with a constant disturbance,
+///      because without a disturbance an observer only adds noise. The moment is kPush times the
+///      largest moment of the weaker mode (turning_authority_m()). The force is kPush times
+///      g1(u_d), against the motion.
 /// Errors (input): as Model::plant.
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,

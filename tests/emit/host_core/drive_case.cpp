@@ -109,7 +109,7 @@ void stand_on_slope(double pull, bool drives_first) {
   w.run(60, [&] {
     t += 0.001;
     fastest = std::max(fastest, fabs(w.u));
-    // In the first seconds, the motors may still brake after the slope has reversed the motion.
+    // In the first 5 s, the slope may reverse the motion while the motors still brake the old one.
     if (t > 5 && (w.left() + w.right()) * w.u > 1e-6 && fabs(w.u) > 0.3) driven_on_s += 0.001;
   });
   printf("fastest_mps=%.3f end_mps=%.3f driven_on_s=%.3f armed=%d\n", fastest, w.u, driven_on_s,

@@ -26,8 +26,8 @@ struct BootstrapInput {
 /// Computes 95 % intervals by a block bootstrap. Each resample draws blocks with replacement and
 /// makes one Gauss-Newton step from the solution. The steps are scaled so that their standard
 /// deviations equal the standard errors of the covariance. The bootstrap thus determines only the
-/// shape of the intervals, not their width.
-/// The ends are the 2.5 % and 97.5 % percentiles of each quantity's value. Empty for 0 resamples.
+/// shape of the intervals, not their width. The ends are the 2.5 % and 97.5 % percentiles of each
+/// quantity's value. Empty for 0 resamples.
 std::vector<Interval> block_bootstrap(const BootstrapInput& input, const BootstrapOptions& options);
 
 }  // namespace awmr

@@ -17,8 +17,9 @@ namespace awmr {
 /// The logs with every interpolated command held at its last set-point. A command counts as
 /// interpolated if it changes in at least 40 rows, and most of these lie on straight lines whose
 /// lengths are multiples of the same number of rows. This number is at least 2, and its rows last
-/// at most 0.5 s. Empty if no command is interpolated, or if the logs were already changed in this
-/// or a similar way (DrivingLog::has_held_set_points, has_interpolated_commands).
+/// at most 0.5 s. Both forces are held if one of them is interpolated. Empty if no command is
+/// interpolated, or if a log was already changed in this or a similar way
+/// (DrivingLog::has_held_set_points, has_interpolated_commands).
 std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<DrivingLog>& logs);
 
 /// True if `held`, the logs with held set-points, describe the motion about as well as the logs
