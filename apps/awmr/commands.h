@@ -103,7 +103,7 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
-  /// true: tune a disturbance observer; false: tune none. Absent: `observer` and `add_observer` of
+  /// true: tune a disturbance observer; false: tune none. Absent: `observer` and `no_observer` of
   /// tune.json apply.
   std::optional<bool> observer = {};
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json

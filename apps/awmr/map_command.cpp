@@ -31,7 +31,9 @@ std::vector<Ways> needs_of(TrialKind kind) {
     case TrialKind::kTurning:
       return {{{"steering_deg", "wheel_force"}, {"force_left", "force_right"}}, turn};
     case TrialKind::kCoastdown:
-      return {{{"t_s", "speed_mps"}, {"initial_speed_mps", "stop_time_s"}}};
+      return {{{"t_s", "speed_mps"},
+               {"initial_speed_mps", "stop_time_s"},
+               {"from_mps", "to_mps", "elapsed_s"}}};
     case TrialKind::kLog:
       return {
           {{"t_s"}}, {{"force_left"}}, {{"force_right"}}, {{"steering_cmd_deg"}, {"steering_deg"}}};

@@ -37,7 +37,7 @@ constexpr ProjectKey kKeys[] = {
     {"tune", "draws", "draws"},
     {"tune", "mode", "mode"},
     {"tune", "nominal", "nominal"},
-    {"tune", "no-observer", "add_observer"},
+    {"tune", "no-observer", "no_observer"},
     {"tune", "observer", "observer"},
     {"validate", "column", "columns"},
     {"validate", "log", "trials/logs"},

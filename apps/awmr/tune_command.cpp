@@ -23,7 +23,12 @@ namespace {
 
 Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
   Working working("searching for gains");
-  options.progress = [&](std::size_t done, std::size_t total) { working(done, total); };
+  std::size_t before = 0;
+  options.progress = [&](std::size_t done, std::size_t total) {
+    if (done < before) working.doing("searching for gains with an observer");
+    before = done;
+    working(done, total);
+  };
   options.notice = print_notice;
   return tune(model, options);
 }
@@ -155,7 +160,7 @@ void add_tune(CLI::App& app, Session& session) {
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
            "tune.json: mode, form, margin, limits, baseline, weights, goals, open, observer, "
-           "add_observer, evaluations, seed, scenarios");
+           "no_observer, evaluations, seed, scenarios");
   CLI::Option* nominal = add_search(*sub, *command);
   add_draws(*sub, *command, nominal);
   add_allocation(*sub, command->allocation);

@@ -106,6 +106,8 @@ void bind_tune(py::module_& module) {
       .def_readonly("evaluations", &Tuning::evaluations)
       .def_readonly("algorithm", &Tuning::algorithm)
       .def_readonly("stop_reason", &Tuning::stop_reason)
+      .def_readonly("observer_added", &Tuning::observer_added,
+                    "True if runs do not settle without an observer, so one was tuned")
       .def_property_readonly(
           "constraints", constraints_of,
           "list of dicts: name, value, limit, `sense` (on which side of its limit the value must "

@@ -479,6 +479,7 @@ TEST(Robust, BeatsThePapersGainsOnFreshDraws) {
   const Result<Tuning> tuning = tune(model, options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   ASSERT_TRUE(tuning->robust);
+  EXPECT_FALSE(tuning->observer_added);
   EXPECT_TRUE(tuning->robust->from_covariance);
   ASSERT_EQ(tuning->robust->evaluated.size(), 3U * std::size(kYawModes));
   const auto figure = [&](const std::string& gains, YawMode mode, const std::string& name) {

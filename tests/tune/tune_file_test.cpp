@@ -44,7 +44,9 @@ class TuneFile : public ::testing::Test {
 TEST_F(TuneFile, ReadsAnObserver) {
   EXPECT_FALSE(read("{}")->options.observer);
   EXPECT_TRUE(read("{}")->options.adds_observer);
-  EXPECT_FALSE(read(R"({"add_observer": false})")->options.adds_observer);
+  EXPECT_FALSE(read(R"({"no_observer": true})")->options.adds_observer);
+  EXPECT_EQ(read(R"({"observer": {}, "no_observer": true})").error().faults.front().code,
+            ErrorCode::kConflict);
   const auto plain = read(R"({"observer": {}})");
   ASSERT_TRUE(plain) << to_text(plain.error());
   EXPECT_EQ(plain->options.observer->bandwidth_radps.lo, ObserverSearch{}.bandwidth_radps.lo);

@@ -67,6 +67,43 @@ TEST_P(Vehicles, HaveGainsThatKeepEveryConstraintAndScoreBetterThanPolePlacement
   fmt::print("{}\n", row_of(GetParam(), default_tuning_scenario(model).value(), *tuning));
 }
 
+class DryFriction : public ::testing::TestWithParam<TestVehicle> {};
+
+/// Rows of a table: for each mode, the share of settled runs, %, and the 95 % quantile of the
+/// settling time, s, with the tuned gains and without an observer.
+std::string settled_runs(const TestVehicle& vehicle, const Tuning& with,
+                         const Result<Tuning>& out) {
+  std::string row = fmt::format(
+      "| {} | {:.3g}, {:.3g}, {:.3g} |", vehicle.name, with.gains.heading.lambda,
+      with.gains.heading.mu / with.gains.heading.epsilon, with.gains.observer.bandwidth_radps);
+  const auto put = [&](const Tuning& tuning, YawMode mode) {
+    for (const EvaluatedGains& one : tuning.robust->evaluated) {
+      if (one.gains != kRobustGains || one.mode != mode) continue;
+      const auto settling =
+          std::ranges::find(one.figures, "settling_time_s", &EvaluatedFigure::name);
+      row += fmt::format(" {:.0f} %, {:.3g} s |", 100.0 * one.completed_share, settling->q95);
+    }
+  };
+  for (const YawMode mode : kYawModes) {
+    if (out) put(*out, mode);
+    put(with, mode);
+  }
+  return row;
+}
+
+TEST_P(DryFriction, GetsAnObserverWithWhichTheRunsOfEveryModeSettle) {
+  const Model model = model_of(GetParam());
+  const Result<Tuning> tuning = tune(model, TuneOptions{});
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  EXPECT_TRUE(tuning->observer_added);
+  EXPECT_TRUE(tuning->unsettled.empty());
+  TuneOptions without;
+  without.adds_observer = false;
+  fmt::print("{}\n", settled_runs(GetParam(), *tuning, tune(model, without)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Steered, DryFriction, ::testing::ValuesIn(vehicles_with_dry_friction()));
+
 INSTANTIATE_TEST_SUITE_P(FromToyToTractor, Vehicles, ::testing::ValuesIn(test_vehicles()));
 
 }  // namespace

@@ -37,10 +37,10 @@ std::vector<WindowMoments> moments_of(const DrivingLog& log, LogChannel channel)
 }
 
 /// True if a channel is only noise about a constant value. Analysis of variance: F = n var(means of
-/// the windows)/(mean variance within a window) is at most kMaxForce (n: readings per window).
+/// the windows)/(mean variance within a window) is at most kMaxRatio (n: readings per window).
 bool is_noise_alone(const std::vector<WindowMoments>& windows) {
   // F can exceed 1 for correlated noise; motion gives more than 100.
-  constexpr double kMaxForce = 5.0;
+  constexpr double kMaxRatio = 5.0;
   const auto n = static_cast<double>(windows.size());
   double mean = 0.0, within = 0.0, readings = 0.0, between = 0.0;
   for (const WindowMoments& w : windows) {
@@ -49,7 +49,7 @@ bool is_noise_alone(const std::vector<WindowMoments>& windows) {
     readings += w.count / n;
   }
   for (const WindowMoments& w : windows) between += (w.mean - mean) * (w.mean - mean) / (n - 1.0);
-  return readings * between <= kMaxForce * within;
+  return readings * between <= kMaxRatio * within;
 }
 
 /// True if the mean speed is 0 within its error, or slower than any vehicle of this length drives.

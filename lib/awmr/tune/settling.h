@@ -18,12 +18,17 @@ inline constexpr double kSettledShare = 0.95;
 /// Share of the runs of the setting that settle with these gains, [0, 1].
 double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
 
-/// The runs of one scenario (all scenarios if `scenario` is empty) and mode, on the nominal vehicle
-/// and the first draws of the setting, without goals.
-ObjectiveSetting some_runs(ObjectiveSetting setting, const std::string& scenario, YawMode mode);
+/// The runs of one scenario (all scenarios if `scenario` is empty) and mode, without goals.
+ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, YawMode mode);
 
-/// True if, in a scenario and mode, fewer than kSettledShare of the runs (some_runs()) settle with
-/// these gains, but at least this share with an observer and gains by pole placement.
+/// The same runs on the nominal vehicle and the first draws only.
+ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);
+
+/// Smallest share of settled runs over the scenarios and modes, [0, 1].
+double least_settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
+
+/// True if, in a scenario and mode, fewer than kSettledShare of the runs settle with these gains,
+/// but on few vehicles at least this share with an observer and gains by pole placement.
 bool needs_observer(const ObjectiveSetting& setting, const ConstraintContext& context,
                     const Gains<double>& gains);
 

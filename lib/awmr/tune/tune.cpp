@@ -230,7 +230,7 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
 
 /// Repeats the search with an observer. Empty if no observer may be added
 /// (TuneOptions::adds_observer), if the runs with `gains` do not need one to settle
-/// (needs_observer()), or if no more runs settle with the result than with `gains`.
+/// (needs_observer()), or if the result does not increase least_settled_share() by kWorthIt.
 std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
                                            const ConstraintContext& context,
                                            const TuneOptions& requested, const Scenario& held_out,
@@ -249,7 +249,9 @@ std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSe
         "some runs settle only with a disturbance observer, so the search is repeated with one");
   }
   Result<Tuning> observed = search_gains(model, setting, context, options, held_out);
-  if (!observed || settled_share(setting, observed->gains) <= settled_share(setting, gains)) {
+  constexpr double kWorthIt = 1.0 - kSettledShare;
+  if (!observed || least_settled_share(setting, observed->gains) <
+                       least_settled_share(setting, gains) + kWorthIt) {
     return std::nullopt;
   }
   observed->observer_added = true;
@@ -332,7 +334,7 @@ std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveS
   std::vector<UnsettledRuns> all;
   const auto look_at = [&](const std::string& scenario, YawMode mode, double settled_share) {
     if (settled_share >= kSettledShare) return;
-    const ObjectiveSetting runs = some_runs(setting, scenario, mode);
+    const ObjectiveSetting runs = on_few_vehicles(runs_in(setting, scenario, mode));
     const Status turns =
         check_turning(context.own(), std::span(&mode, 1), runs.scenarios, std::string());
     UnsettledRuns unsettled{.scenario = scenario, .mode = mode, .why = {}, .changes = {}};

@@ -38,7 +38,7 @@ void read_search(JsonObject& json, TuneOptions& options) {
   if (json.has("mode")) options.mode = json.choice("mode", kYawModeNames);
   if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
-  options.adds_observer = json.optional_boolean("add_observer").value_or(options.adds_observer);
+  options.adds_observer = !json.optional_boolean("no_observer").value_or(!options.adds_observer);
   if (json.has("goals")) options.evaluation_draws = kGoalDraws;
   if (auto open = json.optional_object("open")) {
     options.open = read_open(std::move(*open));
@@ -274,6 +274,10 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
   }
   if (auto observer = object.optional_object("observer")) {
     config.options.observer = read_observer(std::move(*observer));
+    if (!config.options.adds_observer) {
+      object.fault(ErrorCode::kConflict, "no_observer",
+                   "forbids an observer, but `observer` asks for one; remove one of the two");
+    }
   }
   if (auto limits = object.optional_object("limits")) {
     config.options.limits = read_limits(std::move(*limits));

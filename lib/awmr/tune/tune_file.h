@@ -28,7 +28,7 @@ Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name
 ///   weights {settling, itae, overshoot, control_variation, effort, speed_itae},
 ///   bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   observer {bandwidth_radps [lo, hi], yaw_max_m, surge_max},
-///   add_observer (false: none is added; without effect if `observer` is given),
+///   no_observer (true: none is added),
 ///   nominal, draws (32), judged_draws (draws of the evaluation: 50; with goals 500), tail_share,
 ///   activity_max,
 ///   limits {steering_rate_rms_degps, damping, late_damping, delayed_damping, noise_share},
