@@ -17,7 +17,7 @@ double coasting_s(const DrivingLog& log) {
   constexpr double kRolls_s = 3.0;
   const double gap_s = kGapSteps * log.median_step_s();
   double coasts_s = 0.0;
-  double off_since_s = -kRolls_s;
+  double off_since_s = log.t_s.front() - kRolls_s;
   bool was_driven = false;
   for (std::size_t row = 0; row + 1 < log.rows(); ++row) {
     const double step_s = log.t_s[row + 1] - log.t_s[row];
@@ -54,7 +54,10 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
 LogFitOptions with_back_emf(LogFitOptions options) {
   constexpr double kShare = 0.1;  // initial drag by back-EMF over the resistance, at 1 m/s
   double& guess = options.initial_guess[at(ParameterId::kBackEmf)];
-  if (!(guess > 0.0)) guess = kShare * options.initial_guess[at(ParameterId::kSurgeAlpha)] / 4.0;
+  if (!(guess > 0.0)) {
+    guess = kShare * options.initial_guess[at(ParameterId::kSurgeAlpha)] /
+            options.vehicle.driven_wheels();
+  }
   if (!options.frees(ParameterId::kBackEmf)) options.free.push_back(ParameterId::kBackEmf);
   return options;
 }

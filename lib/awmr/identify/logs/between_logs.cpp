@@ -192,9 +192,9 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
 /// True for errors of steering and force commands (trim, dead band, asymmetry, imbalance,
 /// saturation), and for the forces of extra_forces.h except Stribeck friction.
 bool invalidates_all(std::string_view name) {
-  constexpr std::string_view kOfCommands[] = {kSteeringTrimName, kSteeringDeadBandName,
+  constexpr std::string_view kOfCommands[] = {kSteeringTrimName,      kSteeringDeadBandName,
                                               kSteeringAsymmetryName, kForceImbalanceName,
-                                              kForceSaturationName};
+                                              kForceSaturationName,   kForceExponentName};
   const auto first = kExtraForceNames.begin() + static_cast<int>(ExtraForce::kSlopeX);
   return std::ranges::find(kOfCommands, name) != std::end(kOfCommands) ||
          std::find(first, kExtraForceNames.end(), name) != kExtraForceNames.end();

@@ -63,9 +63,10 @@ Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ra
   return terms;
 }
 
-/// Returns the terms with late commands instead of slip. If only the speed has slip, the yaw rate
-/// gets a latency, so that only the speed can respond before the logged commands.
-Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels) {
+/// Returns the terms with late commands instead of slip. If only the speed has slip, a measured yaw
+/// rate gets a latency, so that only the speed can respond before the logged commands.
+Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
+                         const std::vector<DrivingLog>& logs) {
   constexpr double kGuess_s = 0.01;
   using Kind = FreeQuantity::Kind;
   std::erase_if(terms, is_slip);
@@ -77,7 +78,9 @@ Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels) {
     return t.quantity.channel == LogChannel::kYawRate &&
            (t.quantity.kind == Kind::kSensorDelay || t.quantity.kind == Kind::kSensorLag);
   };
-  if (channels.front() == LogChannel::kSpeed && channels.size() == 1 &&
+  const bool has_yaw_rate = std::ranges::any_of(
+      logs, [](const DrivingLog& log) { return log[LogChannel::kYawRate].has_value(); });
+  if (channels.front() == LogChannel::kSpeed && channels.size() == 1 && has_yaw_rate &&
       std::ranges::none_of(terms, is_read_late)) {
     terms.push_back({sensor_delay_of(LogChannel::kYawRate), kGuess_s});
   }
@@ -92,7 +95,7 @@ std::vector<Terms> other_explanations(const Terms& terms, const std::vector<Driv
   const std::vector<LogChannel> channels = slipping_channels(terms, logs);
   if (channels.empty()) return {};
   std::vector<Terms> others;
-  if (slips) others.push_back(with_late_commands(terms, channels));
+  if (slips) others.push_back(with_late_commands(terms, channels, logs));
   for (const bool is_ratio : {false, true}) {
     if (slips && slip->quantity.is_ratio == is_ratio) continue;
     others.push_back(with_slip(terms, channels, is_ratio));

@@ -107,12 +107,12 @@ struct Target {
 };
 
 /// Resistance with all its terms at 1 m/s or 1 rad/s, by which the error of a term is divided,
-/// because the term itself may be 0. For a term of a single wheel (dead zone, back-EMF): a quarter
-/// of this resistance.
+/// because the term itself may be 0. For a term of a single wheel (dead zone, back-EMF): this
+/// resistance divided by the number of driven wheels.
 double whole_of(ParameterId id, const Plant<double>& plant) {
   if (id == ParameterId::kYawCoulomb || id == ParameterId::kYawQuadratic) return plant.yaw(1.0);
   const bool of_a_wheel = id == ParameterId::kWheelDeadZone || id == ParameterId::kBackEmf;
-  return plant.surge(1.0) / (of_a_wheel ? 4.0 : 1.0);
+  return plant.surge(1.0) / (of_a_wheel ? driven_wheels(plant) : 1.0);
 }
 
 /// Target of A-optimality: all parameters with equal weights. Their errors are relative (parameters
