@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "awmr/identify/logs/linear_replay.h"
+#include "awmr/identify/logs/command_path.h"
 
 namespace awmr {
 
@@ -15,7 +15,7 @@ struct SensorFilter {
 };
 
 /// Output y of a filter with the input u and the time constant T, and its derivatives by the
-/// columns of the fit (linear_replay.h). With rows h apart and e = exp(-h/T),
+/// columns of the fit (linear_stepper.h). With rows h apart and e = exp(-h/T),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///     q = (T/h)(1 - e)   continuous, T dy/dt = u - y, u linear between rows

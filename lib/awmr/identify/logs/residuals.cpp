@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/linear_replay.h"
 #include "awmr/identify/logs/product_sums.h"
 #include "awmr/identify/logs/sensor_readings.h"
 #include "awmr/identify/logs/whitener.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/linear_replay.h"
 
 namespace awmr {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
+#include "awmr/trials/replay.h"
 
 namespace awmr {
 bool SensorTerms::any_delayed() const {

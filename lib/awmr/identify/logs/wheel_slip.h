@@ -13,7 +13,8 @@
 
 #include <vector>
 
-#include "awmr/identify/logs/linear_replay.h"
+#include "awmr/identify/logs/command_path.h"
+#include "awmr/identify/logs/linear_stepper.h"
 
 namespace awmr {
 

@@ -1,0 +1,152 @@
+#include "awmr/identify/logs/command_path.h"
+
+#include <cmath>
+
+#include "awmr/identify/logs/quantities.h"
+
+namespace awmr {
+namespace {
+
+HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
+  return {{log.force_left[rows.forces], log.force_right[rows.forces]},
+          log.driving_steering_rad()[rows.steering]};
+}
+
+/// Chain rule: multiplies the derivatives of one side's force f by the slope of a function of f.
+void scale_derivatives(double slope, double SideForces<double>::*side, DelayedCommand& at) {
+  for (SideForces<double>* const by :
+       {&at.by_delay, &at.by_lag, &at.by_imbalance, &at.by_exponent}) {
+    by->*side *= slope;
+  }
+}
+
+/// Applies the saturation to the forces f and their derivatives. With w = (|f|/F'm)^n and
+/// s = (1 - L)^(-n) - 1:
+///
+///     f_s = f (1 + s w)^(-1/n)
+///     d f_s/d f = (1 + s w)^(-1/n - 1),   d f_s/d s = -f w/n d f_s/d f
+///     d f_s/d L = d f_s/d s n (1 + s)/(1 - L)
+///     d f_s/d ln n = f_s (ln(1 + s w) - s w ln(w)/(1 + s w))/n - d f_s/d s n (1 + s) ln(1 - L)
+void saturate(const CommandPath& path, DelayedCommand& at) {
+  const double rest = 1.0 - path.saturation->value;  // 1 - L
+  const double n = path.sharpness ? path.sharpness->value : kDefaultSharpness;
+  const double s = std::pow(rest, -n) - 1.0;
+  for (double SideForces<double>::*const side :
+       {&SideForces<double>::left, &SideForces<double>::right}) {
+    double& force = at.command.force.*side;
+    const double w = std::pow(std::abs(force) / path.full_command, n);
+    const double sum = 1.0 + s * w;
+    const double share = std::pow(sum, -1.0 / n);
+    const double slope = share / sum;
+    const double log_w = w > 0.0 ? std::log(w) : 0.0;
+    const double by_s = -force * w * slope / n;
+    at.by_saturation.*side = by_s * n * (1.0 + s) / rest;
+    at.by_sharpness.*side = force * share * (std::log(sum) - s * w * log_w / sum) / n -
+                            by_s * n * (1.0 + s) * std::log(rest);
+    scale_derivatives(slope, side, at);
+    force *= share;
+  }
+}
+
+/// Replaces the forces f by |f|^p sgn f, with the derivatives
+///
+///     d/df = p |f|^(p - 1),   d/d ln p = p ln|f| |f|^p sgn f
+void raise_to_power(const CommandPath& path, DelayedCommand& at) {
+  const double p = path.exponent->value;
+  for (double SideForces<double>::*const side :
+       {&SideForces<double>::left, &SideForces<double>::right}) {
+    double& force = at.command.force.*side;
+    if (force == 0.0) continue;
+    const double share = std::pow(std::abs(force), p - 1.0);
+    scale_derivatives(p * share, side, at);
+    at.by_exponent.*side = p * std::log(std::abs(force)) * force * share;
+    force *= share;
+  }
+}
+
+/// Applies dead band and asymmetry of the linkage to the steering command.
+void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
+  const double band_rad = path.steering_dead_band ? path.steering_dead_band->value : 0.0;
+  const double e = path.steering_asymmetry ? path.steering_asymmetry->value : 0.0;
+  double& angle_rad = at.command.steering_rad;
+  const bool moves = std::abs(angle_rad) > band_rad;
+  const double side = std::copysign(moves ? 1.0 : 0.0, angle_rad);
+  const double beyond_rad = moves ? angle_rad - side * band_rad : 0.0;
+  const double share = 1.0 + side * e;
+  at.steering_by_dead_band = -side * share;
+  at.steering_by_asymmetry = std::abs(beyond_rad);
+  angle_rad = beyond_rad * share;
+}
+
+/// Applies the constant errors: linkage, trim, imbalance, exponent and saturation, in this order.
+DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
+  if (path.steering_dead_band || path.steering_asymmetry) steer_by_linkage(path, at);
+  if (path.steering_trim) {
+    at.command.steering_rad += path.steering_trim->value;
+    at.steering_by_trim = 1.0;
+  }
+  if (path.imbalance) {
+    at.by_imbalance = {-at.command.force.left, at.command.force.right};
+    for (SideForces<double>* const force : {&at.command.force, &at.by_delay, &at.by_lag}) {
+      force->left *= 1.0 - path.imbalance->value;
+      force->right *= 1.0 + path.imbalance->value;
+    }
+  }
+  if (path.exponent) raise_to_power(path, at);
+  if (path.saturation) saturate(path, at);
+  return at;
+}
+
+/// Sets force and derivatives to 0 on each side whose command is 0 (CommandPath::switches_off).
+void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
+  const auto off = [&](double SideForces<double>::*side) {
+    if (command.*side != 0.0) return;
+    at_wheels.command.force.*side = 0.0;
+    at_wheels.by_lag.*side = at_wheels.by_delay.*side = 0.0;
+  };
+  off(&SideForces<double>::left);
+  off(&SideForces<double>::right);
+}
+
+}  // namespace
+
+CommandColumns columns_of(const CommandPath& path) {
+  const auto column = [](const auto& term) {
+    return term ? std::optional(term->column) : std::nullopt;
+  };
+  return {
+      column(path.delay),         column(path.steering_delay),     path.lag_column,
+      column(path.steering_trim), column(path.steering_dead_band), column(path.steering_asymmetry),
+      column(path.servo_rate),    column(path.imbalance),          column(path.exponent),
+      column(path.saturation),    column(path.sharpness)};
+}
+
+DelayedCommand command_of_rows(const DrivingLog& log, const ActingRows& rows,
+                               const CommandPath& path) {
+  return with_errors({logged_command(log, rows)}, path);
+}
+
+DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, double t_s,
+                            double h_s, const CommandPath& path) {
+  if (!path.lag) return command_of_rows(*signals.log, rows, path);
+  const HeldCommand logged = logged_command(*signals.log, rows);
+  DelayedCommand at{logged};
+  const LaggedForces::Mean mean = path.lag->mean(signals, t_s, h_s, path.force_delay_s());
+  at.command.force = mean.force;
+  at.by_lag = mean.by_lag;
+  at.by_delay = mean.by_delay;
+  if (path.switches_off) switch_off(logged.force, at);
+  return with_errors(at, path);
+}
+
+DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path) {
+  constexpr double kMoment_s = 1e-6;
+  const auto row_at = [&](double at_s) {  // a change exactly at this time counts
+    return ActingRow(signals.log->t_s, at_s + 2.0 * kSameTime_s).row();
+  };
+  return command_over(signals,
+                      {row_at(t_s - path.force_delay_s()), row_at(t_s - path.steering_delay_s())},
+                      t_s, kMoment_s, path);
+}
+
+}  // namespace awmr
