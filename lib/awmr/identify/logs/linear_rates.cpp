@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/back_emf_rates.h"
 #include "awmr/identify/logs/extra_rates.h"
 
 namespace awmr {
@@ -48,77 +49,6 @@ void add_resistance(const ResistanceSlopes& g, double per_inertia, ParameterId a
   out.by_parameter[at(beta)].*kRate = -g.by_beta * per_inertia;
   out.by_parameter[at(coulomb)].*kRate = -g.by_coulomb * per_inertia;
   out.by_parameter[at(quadratic)].*kRate = -g.by_quadratic * per_inertia;
-}
-
-/// A vector over (u, v, r), or a row of a 3 x 3 matrix.
-using Vector3 = std::array<double, 3>;
-
-/// Adds share times a b^T to the matrix `to`.
-void add_product(double share, const Vector3& a, const Vector3& b, std::array<Vector3, 3>& to) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) to[i][j] += share * a[i] * b[j];
-  }
-}
-
-/// Damping matrix D of back-EMF. A wheel rolls at the speed w = J (u, v, r). Its force F' acts on
-/// the vehicle as (X, Y, N) = J^T F'. Back-EMF reduces F' by k_e w, so
-///     (X, Y, N) -= k_e D (u, v, r),   D = sum J^T J over the wheels whose motor is on
-///     J_rear = (1, 0, -+d),   J_front = (cos d_r, sin d_r, l_f sin d_r -+ d cos d_r)
-struct Braking {
-  std::array<Vector3, 3> by_motion{};    ///< D
-  std::array<Vector3, 3> by_steering{};  ///< d D / d d_r
-};
-
-void add_side(const Plant<double>& p, double left_m, double sin_d, double cos_d, Braking& braking) {
-  const Vector3 rear{1.0, 0.0, -left_m};
-  const Vector3 front{cos_d, sin_d, p.front_axle_m * sin_d - left_m * cos_d};
-  const Vector3 turned{-sin_d, cos_d, p.front_axle_m * cos_d + left_m * sin_d};
-  add_product(p.rear_driven, rear, rear, braking.by_motion);
-  add_product(1.0, front, front, braking.by_motion);
-  add_product(1.0, turned, front, braking.by_steering);
-  add_product(1.0, front, turned, braking.by_steering);
-}
-
-/// Adds back-EMF to the rates. Call after all other terms.
-void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on, bool right_on,
-                  double sin_d, double cos_d, LinearRates& out) {
-  const Plant<double>& p = plant.plant;
-  Braking braking;
-  if (left_on) add_side(p, p.half_track_m, sin_d, cos_d, braking);
-  if (right_on) add_side(p, -p.half_track_m, sin_d, cos_d, braking);
-  const Vector3 motion{s.u_mps, s.v_mps, s.r_radps};
-  const Vector3 per_inertia{plant.per_mass, plant.per_mass, plant.per_inertia};
-  const auto along = [&](const std::array<Vector3, 3>& matrix, std::size_t row) {
-    return per_inertia[row] *
-           (matrix[row][0] * motion[0] + matrix[row][1] * motion[1] + matrix[row][2] * motion[2]);
-  };
-  const Vector3 rate{along(braking.by_motion, 0), along(braking.by_motion, 1),
-                     along(braking.by_motion, 2)};
-  const double k = p.back_emf_s_per_m;
-  auto& by = out.by_parameter;
-  by[at(ParameterId::kBackEmf)] = {.u = -rate[0], .v = -rate[1], .r = -rate[2]};
-  by[at(ParameterId::kMassNorm)].u += k * rate[0] * plant.per_mass;
-  by[at(ParameterId::kMassNorm)].v += k * rate[1] * plant.per_mass;
-  by[at(ParameterId::kInertiaNorm)].r += k * rate[2] * plant.per_inertia;
-  out.rates.u_mps -= k * rate[0];
-  out.rates.v_mps -= k * rate[1];
-  out.rates.r_radps -= k * rate[2];
-  StateSlopes& a = out.by_state;
-  const auto slope = [&](std::size_t i, std::size_t j) {
-    return k * per_inertia[i] * braking.by_motion[i][j];
-  };
-  a.u_u -= slope(0, 0);
-  a.u_v -= slope(0, 1);
-  a.u_r -= slope(0, 2);
-  a.v_u -= slope(1, 0);
-  a.v_v -= slope(1, 1);
-  a.v_r -= slope(1, 2);
-  a.r_u -= slope(2, 0);
-  a.r_v = -slope(2, 1);
-  a.r_r -= slope(2, 2);
-  a.u_steering -= k * along(braking.by_steering, 0);
-  a.v_steering -= k * along(braking.by_steering, 1);
-  a.r_steering -= k * along(braking.by_steering, 2);
 }
 
 Plant<double> with_stribeck(Plant<double> p, const ExtraForces& extra) {
@@ -209,69 +139,98 @@ ResistanceSlopes LinearResistance::operator()(double speed) const {
   return g;
 }
 
-void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCommand& command,
-                  LinearRates& out) {
-  const Plant<double>& p = plant.plant;
-  const double sin_d = std::sin(s.steering_rad);
-  const double cos_d = std::cos(s.steering_rad);
-  const double reach = cos_d + p.rear_driven;  // forward force of front and rear wheel over F'
-  const Wheels wheels = wheels_of(plant, s, command.force);
-  const double sum = wheels.left.value + wheels.right.value;
-  const double difference = wheels.right.value - wheels.left.value;
+namespace {
+
+/// Forces of a left and a right wheel, and their direction.
+struct SteeredForces {
+  double sum;
+  double difference;  ///< right minus left
+  double sin_d;       ///< sin d_r
+  double cos_d;       ///< cos d_r
+  double reach;       ///< rho + cos d_r: forward force of front and rear wheel over F'
+};
+
+SteeredForces steered_forces(const Wheels& wheels, double rear_driven, double steering_rad) {
+  const double cos_d = std::cos(steering_rad);
+  return {.sum = wheels.left.value + wheels.right.value,
+          .difference = wheels.right.value - wheels.left.value,
+          .sin_d = std::sin(steering_rad),
+          .cos_d = cos_d,
+          .reach = cos_d + rear_driven};
+}
+
+/// Adds u_dot = (sum (rho + cos d_r) - g1(u) - D)/m' + r v,   rho: 1 with driven rear wheels,
+/// else 0; D: drag in turns.
+void add_surge(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,
+               LinearRates& out) {
   const ResistanceSlopes g1 = surge_resistance(plant, s.u_mps, out);
-  const ResistanceSlopes g3 = yaw_resistance(plant, s.r_radps, out);
   const TurnDrag drag = turn_drag(plant, s);
-
-  add_kinematics(s, out);
-  add_servo(plant, s, command.steering_rad, out);
-
-  // u_dot = (sum (rho + cos d_r) - g1(u) - D)/m' + r v,   rho: 1 with driven rear wheels, else 0;
-  // D: drag in turns
-  const double surge = (sum * reach - g1.value - drag.value) * plant.per_mass;
+  const double surge = (force.sum * force.reach - g1.value - drag.value) * plant.per_mass;
   out.rates.u_mps = surge + s.r_radps * s.v_mps;
   out.by_state.u_u = -(g1.by_speed + drag.by_speed) * plant.per_mass;
   out.by_state.u_v = s.r_radps;
   out.by_state.u_r = s.v_mps - drag.by_yaw_rate * plant.per_mass;
-  out.by_state.u_steering = -sum * sin_d * plant.per_mass;
-
-  // v_dot = (sum sin d_r - a_s v)/m' - r u
-  const double sway = (sum * sin_d - p.sway_alpha * s.v_mps) * plant.per_mass;
-  out.rates.v_mps = sway - s.r_radps * s.u_mps;
-  out.by_state.v_u = -s.r_radps;
-  out.by_state.v_v = -p.sway_alpha * plant.per_mass;
-  out.by_state.v_r = -s.u_mps;
-  out.by_state.v_steering = sum * cos_d * plant.per_mass;
-
-  // r_dot = (l_f sum sin d_r + d difference (rho + cos d_r) - g3(r))/I'z
-  out.rates.r_radps =
-      (p.front_axle_m * sum * sin_d + p.half_track_m * difference * reach - g3.value) *
-      plant.per_inertia;
-  out.by_state.r_u = 0.0;
-  out.by_state.r_r = -g3.by_speed * plant.per_inertia;
-  out.by_state.r_steering =
-      (p.front_axle_m * sum * cos_d - p.half_track_m * difference * sin_d) * plant.per_inertia;
-
+  out.by_state.u_steering = -force.sum * force.sin_d * plant.per_mass;
   add_resistance<&DrivenSlopes::u>(g1, plant.per_mass, ParameterId::kSurgeAlpha,
                                    ParameterId::kSurgeBeta, ParameterId::kSurgeCoulomb,
                                    ParameterId::kSurgeQuadratic, out);
+  out.by_parameter[at(ParameterId::kMassNorm)].u = -surge * plant.per_mass;
+  add_turn_drag(drag, plant.per_mass, out);
+}
+
+/// Adds v_dot = (sum sin d_r - a_s v)/m' - r u.
+void add_sway(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,
+              LinearRates& out) {
+  const double alpha = plant.plant.sway_alpha;
+  const double sway = (force.sum * force.sin_d - alpha * s.v_mps) * plant.per_mass;
+  out.rates.v_mps = sway - s.r_radps * s.u_mps;
+  out.by_state.v_u = -s.r_radps;
+  out.by_state.v_v = -alpha * plant.per_mass;
+  out.by_state.v_r = -s.u_mps;
+  out.by_state.v_steering = force.sum * force.cos_d * plant.per_mass;
+  out.by_parameter[at(ParameterId::kSwayAlpha)].v = -s.v_mps * plant.per_mass;
+  out.by_parameter[at(ParameterId::kMassNorm)].v = -sway * plant.per_mass;
+}
+
+/// Adds r_dot = (l_f sum sin d_r + d difference (rho + cos d_r) - g3(r))/I'z.
+void add_yaw(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,
+             LinearRates& out) {
+  const Plant<double>& p = plant.plant;
+  const ResistanceSlopes g3 = yaw_resistance(plant, s.r_radps, out);
+  out.rates.r_radps = (p.front_axle_m * force.sum * force.sin_d +
+                       p.half_track_m * force.difference * force.reach - g3.value) *
+                      plant.per_inertia;
+  out.by_state.r_u = 0.0;
+  out.by_state.r_r = -g3.by_speed * plant.per_inertia;
+  out.by_state.r_steering =
+      (p.front_axle_m * force.sum * force.cos_d - p.half_track_m * force.difference * force.sin_d) *
+      plant.per_inertia;
   add_resistance<&DrivenSlopes::r>(g3, plant.per_inertia, ParameterId::kYawAlpha,
                                    ParameterId::kYawBeta, ParameterId::kYawCoulomb,
                                    ParameterId::kYawQuadratic, out);
-  auto& by = out.by_parameter;
-  by[at(ParameterId::kSwayAlpha)].v = -s.v_mps * plant.per_mass;
-  by[at(ParameterId::kMassNorm)].u = -surge * plant.per_mass;
-  by[at(ParameterId::kMassNorm)].v = -sway * plant.per_mass;
-  by[at(ParameterId::kInertiaNorm)].r = -out.rates.r_radps * plant.per_inertia;
+  out.by_parameter[at(ParameterId::kInertiaNorm)].r = -out.rates.r_radps * plant.per_inertia;
+}
 
-  add_turn_drag(drag, plant.per_mass, out);
+}  // namespace
+
+void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCommand& command,
+                  LinearRates& out) {
+  const Plant<double>& p = plant.plant;
+  const Wheels wheels = wheels_of(plant, s, command.force);
+  const SteeredForces force = steered_forces(wheels, p.rear_driven, s.steering_rad);
+  add_kinematics(s, out);
+  add_servo(plant, s, command.steering_rad, out);
+  add_surge(plant, s, force, out);
+  add_sway(plant, s, force, out);
+  add_yaw(plant, s, force, out);
   add_wheel_slopes(plant, wheels,
-                   {{.u = reach * plant.per_mass,
-                     .v = sin_d * plant.per_mass,
-                     .r = p.front_axle_m * sin_d * plant.per_inertia},
-                    p.half_track_m * reach * plant.per_inertia},
+                   {{.u = force.reach * plant.per_mass,
+                     .v = force.sin_d * plant.per_mass,
+                     .r = p.front_axle_m * force.sin_d * plant.per_inertia},
+                    p.half_track_m * force.reach * plant.per_inertia},
                    out);
   if (plant.has_back_emf) {
-    add_back_emf(plant, s, is_on(wheels.left), is_on(wheels.right), sin_d, cos_d, out);
+    add_back_emf(plant, s, is_on(wheels.left), is_on(wheels.right), force.sin_d, force.cos_d, out);
   }
   if (plant.has_slope) add_slope(plant.extra, s.psi_rad, out);
   if (plant.sway_pace < 1.0) slow_sway(plant.sway_pace, out);
