@@ -14,6 +14,61 @@
 namespace awmr {
 namespace {
 
+/// Simulates the window and calls visit(row, readings, motion) at each of its rows.
+template <class Visit>
+void for_each_row(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
+                  std::size_t columns, Visit visit) {
+  const double h = model.longest_step_s;
+  LinearStepper stepper(vehicle.plant, columns, vehicle.parameters, columns_of(vehicle.path), h,
+                        vehicle.extra);
+  SensorReadings readings(model, window, vehicle, columns);
+  replay_linear(*window.signals, window.rows.begin, window.rows.end, vehicle.path, stepper, h,
+                first_motion(model, vehicle, columns),
+                [&](std::size_t row, const LinearMotion& now) {
+                  readings.go_on(now);
+                  visit(row, readings, now);
+                });
+}
+
+/// Calls visit(i, reading, row) for every sample i in order. `row` has the derivatives of the
+/// reading. No channel is smoothed.
+template <class Visit>
+void for_each_reading(const LogModel& model, const FitWindow& window,
+                      const SimulatedVehicle& vehicle, std::size_t columns, Visit visit) {
+  const std::vector<Sample>& samples = window.samples();
+  std::size_t next = 0;
+  for_each_row(model, window, vehicle, columns,
+               [&](std::size_t row, SensorReadings& readings, const LinearMotion& now) {
+                 for (; next < samples.size() && samples[next].row == row; ++next) {
+                   const double reading = readings.read(samples[next].channel, now);
+                   visit(next, reading, readings.row());
+                 }
+               });
+}
+
+/// Like for_each_reading(), with smoothed channels. Smoothing needs later rows, so the readings of
+/// all rows come first.
+template <class Visit>
+void for_each_smoothed_reading(const LogModel& model, const FitWindow& window,
+                               const SimulatedVehicle& vehicle, std::size_t columns, Visit visit) {
+  std::array<ReadingSeries, kChannelCount> series;
+  for_each_row(model, window, vehicle, columns,
+               [&](std::size_t, SensorReadings& readings, const LinearMotion& now) {
+                 for (const auto& [c, noise] : model.noise) {
+                   const double reading = readings.read(c, now);
+                   series[at(c)].add(reading, readings.row());
+                 }
+               });
+  const std::vector<Sample>& samples = window.samples();
+  std::vector<double> by(columns);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const LogChannel c = samples[i].channel;
+    const std::size_t place = samples[i].row - window.rows.begin;
+    const double reading = series[at(c)].read(place, vehicle.sensors.smoothing[at(c)], by);
+    visit(i, reading, by);
+  }
+}
+
 /// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured.
 /// `row` has the derivatives of the error, one per column (empty if `columns` is 0); `visit` may
 /// overwrite them. A sensor with latency is compared with the state one delay earlier, a filtered
@@ -24,41 +79,16 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Simula
                     std::size_t columns, Visit visit) {
   const DrivingLog& log = *window.rows.log;
   const std::vector<Sample>& samples = window.samples();
-  const double h = model.longest_step_s;
-  LinearStepper stepper(vehicle.plant, columns, vehicle.parameters, columns_of(vehicle.path), h,
-                        vehicle.extra);
   const auto visit_sample = [&](std::size_t i, double reading, std::vector<double>& by) {
     const LogChannel c = samples[i].channel;
     const auto& bias_column = vehicle.sensors.bias_column[at(c)];
     if (columns > 0 && bias_column) by[*bias_column] += 1.0;
     visit(i, reading + vehicle.sensors.bias[at(c)] - log[c]->value[samples[i].row], by);
   };
-  const bool waits = vehicle.sensors.any_smoothed();  // smoothing needs later rows
-  SensorReadings readings(model, window, vehicle, columns);
-  std::array<ReadingSeries, kChannelCount> series;  // used only if `waits`
-  std::size_t next = 0;
-  replay_linear(*window.signals, window.rows.begin, window.rows.end, vehicle.path, stepper, h,
-                first_motion(model, vehicle, columns),
-                [&](std::size_t row, const LinearMotion& now) {
-                  readings.go_on(now);
-                  if (waits) {
-                    for (const auto& [c, noise] : model.noise) {
-                      const double reading = readings.read(c, now);
-                      series[at(c)].add(reading, readings.row());
-                    }
-                    return;
-                  }
-                  for (; next < samples.size() && samples[next].row == row; ++next) {
-                    const double reading = readings.read(samples[next].channel, now);
-                    visit_sample(next, reading, readings.row());
-                  }
-                });
-  std::vector<double> by(columns);
-  for (; waits && next < samples.size(); ++next) {
-    const LogChannel c = samples[next].channel;
-    const std::size_t place = samples[next].row - window.rows.begin;
-    const double reading = series[at(c)].read(place, vehicle.sensors.smoothing[at(c)], by);
-    visit_sample(next, reading, by);
+  if (vehicle.sensors.any_smoothed()) {
+    for_each_smoothed_reading(model, window, vehicle, columns, visit_sample);
+  } else {
+    for_each_reading(model, window, vehicle, columns, visit_sample);
   }
 }
 
