@@ -208,6 +208,50 @@ SampledHeadingLoop certified_loop(const Gains<double>& gains, const ConstraintCo
   return loop;
 }
 
+namespace {
+
+/// The heading loops that certify() examines: those of a confidence set of plants, with mass
+/// factors, at all yaw rates of a range.
+struct CertifiedLoops {
+  const Model& model;
+  const ConstraintContext& context;
+  const Gains<double>& gains;
+  const ConfidenceSet& set;
+  Interval rates_radps;
+  std::vector<double> mass_factors;
+
+  double rate_at(const SetPoint& point) const {
+    return rates_radps.lo * std::pow(rates_radps.hi / rates_radps.lo, point.back());
+  }
+  std::optional<Plant<double>> plant_at(const SetPoint& point, double mass_factor) const {
+    auto plant = set.plant_at(std::span(point).first(point.size() - 1));
+    if (plant) plant->inertia_norm *= mass_factor;
+    return plant;
+  }
+};
+
+/// Smallest value of `measure` over the loops in this mode.
+WorstCase worst_case(const CertifiedLoops& loops, YawMode mode,
+                     double (*measure)(const SampledHeadingLoop&)) {
+  WorstCase worst{.value = std::numeric_limits<double>::infinity()};
+  for (const double mass_factor : loops.mass_factors) {
+    const ValuedPoint least = least_over_set(loops.set.dimension(), [&](const SetPoint& point) {
+      const auto plant = loops.plant_at(point, mass_factor);
+      if (!plant) return std::numeric_limits<double>::infinity();
+      return measure(
+          certified_loop(loops.gains, loops.context, *plant, loops.rate_at(point), mode));
+    });
+    if (least.value >= worst.value && !worst.parameters.empty()) continue;
+    const Plant<double> plant = loops.plant_at(least.point, mass_factor).value();
+    worst = {.value = least.value,
+             .yaw_rate_radps = loops.rate_at(least.point),
+             .parameters = loop_parameters(loops.model, plant)};
+  }
+  return worst;
+}
+
+}  // namespace
+
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
                             const UnmodelledVariation& open, const Gains<double>& gains) {
   AWMR_ASSIGN_OR_RETURN(const ConfidenceSet set, ConfidenceSet::make(model));
@@ -218,40 +262,22 @@ Result<Certificate> certify(const Model& model, const ConstraintContext& context
                           .latency_s = context.latency_s,
                           .motor_time_constant_s = context.motor_time_constant_s,
                           .modes = {}};
-  const std::span<const YawMode> modes = tuned_modes(model.vehicle, context.mode);
-  const std::vector<double> masses =
-      open.mass_factors.empty() ? std::vector<double>{1.0} : open.mass_factors;
-
-  const auto rate_at = [&](const SetPoint& point) {
-    return rates.lo * std::pow(rates.hi / rates.lo, point.back());
-  };
-  const auto plant_at = [&](const SetPoint& point, double mass_factor) {
-    auto plant = set.plant_at(std::span(point).first(point.size() - 1));
-    if (plant) plant->inertia_norm *= mass_factor;
-    return plant;
-  };
-  const auto worst_case = [&](YawMode mode, double (*measure)(const SampledHeadingLoop&)) {
-    WorstCase worst{.value = std::numeric_limits<double>::infinity()};
-    for (const double mass_factor : masses) {
-      const ValuedPoint least = least_over_set(set.dimension(), [&](const SetPoint& point) {
-        const auto plant = plant_at(point, mass_factor);
-        if (!plant) return std::numeric_limits<double>::infinity();
-        return measure(certified_loop(gains, context, *plant, rate_at(point), mode));
-      });
-      if (least.value >= worst.value && !worst.parameters.empty()) continue;
-      worst = {.value = least.value,
-               .yaw_rate_radps = rate_at(least.point),
-               .parameters = loop_parameters(model, plant_at(least.point, mass_factor).value())};
-    }
-    return worst;
-  };
-  for (const YawMode mode : modes) certificate.modes.push_back({.mode = mode});
-  parallel_for(2 * modes.size(), 0, [&](std::size_t i) {
+  for (const YawMode mode : tuned_modes(model.vehicle, context.mode)) {
+    certificate.modes.push_back({.mode = mode});
+  }
+  const CertifiedLoops loops{
+      .model = model,
+      .context = context,
+      .gains = gains,
+      .set = set,
+      .rates_radps = rates,
+      .mass_factors = open.mass_factors.empty() ? std::vector<double>{1.0} : open.mass_factors};
+  parallel_for(2 * certificate.modes.size(), 0, [&](std::size_t i) {
     ModeCertificate& one = certificate.modes[i / 2];
     if (i % 2 == 0) {
-      one.damping = worst_case(one.mode, damping_ratio);
+      one.damping = worst_case(loops, one.mode, damping_ratio);
     } else {
-      one.delay_margin_s = worst_case(one.mode, delay_margin_s);
+      one.delay_margin_s = worst_case(loops, one.mode, delay_margin_s);
     }
   });
   return certificate;
