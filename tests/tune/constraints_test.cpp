@@ -16,6 +16,7 @@
 #include "awmr/simulate/simulate.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/sampled_loop.h"
+#include "awmr/tune/steering_rate.h"
 #include "tune/paper_model.h"
 
 namespace awmr::testing {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <string_view>
 
+#include "awmr/tune/steering_rate.h"
+
 namespace awmr {
 namespace {
 

@@ -9,6 +9,7 @@
 
 #include "awmr/core/parallel.h"
 #include "awmr/tune/goals.h"
+#include "awmr/tune/steering_rate.h"
 
 namespace awmr {
 namespace {

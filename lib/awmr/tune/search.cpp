@@ -12,6 +12,7 @@
 #include <span>
 
 #include "awmr/core/random.h"
+#include "awmr/tune/steering_rate.h"
 
 namespace awmr {
 namespace {

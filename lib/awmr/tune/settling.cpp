@@ -12,6 +12,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/relaxation.h"
+#include "awmr/tune/steering_rate.h"
 
 namespace awmr {
 namespace {

@@ -30,6 +30,7 @@
 #include "awmr/tune/search.h"
 #include "awmr/tune/sensitivity.h"
 #include "awmr/tune/settling.h"
+#include "awmr/tune/steering_rate.h"
 #include "awmr/tune/trade_off.h"
 #include "awmr/tune/turning.h"
 

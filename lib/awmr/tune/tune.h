@@ -62,7 +62,7 @@ inline constexpr double kBoundFactor = 10.0;
 /// Absolute limits of the gains, independent of the baseline.
 struct TuningLimits {
   /// Largest RMS rate of the steering command due to sensor noise, deg/s, > 0, while a heading is
-  /// held at the largest u_d of the scenarios (steering_rate_rms_degps() in constraints.h).
+  /// held at the largest u_d of the scenarios (steering_rate_rms_degps() in steering_rate.h).
   /// Absent in a nominal search: no limit. Absent in a robust search: the larger of
   ///   - 0.9 of the servo's rate limit, which counts as at most 2 d_max/T, T its time constant;
   ///   - 1.25 times the rate that the feed-forward g3(r) of a noisy yaw rate causes by itself.

@@ -15,6 +15,7 @@
 #include "awmr/report/live/setup.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/simulate.h"
+#include "awmr/tune/steering_rate.h"
 
 namespace awmr {
 namespace {
