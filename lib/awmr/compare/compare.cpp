@@ -1,20 +1,17 @@
 #include "awmr/compare/compare.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <atomic>
 #include <memory>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "awmr/compare/break_even.h"
+#include "awmr/compare/check_comparison.h"
 #include "awmr/compare/decision.h"
 #include "awmr/compare/sampled_plants.h"
 #include "awmr/compare/shared_noise.h"
 #include "awmr/core/index.h"
-#include "awmr/core/option_text.h"
 #include "awmr/core/parallel.h"
 #include "awmr/model/fitted_law.h"
 #include "awmr/simulate/batch.h"
@@ -22,82 +19,6 @@
 
 namespace awmr {
 namespace {
-
-std::vector<Fault> option_faults(const std::vector<NamedGains>& gains,
-                                 const std::vector<Scenario>& scenarios,
-                                 const CompareOptions& options) {
-  std::vector<Fault> faults;
-  if (options.samples < 0) {
-    faults.push_back({ErrorCode::kOutOfRange, option_text("samples"),
-                      fmt::format("has to be 0 or more, found {}", options.samples)});
-  }
-  if (options.threads < 0) {
-    faults.push_back({ErrorCode::kOutOfRange, option_text("threads"),
-                      fmt::format("has to be 0 or more, found {}", options.threads)});
-  }
-  if (options.samples >= 0) {
-    auto fault =
-        shard_fault(options.shard, options.samples + 1L, "samples, the nominal one included");
-    if (fault) faults.push_back(std::move(*fault));
-  }
-  if (scenarios.empty()) {
-    faults.push_back(
-        {ErrorCode::kMissing, option_text("scenario"), "none given; give at least one"});
-  }
-  std::set<std::string> names;
-  for (const Scenario& scenario : scenarios) {
-    if (!names.insert(scenario.name).second) {
-      faults.push_back({ErrorCode::kGivenTwice, option_text("scenario"),
-                        fmt::format("two scenarios are named '{}', so their rows "
-                                    "could not be distinguished; rename one",
-                                    scenario.name)});
-    }
-  }
-  for (const Scenario& scenario : scenarios) {
-    if (options.break_even && scenario.tyres) {
-      faults.push_back(
-          {ErrorCode::kConflict, option_text("break_even"),
-           fmt::format("varies the scrub moment of the 3-DOF model, but scenario '{}' is on the "
-                       "four-wheel plant; leave the option out, or use --plant model",
-                       scenario.name)});
-    }
-  }
-  std::set<std::string> sets;
-  for (const NamedGains& set : gains) {
-    if (!sets.insert(set.name).second) {
-      faults.push_back(
-          {ErrorCode::kGivenTwice, option_text("gains"),
-           fmt::format("two sets of gains are named '{}'; rename one file", set.name)});
-    }
-  }
-  if (options.break_even && gains.size() > 1) {
-    faults.push_back(
-        {ErrorCode::kConflict, option_text("break_even"),
-         fmt::format("needs one set of gains, found {}; remove the others", gains.size())});
-  }
-  if (options.break_even && options.shard.count > 1) {
-    faults.push_back(
-        {ErrorCode::kConflict, option_text("break_even"),
-         fmt::format("cannot be combined with {}; remove one of them", option_text("shard"))});
-  }
-  if (gains.empty()) {
-    faults.push_back({ErrorCode::kMissing, option_text("gains"), "none given; give at least one"});
-  }
-  return faults;
-}
-
-/// Checks the number of runs, before memory is allocated for the samples. Error (input): more than
-/// kMaxRuns runs. `per_sample`: number of runs of each sample.
-Status check_runs(std::size_t per_sample, int samples) {
-  const std::size_t most = kMaxRuns / per_sample;
-  if (at(samples) + 1 <= most) return {};
-  return input_error(
-      ErrorCode::kTooLarge, option_text("samples"),
-      fmt::format("{} samples and the nominal one, in {} runs each, are {:.3g} runs, more than the "
-                  "limit of {}; give at most {} samples, or fewer scenarios or sets of gains",
-                  samples, per_sample, (samples + 1.0) * static_cast<double>(per_sample), kMaxRuns,
-                  most > 0 ? most - 1 : 0));
-}
 
 /// Identifies a run by its indices in the lists of scenarios, gains and kYawModes, and its sample.
 struct Place {
@@ -189,34 +110,66 @@ void share_noise(const Scenario& scenario, double sample_time_s, const Block& bl
   }
 }
 
+/// Everything that the runs of a comparison share.
+struct RunSetup {
+  const Model& model;
+  const std::vector<NamedGains>& gains;
+  const std::vector<Scenario>& scenarios;
+  const CompareOptions& options;
+  const SampledPlants& plants;
+  const BatchArithmetic& arithmetic;
+  Layout layout;
+};
+
 /// Runs a block. Stores each result at its row's index in `slots`, or the error in `failures`.
-void run_block(const Model& model, const std::vector<NamedGains>& gains,
-               const std::vector<Scenario>& scenarios, std::uint64_t seed,
-               const SampledPlants& plants, const BatchArithmetic& arithmetic, const Layout& layout,
-               const Block& block, Slots& slots, std::vector<Status>& failures) {
-  const Scenario& scenario = scenarios[block.scenario];
-  const NamedGains& set = gains[block.gains];
+void run_block(const RunSetup& setup, const Block& block, Slots& slots,
+               std::vector<Status>& failures) {
+  const Vehicle& vehicle = setup.model.vehicle;
+  const Scenario& scenario = setup.scenarios[block.scenario];
+  const NamedGains& set = setup.gains[block.gains];
   // The controller has the nominal values, not the drawn ones.
-  const auto controller = make_controller(plants.nominal, model.vehicle, set.gains);
+  const auto controller = make_controller(setup.plants.nominal, vehicle, set.gains);
   const YawMode mode = kYawModes[block.mode];
-  std::vector<BatchRun> runs = runs_of(plants, controller, block, mode, seed);
-  share_noise(scenario, model.vehicle.sample_time_s, block, runs);
-  auto metrics = simulate_batch(runs, scenario, model.vehicle.sample_time_s, arithmetic);
+  std::vector<BatchRun> runs = runs_of(setup.plants, controller, block, mode, setup.options.seed);
+  share_noise(scenario, vehicle.sample_time_s, block, runs);
+  auto metrics = simulate_batch(runs, scenario, vehicle.sample_time_s, setup.arithmetic);
   block.noise->remove_user();
   for (std::size_t i = 0; i < metrics.size(); ++i) {
-    const std::size_t index = layout.row(block.place(i));
+    const std::size_t index = setup.layout.row(block.place(i));
     if (!metrics[i]) {
       failures[index] = tl::unexpected(metrics[i].error());
       continue;
     }
-    metrics[i]->electric_work_j =
-        electric_work_j(*metrics[i], model.vehicle, runs[i].plant.mass_norm);
+    metrics[i]->electric_work_j = electric_work_j(*metrics[i], vehicle, runs[i].plant.mass_norm);
     slots[index] = ComparisonRow{.scenario = scenario.name,
                                  .mode = mode,
                                  .sample = static_cast<int>(block.samples[i]),
                                  .metrics = *metrics[i],
                                  .gains = set.name};
   }
+}
+
+/// Runs all blocks of this part of the comparison, or those that are begun before it is stopped.
+Result<Slots> run_blocks(const RunSetup& setup) {
+  const CompareOptions& options = setup.options;
+  const std::size_t count = setup.layout.count();
+  const std::vector<Block> blocks = blocks_of(setup.layout, options.shard);
+  Slots slots(count);
+  std::vector<Status> failures(count);
+  std::atomic<std::size_t> done = 0;
+  LoopControl control;
+  if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
+  if (options.progress) control.progress = [&] { options.progress(done, count); };
+  // Each run has its own entry, so the result does not depend on the order of the threads.
+  parallel_for(
+      blocks.size(), options.threads,
+      [&](std::size_t b) {
+        run_block(setup, blocks[b], slots, failures);
+        done += blocks[b].samples.size();
+      },
+      control);
+  for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);
+  return slots;
 }
 
 Comparison gathered(const Layout& layout, const Shard& shard, Slots slots) {
@@ -239,33 +192,14 @@ Comparison gathered(const Layout& layout, const Shard& shard, Slots slots) {
 
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options) {
-  std::vector<Fault> faults = option_faults(gains, scenarios, options);
-  if (!faults.empty()) return input_errors(std::move(faults));
-  AWMR_RETURN_IF_ERROR(check_runs(scenarios.size() * gains.size() * yaw_modes(model.vehicle).size(),
-                                  options.samples));
-  for (const NamedGains& set : gains) AWMR_RETURN_IF_ERROR(controller_for(model, set.gains));
+  AWMR_RETURN_IF_ERROR(check_comparison(model, gains, scenarios, options));
   AWMR_ASSIGN_OR_RETURN(const SampledPlants plants, sample_plants(model, scenarios, options));
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
 
   const Layout layout{scenarios.size(), gains.size(), yaw_modes(model.vehicle).size(),
                       at(options.samples) + 1};
-  Slots slots(layout.count());
-  const std::vector<Block> blocks = blocks_of(layout, options.shard);
-  std::vector<Status> failures(layout.count());
-  std::atomic<std::size_t> done = 0;
-  LoopControl control;
-  if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
-  if (options.progress) control.progress = [&] { options.progress(done, layout.count()); };
-  // Each run has its own entry, so the result does not depend on the order of the threads.
-  parallel_for(
-      blocks.size(), options.threads,
-      [&](std::size_t b) {
-        run_block(model, gains, scenarios, options.seed, plants, arithmetic, layout, blocks[b],
-                  slots, failures);
-        done += blocks[b].samples.size();
-      },
-      control);
-  for (const Status& failure : failures) AWMR_RETURN_IF_ERROR(failure);
+  AWMR_ASSIGN_OR_RETURN(Slots slots,
+                        run_blocks({model, gains, scenarios, options, plants, arithmetic, layout}));
   Comparison comparison = gathered(layout, options.shard, std::move(slots));
   comparison.arithmetic = arithmetic.rounding;
   comparison.measured_yaw_rate_degps = measured_yaw_rate_degps(model);

@@ -1,0 +1,105 @@
+#include "awmr/compare/check_comparison.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
+#include "awmr/simulate/simulate.h"
+
+namespace awmr {
+namespace {
+
+void check_numbers(const CompareOptions& options, std::vector<Fault>& faults) {
+  for (const auto& [name, number] :
+       {std::pair("samples", options.samples), std::pair("threads", options.threads)}) {
+    if (number >= 0) continue;
+    faults.push_back({ErrorCode::kOutOfRange, option_text(name),
+                      fmt::format("has to be 0 or more, found {}", number)});
+  }
+  if (options.samples < 0) return;
+  auto fault =
+      shard_fault(options.shard, options.samples + 1L, "samples, the nominal one included");
+  if (fault) faults.push_back(std::move(*fault));
+}
+
+void check_scenarios(const std::vector<Scenario>& scenarios, bool break_even,
+                     std::vector<Fault>& faults) {
+  if (scenarios.empty()) {
+    faults.push_back(
+        {ErrorCode::kMissing, option_text("scenario"), "none given; give at least one"});
+  }
+  std::set<std::string> names;
+  for (const Scenario& scenario : scenarios) {
+    if (names.insert(scenario.name).second) continue;
+    faults.push_back({ErrorCode::kGivenTwice, option_text("scenario"),
+                      fmt::format("two scenarios are named '{}', so their rows "
+                                  "could not be distinguished; rename one",
+                                  scenario.name)});
+  }
+  for (const Scenario& scenario : scenarios) {
+    if (!break_even || !scenario.tyres) continue;
+    faults.push_back(
+        {ErrorCode::kConflict, option_text("break_even"),
+         fmt::format("varies the scrub moment of the 3-DOF model, but scenario '{}' is on the "
+                     "four-wheel plant; leave the option out, or use --plant model",
+                     scenario.name)});
+  }
+}
+
+void check_gains(const std::vector<NamedGains>& gains, const CompareOptions& options,
+                 std::vector<Fault>& faults) {
+  std::set<std::string> names;
+  for (const NamedGains& set : gains) {
+    if (names.insert(set.name).second) continue;
+    faults.push_back({ErrorCode::kGivenTwice, option_text("gains"),
+                      fmt::format("two sets of gains are named '{}'; rename one file", set.name)});
+  }
+  if (options.break_even && gains.size() > 1) {
+    faults.push_back(
+        {ErrorCode::kConflict, option_text("break_even"),
+         fmt::format("needs one set of gains, found {}; remove the others", gains.size())});
+  }
+  if (options.break_even && options.shard.count > 1) {
+    faults.push_back(
+        {ErrorCode::kConflict, option_text("break_even"),
+         fmt::format("cannot be combined with {}; remove one of them", option_text("shard"))});
+  }
+  if (gains.empty()) {
+    faults.push_back({ErrorCode::kMissing, option_text("gains"), "none given; give at least one"});
+  }
+}
+
+/// Checks the number of runs, before memory is allocated for the samples. Error (input): more than
+/// kMaxRuns runs. `per_sample`: number of runs of each sample.
+Status check_runs(std::size_t per_sample, int samples) {
+  const std::size_t most = kMaxRuns / per_sample;
+  if (at(samples) + 1 <= most) return {};
+  return input_error(
+      ErrorCode::kTooLarge, option_text("samples"),
+      fmt::format("{} samples and the nominal one, in {} runs each, are {:.3g} runs, more than the "
+                  "limit of {}; give at most {} samples, or fewer scenarios or sets of gains",
+                  samples, per_sample, (samples + 1.0) * static_cast<double>(per_sample), kMaxRuns,
+                  most > 0 ? most - 1 : 0));
+}
+
+}  // namespace
+
+Status check_comparison(const Model& model, const std::vector<NamedGains>& gains,
+                        const std::vector<Scenario>& scenarios, const CompareOptions& options) {
+  std::vector<Fault> faults;
+  check_numbers(options, faults);
+  check_scenarios(scenarios, options.break_even, faults);
+  check_gains(gains, options, faults);
+  if (!faults.empty()) return input_errors(std::move(faults));
+  AWMR_RETURN_IF_ERROR(check_runs(scenarios.size() * gains.size() * yaw_modes(model.vehicle).size(),
+                                  options.samples));
+  for (const NamedGains& set : gains) AWMR_RETURN_IF_ERROR(controller_for(model, set.gains));
+  return {};
+}
+
+}  // namespace awmr
