@@ -10,10 +10,10 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
-#include "awmr/model/steady.h"
 #include "awmr/simulate/simulate.h"
 #include "macros.h"
 #include "resistance_tables.h"
+#include "sketch_values.h"
 
 namespace awmr {
 namespace {
@@ -109,84 +109,6 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   return block;
 }
 
-/// Returns AWMR_ROUTE_SPEED_MPS: 1 m/s, but at most 0.6 times the top speed, because at the top
-/// speed no force would be left for turning.
-double route_speed_mps(const Plant<double>& plant, double full_force) {
-  constexpr double kUsual_mps = 1.0;
-  constexpr double kShare = 0.6;
-  const double viscous = 4.0 * plant.back_emf_s_per_m;
-  const double top_mps = steady_rate(plant.surge, full_force, viscous).value_or(kUsual_mps);
-  return std::min(kUsual_mps, kShare * top_mps);
-}
-
-/// Fastest steady yaw rate of the vehicle at a speed, rad/s: by steering if the vehicle has it,
-/// else by the wheel forces. Absent if the yaw moment does not exceed the resistance at rest.
-///   tau_turn = l_f tau_speed tan(d_max/2)                                      [paper (41)]
-///   tau_turn = d (4 F'max - tau_speed)                              by the wheel forces
-std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle& vehicle,
-                                      double full_force, double speed_mps) {
-  const double tau_speed = plant.surge.at(speed_mps);
-  const double moment_m = vehicle.has_steering() ? plant.front_axle_m * tau_speed *
-                                                       tan_half(radians(vehicle.steering_max_deg))
-                                                 : plant.half_track_m * (full_force - tau_speed);
-  return steady_rate(plant.yaw, moment_m);
-}
-
-/// Yaw moment, m, if equal commands give forces left and right that differ by 16 % of their mean:
-/// 0.08 d tau_speed.
-double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
-  return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
-}
-
-/// Fastest steady yaw rate that the heading law reaches at a speed, rad/s, if the resistance is 1.4
-/// times the model's and the motors differ by 16 %. Outside of the boundary layer (sat = 1) it is
-/// the solution r of
-///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
-std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
-                                  double speed_mps) {
-  constexpr double kMore = 0.4;
-  return steady_rate(plant.yaw,
-                     (plant.inertia_norm * gains.mu - unequal_moment_m(plant, speed_mps)) / kMore,
-                     plant.inertia_norm * gains.lambda / kMore);
-}
-
-/// Steady heading error e with motors that differ by 16 %, rad. In the boundary layer of the
-/// heading law (heading_law.h), at r = 0:
-///   0.08 d tau_speed = I'z lambda (mu/epsilon) e
-double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
-                        double route_mps) {
-  const double stiffness_m = plant.inertia_norm * gains.lambda * gains.mu / gains.epsilon;
-  return unequal_moment_m(plant, route_mps) / stiffness_m;
-}
-
-/// Returns AWMR_ON_COURSE_RAD, rad: twice the steady heading error, within 15 to 45 deg.
-double on_course_rad(double error_rad) {
-  return std::clamp(2.0 * error_rad, radians(15.0), kMaxOnCourse_rad);
-}
-
-/// Returns AWMR_OFF_COURSE_MRAD, m rad: the limit of the integral of (heading error - e0) over the
-/// distance (control/motion_check.h), with e0 = `on_course_rad`. A turn by 180 deg with the radius
-/// R adds R (pi - e0)^2/2 to that integral. The limit is this plus 10 m rad for the distance until
-/// the turn begins, but at most 90 m rad. R is the largest turning radius at 1/4, 1/2, 3/4 and all
-/// of the route's speed, because friction at rest can make slow turns wide.
-double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
-                       const HeadingGains<double>& gains, double full_force, double route_mps,
-                       double on_course_rad) {
-  constexpr double kMin_mrad = 10.0;
-  constexpr double kMax_mrad = 90.0;
-  const double beyond_rad = radians(180.0) - on_course_rad;
-  double most = kMin_mrad;
-  for (const double share : {0.25, 0.5, 0.75, 1.0}) {
-    const double speed_mps = share * route_mps;
-    const auto by_vehicle = turn_of_vehicle(plant, vehicle, full_force, speed_mps);
-    const auto by_law = turn_of_law(plant, gains, speed_mps);
-    if (!by_vehicle || !by_law) return kMax_mrad;
-    const double radius_m = speed_mps / std::min(*by_vehicle, *by_law);
-    most = std::max(most, kMin_mrad + 0.5 * beyond_rad * beyond_rad * radius_m);
-  }
-  return std::min(most, kMax_mrad);
-}
-
 /// Checks that the vehicle has the exact allocation. Errors (input): it has the small-angle
 /// allocation, which only the simulated controller supports.
 Status check_allocation(const Model& model) {
@@ -253,24 +175,26 @@ Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double
   return {};
 }
 
-/// Sets the speed of routes and the limits of the heading error, for the sketches.
-void set_sketch_values(const Plant<double>& plant, const Vehicle& vehicle,
-                       const HeadingGains<double>& gains, double full_force,
-                       AutopilotParameters& parameters) {
-  const double route_mps = route_speed_mps(plant, full_force);
-  parameters.route_speed_mps = single(route_mps);
-  parameters.steady_error_rad = steady_error_rad(plant, gains, route_mps);
-  const double course_rad = on_course_rad(parameters.steady_error_rad);
-  parameters.on_course_rad = single(course_rad);
-  parameters.off_course_mrad =
-      single(off_course_mrad(plant, vehicle, gains, full_force, route_mps, course_rad));
-}
-
 void set_position_filter(const Vehicle& vehicle, AutopilotParameters& parameters) {
   const double latency_s = vehicle.sensors.position_latency_s.value_or(kUsualFixLatency_s);
   parameters.position = position_filter<float>(
       vehicle.sensors.position_m.value_or(kUsualFixNoise_m), latency_s, vehicle.sample_time_s);
   parameters.position_latency_ms = static_cast<std::uint32_t>(std::lround(1000.0 * latency_s));
+}
+
+std::optional<ObserverBlock> observer_of(const ObserverGains<double>& observer,
+                                         float sample_time_s) {
+  if (!observer.is_on()) return {};
+  return ObserverBlock{single(observer.bandwidth_radps), single(observer.yaw_max_m),
+                       single(observer.surge_max), sample_time_s};
+}
+
+std::uint32_t crc_of(const AutopilotParameters& parameters) {
+  return crc32_of_parameters(&parameters.block, parameters.surge.lines.data(),
+                             parameters.surge.lines.size(), parameters.yaw.lines.data(),
+                             parameters.yaw.lines.size(),
+                             parameters.rest ? &*parameters.rest : nullptr,
+                             parameters.observer ? &*parameters.observer : nullptr);
 }
 
 }  // namespace
@@ -291,15 +215,15 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
-  set_sketch_values(plant, model.vehicle, gains.heading, full_force, parameters);
+  const SketchValues sketch = sketch_values(plant, model.vehicle, gains.heading, full_force);
+  parameters.route_speed_mps = single(sketch.route_mps);
+  parameters.steady_error_rad = sketch.steady_error_rad;
+  parameters.on_course_rad = single(sketch.on_course_rad);
+  parameters.off_course_mrad = single(sketch.off_course_mrad);
   set_position_filter(model.vehicle, parameters);
   parameters.parts = options.parts;
-  if (gains.observer.is_on()) {
-    parameters.parts.insert(FirmwarePart::kObserver);
-    parameters.observer =
-        ObserverBlock{single(gains.observer.bandwidth_radps), single(gains.observer.yaw_max_m),
-                      single(gains.observer.surge_max), parameters.sample_time_s};
-  }
+  parameters.observer = observer_of(gains.observer, parameters.sample_time_s);
+  if (parameters.observer) parameters.parts.insert(FirmwarePart::kObserver);
   parameters.split = options.split;
   parameters.line_law = options.line_law;
   parameters.block = block_of(plant, model, gains, options);
@@ -310,11 +234,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
     AWMR_RETURN_IF_ERROR(add_tables(surge, yaw, options.table_error, parameters));
   }
   parameters.rest = rest_of(plant, gains);
-  parameters.crc = crc32_of_parameters(&parameters.block, parameters.surge.lines.data(),
-                                       parameters.surge.lines.size(), parameters.yaw.lines.data(),
-                                       parameters.yaw.lines.size(),
-                                       parameters.rest ? &*parameters.rest : nullptr,
-                                       parameters.observer ? &*parameters.observer : nullptr);
+  parameters.crc = crc_of(parameters);
   return parameters;
 }
 

@@ -199,6 +199,45 @@ bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant
   return true;
 }
 
+double motor_lag_s(const Model& model) { return model.vehicle.motor_time_constant_s.value_or(0.0); }
+
+tl::unexpected<Finding> refuse(const DrivingLog& log, const char* code, std::string why) {
+  return tl::unexpected(finding(log, Severity::kError, code, std::move(why)));
+}
+
+/// The tyres that these windows determine. Error: the finding with the reason why there is no fit.
+tl::expected<ShownFit, Finding> shown_tyres(const std::vector<DrivingLog>& logs, const Model& model,
+                                            const Plant<double>& plant, const Plants& plants,
+                                            const Windows& windows) {
+  const DrivingLog& first = logs.front();
+  auto shown = fit_what_is_shown(windows, plants);
+  if (!shown) {
+    return refuse(first, "tyres-not-converged",
+                  "the logs cannot be replayed on the four-wheel plant, even with the shortest "
+                  "integration step; check the units, the columns and the model");
+  }
+  if (!shown->is_free[kFriction] && !shown->is_free[kCornering]) {
+    return refuse(
+        first, "tyres-not-shown",
+        "the logs determine neither the friction nor the cornering stiffness of the tyres; record "
+        "tighter and faster turns by wheel forces and by steering");
+  }
+  if (!shown->fit.converged) {
+    return refuse(
+        first, "tyres-not-converged",
+        "the fit of the tyres did not converge; check the units, the columns and vehicle.json. "
+        "Reason: " +
+            shown->fit.stop_reason);
+  }
+  if (lose_commands(logs, model.vehicle.sample_time_s) &&
+      !add_error_of_lost_commands(logs, plant, motor_lag_s(model), plants, *shown)) {
+    return refuse(first, "tyres-not-converged",
+                  "the fit with half of the logged commands does not converge, so the error due to "
+                  "commands between the rows is unknown; log every command of the controller");
+  }
+  return *std::move(shown);
+}
+
 Status check_vehicle(const Model& model) {
   if (model.vehicle.driven_wheels() == 4) return {};
   return input_error(
@@ -220,48 +259,23 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_replay(plant, model.file));
   const DrivingLog& first = logs.front();
-  const auto refuse = [&](const char* code, std::string why) {
-    findings.push_back(finding(first, Severity::kError, code, std::move(why)));
+  const auto fail = [&](Finding why) {
+    findings.push_back(std::move(why));
     return std::optional<TyreFit>();
   };
   const Plants plants(plant);
-  const double motor_lag_s = model.vehicle.motor_time_constant_s.value_or(0.0);
-  const std::vector<ReplayedLog> replayed = replayed_logs(logs, plant, motor_lag_s);
+  const std::vector<ReplayedLog> replayed = replayed_logs(logs, plant, motor_lag_s(model));
   const std::vector<ReplayedWindow> all = windows_in(logs, replayed);
-  if (auto missing = missing_turns(all, first, model.vehicle, plant)) {
-    findings.push_back(*std::move(missing));
-    return std::optional<TyreFit>();
-  }
+  if (auto missing = missing_turns(all, first, model.vehicle, plant)) return fail(*missing);
   const Windows windows = evenly_chosen(all);
-  auto shown = fit_what_is_shown(windows, plants);
-  if (!shown)
-    return refuse("tyres-not-converged",
-                  "the logs cannot be replayed on the four-wheel plant, even with the shortest "
-                  "integration step; check the units, the columns and the model");
-  if (!shown->is_free[kFriction] && !shown->is_free[kCornering]) {
-    return refuse(
-        "tyres-not-shown",
-        "the logs determine neither the friction nor the cornering stiffness of the tyres; record "
-        "tighter and faster turns by wheel forces and by steering");
-  }
-  if (!shown->fit.converged) {
-    return refuse(
-        "tyres-not-converged",
-        "the fit of the tyres did not converge; check the units, the columns and vehicle.json. "
-        "Reason: " +
-            shown->fit.stop_reason);
-  }
-  if (lose_commands(logs, model.vehicle.sample_time_s) &&
-      !add_error_of_lost_commands(logs, plant, motor_lag_s, plants, *shown)) {
-    return refuse("tyres-not-converged",
-                  "the fit with half of the logged commands does not converge, so the error due to "
-                  "commands between the rows is unknown; log every command of the controller");
-  }
+  const auto shown = shown_tyres(logs, model, plant, plants, windows);
+  if (!shown) return fail(shown.error());
   const auto sums = held_out(windows, plants, *shown);
-  if (!sums)
-    return refuse("tyres-not-converged",
-                  "the fit to every other window, for the comparison of the plants, does not "
-                  "converge; record a longer drive");
+  if (!sums) {
+    return fail(finding(first, Severity::kError, "tyres-not-converged",
+                        "the fit to every other window, for the comparison of the plants, does not "
+                        "converge; record a longer drive"));
+  }
   TyreFit tyres{
       .tyres = tyres_at(shown->fit.at),
       .friction = estimate_or_held(*shown, kFriction, windows.size(), first, findings),
