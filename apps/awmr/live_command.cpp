@@ -99,6 +99,34 @@ struct Followed {
   LiveEnd end = LiveEnd::kStream;
 };
 
+/// The end condition that is met; empty if there is none. `begin`: begin of the recording.
+/// `last_byte`: time of the last input.
+std::optional<LiveEnd> end_condition(const LiveCommand& command, RecorderStream& stream,
+                                     const Followed& followed, Clock::time_point begin,
+                                     Clock::time_point last_byte) {
+  const Clock::time_point now = Clock::now();
+  const auto passed = [now](Clock::time_point since, double limit_s) {
+    return limit_s > 0.0 && Seconds(now - since).count() >= limit_s;
+  };
+  if (Interruption::came()) return LiveEnd::kInterrupted;
+  if (followed.recording.full()) return LiveEnd::kFull;
+  if (stream.is_over()) return LiveEnd::kStream;
+  if (passed(begin, command.duration_s)) return LiveEnd::kDuration;
+  if (passed(last_byte, command.idle_s)) return LiveEnd::kIdle;
+  if (command.until_enough && has_enough(followed.last)) return LiveEnd::kEnough;
+  return std::nullopt;
+}
+
+/// Fits the recording up to now. If the time is not sufficient, the last model remains.
+void update_fit(const LiveFit& fit, Followed& followed) {
+  LiveUpdate update = fit.update(followed.recording);
+  if (update.out_of_time) {
+    update.model = std::move(followed.last.model);
+    update.next = std::move(followed.last.next);
+  }
+  followed.last = std::move(update);
+}
+
 /// Records the source, and fits and shows the recording at intervals, until an end condition is
 /// met.
 Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream source,
@@ -110,19 +138,6 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   Clock::time_point last_byte = begin;
   Clock::time_point look = begin;
   bool is_new = false;
-  const auto over = [&]() -> std::optional<LiveEnd> {
-    const Clock::time_point now = Clock::now();
-    const auto passed = [now](Clock::time_point since, double limit_s) {
-      return limit_s > 0.0 && Seconds(now - since).count() >= limit_s;
-    };
-    if (Interruption::came()) return LiveEnd::kInterrupted;
-    if (followed.recording.full()) return LiveEnd::kFull;
-    if (stream.is_over()) return LiveEnd::kStream;
-    if (passed(begin, command.duration_s)) return LiveEnd::kDuration;
-    if (passed(last_byte, command.idle_s)) return LiveEnd::kIdle;
-    if (command.until_enough && has_enough(followed.last)) return LiveEnd::kEnough;
-    return std::nullopt;
-  };
   std::optional<LiveEnd> end;
   while (!end) {
     // Adds the data that arrived during an update before any end condition is checked, so that none
@@ -131,15 +146,10 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
     followed.recording.add(bytes);
     if (!bytes.empty()) last_byte = Clock::now();
     is_new = is_new || !bytes.empty();
-    end = over();
+    end = end_condition(command, stream, followed, begin, last_byte);
     if (end || !is_new || Clock::now() < look) continue;
     const Clock::time_point looked = Clock::now();
-    LiveUpdate update = fit.update(followed.recording);
-    if (update.out_of_time) {
-      update.model = std::move(followed.last.model);
-      update.next = std::move(followed.last.next);
-    }
-    followed.last = std::move(update);
+    update_fit(fit, followed);
     screen.show(followed.last);
     look = next_look(begin, looked, command.every_s);
     is_new = false;
