@@ -1,7 +1,6 @@
 #include "awmr/compare/decision.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -153,50 +152,6 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
   return changed;
 }
 
-/// Joins the names of modes: "differential and combined"; "none" for an empty list.
-std::string listed(const std::vector<Contender>& contenders) {
-  std::vector<std::string> labels;
-  for (const Contender& one : contenders) labels.push_back(one.label());
-  return labels.empty() ? "none" : fmt::format("{}", fmt::join(labels, " and "));
-}
-
-std::string in_words(const Change& change) {
-  switch (change.kind) {
-    case ChangeKind::kPlant:
-      return fmt::format("on the {} plant", change.setting);
-    case ChangeKind::kWeights:
-      return fmt::format("with all weights {}", change.setting);
-    case ChangeKind::kGains:
-      return fmt::format("with gains {:.1f} times {}", kGainsFactor, change.setting);
-  }
-  return {};
-}
-
-/// Text such as "; differential completed 0 of 1 on the four-wheel plant": names the modes that
-/// complete no run under a change.
-std::string incomplete_in_words(const std::vector<Change>& changes) {
-  std::string text;
-  for (const Change& change : changes) {
-    std::vector<std::string> labels;
-    std::size_t runs = 0;
-    for (const Completion& one : change.completed) {
-      if (one.count > 0) continue;
-      labels.push_back(one.contender.label());
-      runs = one.of;
-    }
-    if (labels.empty()) continue;
-    text += fmt::format("; {} completed 0 of {} {}", fmt::join(labels, " and "), runs,
-                        in_words(change));
-  }
-  return text;
-}
-
-std::string trials_in_words(const std::vector<std::string_view>& trials) {
-  if (trials.empty()) return {};
-  return fmt::format("; {} would show which plant is right (awmr suggest)",
-                     fmt::join(trials, " and "));
-}
-
 }  // namespace
 
 std::vector<Contender> Decision::never_behind() const {
@@ -280,28 +235,6 @@ Decision decide(const ScenarioRows& scenario, const ScenarioStatistics& statisti
                  return change.scenario == scenario.scenario && change.not_run.empty();
                });
   return decision;
-}
-
-std::string decision_text(const Decision& decision) {
-  const std::vector<Contender> never_behind = decision.never_behind();
-  const bool is_undecided = never_behind.empty();
-  std::vector<std::string> words;
-  for (const Change& change : decision.changes) {
-    if (!is_undecided) {
-      words.push_back(in_words(change));
-    } else if (change.first != decision.first) {
-      words.push_back(fmt::format("{} first {}", listed(change.first), in_words(change)));
-    }
-  }
-  const bool differ = decision.kind() != DecisionKind::kDecided;
-  const std::string trials = differ ? trials_in_words(decision.deciding_trials()) : "";
-  const std::string incomplete = incomplete_in_words(decision.changes);
-  if (is_undecided) {
-    return fmt::format("; undecided: {}{}{}", fmt::join(words, ", "), incomplete, trials);
-  }
-  return fmt::format("; {} a first place {}{}{}",
-                     listed(never_behind) + (never_behind.size() == 1 ? " keeps" : " keep"),
-                     fmt::join(words, ", "), incomplete, trials);
 }
 
 }  // namespace awmr

@@ -68,10 +68,6 @@ Decision decide(const ScenarioRows& scenario, const ScenarioStatistics& statisti
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed);
 
-/// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...", then the modes
-/// that complete no run under a change, and the trials that would decide between the plants.
-std::string decision_text(const Decision& decision);
-
 /// Verdict on a scenario in one sentence: the best mode, how far the others are behind, and how
 /// robust the result is. A single mode of rank 1 is called "ahead here" instead of "best" if it
 /// does not keep rank 1 with another plant, other weights or other gains.

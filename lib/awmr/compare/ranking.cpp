@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
+#include "awmr/compare/ranking_entry.h"
 #include "awmr/compare/scoring.h"
-#include "awmr/core/binomial.h"
 #include "awmr/core/index.h"
 #include "awmr/core/random.h"
 #include "awmr/core/sample_quantile.h"
@@ -19,90 +18,9 @@ namespace {
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 constexpr int kWeightings = 1000;
 
-/// A mode to be ranked, with the logarithms from which its score is computed.
-struct Entry {
-  std::size_t mode = 0;  ///< index in ScenarioRows::modes
-  const ModeRows* rows = nullptr;
-  /// log_score() of each run in the statistics (ModeRows::counted).
-  std::vector<double> log_scores;
-  std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
-  /// False: completes significantly less often than the mode that completes most often.
-  bool completes = true;
-
-  double log_score() const { return mean(log_scores); }
-
-  static double mean(const std::vector<double>& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  }
-};
-
-Entry entry_of(const ScenarioRows& scenario, std::size_t mode,
-               const std::vector<ScoredMetric>& scoring) {
-  const ModeRows& rows = scenario.modes[mode];
-  Entry entry{
-      .mode = mode, .rows = &rows, .log_scores = log_scores(rows, scoring), .mean_losses = {}};
-  for (const ScoredMetric& scored : scoring) {
-    entry.mean_losses.push_back(mean_log_loss(rows, scored));
-  }
-  return entry;
-}
-
-/// True if two modes complete about equally often: the exact McNemar test finds no significant
-/// difference. With a single run, or if one completes all runs and the other none, they must
-/// complete equally often.
-bool complete_alike(const ModeRows& a, const ModeRows& b) {
-  const auto first = a.counted();
-  const auto second = b.counted();
-  const std::size_t apart = a.completed_count() > b.completed_count()
-                                ? a.completed_count() - b.completed_count()
-                                : b.completed_count() - a.completed_count();
-  if (first.size() < 2 || apart == first.size()) return apart == 0;
-  std::size_t only_first = 0;
-  std::size_t only_second = 0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    if (first[i].metrics.completed && !second[i].metrics.completed) ++only_first;
-    if (second[i].metrics.completed && !first[i].metrics.completed) ++only_second;
-  }
-  return mcnemar_p(only_first, only_second) >= kSignificance;
-}
-
-/// Order of modes with equal scores: by mode, then by name of the gains. It does not depend on the
-/// order in which the gains are given.
-bool is_before(const ModeRows& a, const ModeRows& b) {
-  return std::tie(a.contender.mode, a.contender.gains) <
-         std::tie(b.contender.mode, b.contender.gains);
-}
-
-/// Entries, best first: those that complete (Entry::completes), sorted by score; then the others,
-/// sorted by number of completed runs.
-std::vector<Entry> sorted_entries(const ScenarioRows& scenario,
-                                  const std::vector<ScoredMetric>& scoring) {
-  std::vector<Entry> entries;
-  for (std::size_t mode = 0; mode < scenario.modes.size(); ++mode) {
-    entries.push_back(entry_of(scenario, mode, scoring));
-  }
-  const auto most = std::max_element(
-      scenario.modes.begin(), scenario.modes.end(), [](const ModeRows& a, const ModeRows& b) {
-        const std::size_t first = a.completed_count();
-        const std::size_t second = b.completed_count();
-        return first < second || (first == second && is_before(b, a));
-      });
-  for (Entry& entry : entries) entry.completes = complete_alike(*entry.rows, *most);
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    if (a.completes != b.completes) return a.completes;
-    if (!a.completes && a.rows->completed_count() != b.rows->completed_count()) {
-      return a.rows->completed_count() > b.rows->completed_count();
-    }
-    const double first = a.log_score();
-    const double second = b.log_score();
-    return first < second || (!(second < first) && is_before(*a.rows, *b.rows));
-  });
-  return entries;
-}
-
 /// Mean difference of log scores, `own` minus `leader`, in each bootstrap resample, ascending:
 ///   sum over the scored metrics k of w_k (mean loss of own - mean loss of leader)
-std::vector<double> resampled_differences(const Entry& own, const Entry& leader,
+std::vector<double> resampled_differences(const RankingEntry& own, const RankingEntry& leader,
                                           const std::vector<ScoredMetric>& scoring,
                                           const ScenarioStatistics& statistics) {
   std::vector<double> means(kResamples, 0.0);
@@ -123,7 +41,7 @@ struct Behind {
   Conclusion conclusion{};
 };
 
-Behind behind(const Entry& own, const Entry& leader, double relevance,
+Behind behind(const RankingEntry& own, const RankingEntry& leader, double relevance,
               const std::vector<ScoredMetric>& scoring, const ScenarioStatistics& statistics) {
   const double margin = std::log1p(relevance);
   if (own.log_scores.size() < 2) {
@@ -142,13 +60,14 @@ Behind behind(const Entry& own, const Entry& leader, double relevance,
 }
 
 /// Divides a count of 1 equally among the entries whose value is within `margin` of the smallest,
-/// because smaller differences do not matter. Only entries with Entry::completes are considered.
+/// because smaller differences do not matter. Only entries that complete
+/// (RankingEntry::completes) are considered.
 template <class Value>
-void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
+void count_best(const std::vector<RankingEntry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
   constexpr double kRounding = 1e-12;
   double least = value(entries.front());  // the first entry has completes == true
-  for (const Entry& entry : entries) {
+  for (const RankingEntry& entry : entries) {
     if (entry.completes) least = std::min(least, value(entry));
   }
   const double most = least + margin + kRounding * (1.0 + std::abs(least));
@@ -161,7 +80,7 @@ void count_best(const std::vector<Entry>& entries, double margin, Value&& value,
 
 /// For each entry, the share of random weightings of the metrics for which it is best. The
 /// weightings are uniformly distributed over all that sum to 1.
-std::vector<double> shares_by_weights(const std::vector<Entry>& entries, double margin,
+std::vector<double> shares_by_weights(const std::vector<RankingEntry>& entries, double margin,
                                       Random random) {
   std::vector<double> shares(entries.size(), 0.0);
   std::vector<double> weights(entries.front().mean_losses.size());
@@ -169,7 +88,7 @@ std::vector<double> shares_by_weights(const std::vector<Entry>& entries, double 
     for (double& weight : weights) weight = -std::log1p(-random.uniform());  // Dirichlet(1, ..., 1)
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     for (double& weight : weights) weight /= sum;
-    const auto loss = [&](const Entry& entry) {
+    const auto loss = [&](const RankingEntry& entry) {
       return std::inner_product(weights.begin(), weights.end(), entry.mean_losses.begin(), 0.0);
     };
     count_best(entries, margin, loss, shares);
@@ -178,15 +97,21 @@ std::vector<double> shares_by_weights(const std::vector<Entry>& entries, double 
   return shares;
 }
 
-std::vector<double> shares_by_samples(const std::vector<Entry>& entries, double margin) {
+std::vector<double> shares_by_samples(const std::vector<RankingEntry>& entries, double margin) {
   const std::size_t n = entries.front().log_scores.size();
   std::vector<double> shares(entries.size(), 0.0);
   for (std::size_t sample = 0; sample < n; ++sample) {
     count_best(
-        entries, margin, [&](const Entry& entry) { return entry.log_scores[sample]; }, shares);
+        entries, margin, [&](const RankingEntry& entry) { return entry.log_scores[sample]; },
+        shares);
   }
   for (double& share : shares) share /= static_cast<double>(n);
   return shares;
+}
+
+bool is_scored(MetricId metric, const std::vector<ScoredMetric>& scoring) {
+  return std::any_of(scoring.begin(), scoring.end(),
+                     [&](const ScoredMetric& scored) { return scored.metric->id == metric; });
 }
 
 /// True if two modes are equivalent in every scored metric that both have. The difference of the
@@ -196,10 +121,7 @@ bool equivalent_in_all(const Contender& a, const Contender& b,
                        const std::vector<PairedDifference>& differences) {
   bool any = false;
   for (const PairedDifference& d : differences) {
-    const bool scored = std::any_of(scoring.begin(), scoring.end(), [&](const ScoredMetric& s) {
-      return s.metric->id == d.metric;
-    });
-    if (!scored || !d.is_between(a, b) || !d.mean) continue;
+    if (!is_scored(d.metric, scoring) || !d.is_between(a, b) || !d.mean) continue;
     if (d.conclusion != Conclusion::kEquivalent) return false;
     any = true;
   }
@@ -213,15 +135,26 @@ bool dominates(const Contender& other, const Contender& own,
                const std::vector<PairedDifference>& differences) {
   bool better = false;
   for (const PairedDifference& d : differences) {
-    const bool scored = std::any_of(scoring.begin(), scoring.end(), [&](const ScoredMetric& s) {
-      return s.metric->id == d.metric;
-    });
-    if (!scored || !d.is_between(own, other) || d.conclusion != Conclusion::kRelevant) continue;
+    if (!is_scored(d.metric, scoring) || !d.is_between(own, other) ||
+        d.conclusion != Conclusion::kRelevant)
+      continue;
     const bool first_is_worse = *d.mean > 0.0;
     if (first_is_worse != (d.first == own)) return false;
     better = true;
   }
   return better;
+}
+
+/// A mode before it is compared with the others. `best`: entry of the first mode in the list.
+RankedMode unranked_mode(const RankingEntry& own, const RankingEntry& best, double by_weights,
+                         double by_samples) {
+  RankedMode mode;
+  mode.contender = own.rows->contender;
+  mode.score = std::exp(own.log_score() - best.log_score());
+  mode.completed_share = own.rows->completed_share();
+  mode.first_by_weights = by_weights;
+  if (own.log_scores.size() >= 2) mode.first_by_samples = by_samples;
+  return mode;
 }
 
 /// Replaces first_by_weights of the modes that are tied for rank 1 by the mean over these modes,
@@ -273,34 +206,29 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario, const ScenarioStatist
                              const Preferences& preferences, std::uint64_t seed) {
   const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
   if (!has_a_goal(scenario) || scoring.empty()) return {};
-  const std::vector<Entry> entries = sorted_entries(scenario, scoring);
+  const std::vector<RankingEntry> entries = sorted_entries(scenario, scoring);
   const double margin = std::log1p(preferences.relevance);
   const std::vector<double> by_weights =
       shares_by_weights(entries, margin, Random(seed, kWeightStream));
   const std::vector<double> by_samples = shares_by_samples(entries, margin);
+  const auto behind_entry = [&](const RankingEntry& own, const RankingEntry& other) {
+    return behind(own, other, preferences.relevance, scoring, statistics);
+  };
   std::vector<RankedMode> ranking;
   std::size_t leader = 0;  // index of the best entry of the current rank
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const Entry& own = entries[i];
-    RankedMode ranked;
-    ranked.contender = own.rows->contender;
-    ranked.score = std::exp(own.log_score() - entries.front().log_score());
-    ranked.completed_share = own.rows->completed_share();
-    ranked.first_by_weights = by_weights[i];
-    if (own.log_scores.size() >= 2) ranked.first_by_samples = by_samples[i];
+    const RankingEntry& own = entries[i];
+    RankedMode ranked = unranked_mode(own, entries.front(), by_weights[i], by_samples[i]);
     if (i > 0) {
-      const auto behind_entry = [&](const Entry& other) {
-        return behind(own, other, preferences.relevance, scoring, statistics);
-      };
-      const Behind first = behind_entry(entries.front());
+      const RankingEntry& ahead = entries[leader];
+      const Behind first = behind_entry(own, entries.front());
+      const bool alike = complete_alike(*own.rows, *ahead.rows);
+      const bool equal = alike && equivalent_in_all(own.rows->contender, ahead.rows->contender,
+                                                    scoring, statistics.differences);
       ranked.behind_ci95 = first.ratio_ci95;
-      ranked.towards_leader =
-          leader == 0 ? first.conclusion : behind_entry(entries[leader]).conclusion;
-      const bool alike = complete_alike(*own.rows, *entries[leader].rows);
-      if (alike && equivalent_in_all(own.rows->contender, entries[leader].rows->contender, scoring,
-                                     statistics.differences)) {
-        ranked.towards_leader = Conclusion::kEquivalent;
-      }
+      ranked.towards_leader = equal         ? Conclusion::kEquivalent
+                              : leader == 0 ? first.conclusion
+                                            : behind_entry(own, ahead).conclusion;
       if (!alike || ranked.towards_leader == Conclusion::kRelevant) leader = i;
     }
     ranked.rank = static_cast<int>(leader) + 1;

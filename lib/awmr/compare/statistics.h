@@ -11,41 +11,13 @@
 
 #include "awmr/compare/compare.h"
 #include "awmr/compare/metric_columns.h"
+#include "awmr/compare/mode_rows.h"
 #include "awmr/compare/preferences.h"
 #include "awmr/core/index.h"
 #include "awmr/core/interval.h"
 #include "awmr/core/name_table.h"
 
 namespace awmr {
-
-/// Rows of one contender in one scenario: sample 0 (the nominal model), then the drawn samples.
-struct ModeRows {
-  Contender contender;
-  std::span<const ComparisonRow> rows;  ///< sample 0 first, then the drawn samples; never empty
-
-  const Metrics& nominal() const { return rows.front().metrics; }
-  /// The counted rows, from which all statistics are computed: those of the drawn samples, or the
-  /// nominal run if there are no samples.
-  std::span<const ComparisonRow> counted() const {
-    return rows.size() > 1 ? rows.subspan(1) : rows;
-  }
-  std::size_t completed_count() const;
-  /// Share of the counted runs that completed, in [0, 1].
-  double completed_share() const;
-  std::string label() const { return contender.label(); }
-};
-
-/// Rows of one scenario, by contender.
-struct ScenarioRows {
-  std::string scenario;
-  std::vector<ModeRows> modes;
-};
-
-/// Groups the rows by scenario and contender. Precondition: all samples are complete
-/// (evaluated_part()).
-std::vector<ScenarioRows> group(const Comparison& comparison);
-/// Returns the comparison without the samples that some contenders have not finished.
-Comparison evaluated_part(const Comparison& comparison);
 
 /// Mean and quantiles of one metric of a contender.
 struct Summary {

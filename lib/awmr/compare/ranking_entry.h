@@ -1,0 +1,40 @@
+/// The modes of a scenario in the order of their scores. Private to compare/.
+#pragma once
+
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "awmr/compare/mode_rows.h"
+#include "awmr/compare/scoring.h"
+
+namespace awmr {
+
+/// A mode to be ranked, with the logarithms from which its score is computed.
+struct RankingEntry {
+  std::size_t mode = 0;  ///< index in ScenarioRows::modes
+  const ModeRows* rows = nullptr;
+  /// log_score() of each run in the statistics (ModeRows::counted).
+  std::vector<double> log_scores;
+  std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
+  /// False: completes significantly less often than the mode that completes most often.
+  bool completes = true;
+
+  double log_score() const { return mean(log_scores); }
+
+  static double mean(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+};
+
+/// True if two modes complete about equally often: the exact McNemar test finds no significant
+/// difference. With a single run, or if one completes all runs and the other none, they must
+/// complete equally often.
+bool complete_alike(const ModeRows& a, const ModeRows& b);
+
+/// Entries, best first: those that complete (RankingEntry::completes), sorted by score; then the
+/// others, sorted by number of completed runs.
+std::vector<RankingEntry> sorted_entries(const ScenarioRows& scenario,
+                                         const std::vector<ScoredMetric>& scoring);
+
+}  // namespace awmr
