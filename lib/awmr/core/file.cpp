@@ -7,29 +7,20 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <climits>
 #include <cstring>
 #include <optional>
 #include <set>
-#include <thread>
 #include <utility>
 
 #include "awmr/core/opened_file.h"
+#include "awmr/core/output_target.h"
 #include "awmr/core/temporary_file.h"
 
 namespace awmr {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kMaxLinks = 40;  ///< maximum chain of symbolic links, as in Linux
-
-std::string reason() { return std::strerror(errno); }
-
-tl::unexpected<Error> write_error(const fs::path& path, const std::string& why) {
-  return input_error(ErrorCode::kCannotWrite, path.string(), "cannot write the file: " + why);
-}
 
 /// Maximum number of bytes requested in one call of read().
 constexpr std::size_t kBlock = std::size_t{1} << 18U;
@@ -46,77 +37,6 @@ bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
     if (count <= 0) return count == 0;
   }
   return true;
-}
-
-/// Resolves symbolic links. The last link may point to a missing file. Empty for a loop of links.
-std::optional<fs::path> resolved(fs::path path) {
-  std::error_code error;
-  for (int i = 0; i < kMaxLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
-    const fs::path next = fs::read_symlink(path, error);
-    if (error) return std::nullopt;
-    path = next.is_absolute() ? next : path.parent_path() / next;
-  }
-  if (fs::is_symlink(fs::symlink_status(path, error))) return std::nullopt;
-  return path;
-}
-
-/// Where an output is written, and what exists there.
-struct Target {
-  fs::path path;  ///< with symbolic links resolved
-  bool exists = false;
-  bool is_stream = false;  ///< a terminal, a pipe or another device: written directly
-  struct stat status {};
-};
-
-Result<Target> target_of(const fs::path& path) {
-  Target target{.path = path};
-  target.exists = ::stat(path.c_str(), &target.status) == 0;
-  if (!target.exists && errno != ENOENT) return write_error(path, reason());
-  if (target.exists && S_ISDIR(target.status.st_mode)) {
-    return write_error(path, "this is a directory; give a file");
-  }
-  target.is_stream = target.exists && !S_ISREG(target.status.st_mode);
-  if (target.is_stream) return target;
-  const auto file = resolved(path);
-  if (!file) return write_error(path, "its symbolic links form a loop; give another name");
-  target.path = *file;
-  if (!target.exists) return target;
-  const bool is_writable =
-      (target.status.st_mode & 0222U) != 0 && ::access(path.c_str(), W_OK) == 0;
-  if (!is_writable) {
-    return write_error(path, "it is read-only; make it writable or give another name");
-  }
-  if (target.status.st_nlink > 1) {
-    return write_error(path,
-                       "the file has a second name (hard link), under which the old content would "
-                       "remain; remove one of the two or give another name");
-  }
-  return target;
-}
-
-/// Opens a pipe or device for writing. Waits up to kPipeWait_s until a program reads the pipe.
-Result<Descriptor> open_stream(const fs::path& path) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPipeWait_s);
-  while (true) {
-    Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
-    if (file.number() >= 0) {
-      ::fcntl(file.number(), F_SETFL, ::fcntl(file.number(), F_GETFL) & ~O_NONBLOCK);
-      return file;
-    }
-    if (errno != ENXIO) return write_error(path, reason());
-    if (std::chrono::steady_clock::now() > end) {
-      return write_error(path, fmt::format("no program reads this pipe after {:g} s; start the "
-                                           "reader first, or give a file",
-                                           kPipeWait_s));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-}
-
-Status write_stream(const fs::path& path, std::string_view bytes) {
-  AWMR_ASSIGN_OR_RETURN(const Descriptor file, open_stream(path));
-  if (!write_all(file.number(), bytes)) return write_error(path, reason());
-  return {};
 }
 
 /// Checks an output before it is written. Errors (fault): `read_back` rejects the bytes.
@@ -138,7 +58,7 @@ Result<PathKind> kind_of(const fs::path& path) {
   if (::stat(path.c_str(), &status) != 0) {
     if (errno == ENOENT || errno == ENOTDIR) return PathKind::kNothing;
     return input_error(ErrorCode::kCannotRead, path.string(),
-                       "cannot look up this path: " + reason());
+                       std::string("cannot look up this path: ") + std::strerror(errno));
   }
   if (S_ISREG(status.st_mode)) return PathKind::kFile;
   return S_ISDIR(status.st_mode) ? PathKind::kDirectory : PathKind::kOther;
@@ -168,20 +88,20 @@ void flush_directory(const fs::path& path) {
 struct Staged {
   fs::path path;  ///< as the user gave it
   std::string_view bytes;
-  Target target;
+  OutputTarget target;
   std::optional<TemporaryFile> temporary;  ///< none if the output is a pipe or a device
 };
 
 Result<Staged> stage(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
   AWMR_RETURN_IF_ERROR(check_read_back(path, bytes, read_back));
-  AWMR_ASSIGN_OR_RETURN(Target target, target_of(path));
+  AWMR_ASSIGN_OR_RETURN(OutputTarget target, output_target(path));
   if (target.is_stream) return Staged{path, bytes, std::move(target), std::nullopt};
   const fs::path directory = directory_of(target.path);
   remove_stale_temporaries(directory);
   auto temporary = TemporaryFile::in(directory);
-  if (!temporary) return write_error(path, reason());
+  if (!temporary) return write_error(path);
   const mode_t mode = target.exists ? target.status.st_mode & 07777U : 0666U & ~creation_mask();
-  if (!temporary->write(bytes, mode)) return write_error(path, reason());
+  if (!temporary->write(bytes, mode)) return write_error(path);
   return Staged{path, bytes, std::move(target), std::move(temporary)};
 }
 
@@ -191,7 +111,7 @@ Status finish(std::vector<Staged> files) {
     if (!file.temporary) {
       AWMR_RETURN_IF_ERROR(write_stream(file.path, file.bytes));
     } else if (!file.temporary->rename_to(file.target.path)) {
-      return write_error(file.path, reason());
+      return write_error(file.path);
     }
   }
   std::set<fs::path> directories;
@@ -209,7 +129,8 @@ Result<std::string> read_file(const fs::path& path, std::size_t max_bytes) {
   std::string bytes;
   bytes.reserve(std::min(file.size(), max_bytes) + kBlock);
   if (file.size() <= max_bytes && !read_all(file.descriptor(), max_bytes, bytes)) {
-    return input_error(ErrorCode::kCannotRead, file.name(), "cannot read the file: " + reason());
+    return input_error(ErrorCode::kCannotRead, file.name(),
+                       std::string("cannot read the file: ") + std::strerror(errno));
   }
   if (std::max(file.size(), bytes.size()) > max_bytes) {
     return too_long_error(file.name(), max_bytes);
@@ -237,7 +158,7 @@ Status write_files(std::span<const OutputFile> files) {
 }
 
 Status check_output(const fs::path& path, std::span<const fs::path> inputs) {
-  AWMR_ASSIGN_OR_RETURN(const Target target, target_of(path));
+  AWMR_ASSIGN_OR_RETURN(const OutputTarget target, output_target(path));
   if (target.is_stream) return {};
   for (const fs::path& input : inputs) {
     struct stat status {};
@@ -249,7 +170,8 @@ Status check_output(const fs::path& path, std::span<const fs::path> inputs) {
   }
   const fs::path directory = directory_of(target.path);
   if (::access(directory.c_str(), W_OK | X_OK) != 0) {
-    return write_error(path, fmt::format("directory {}: {}", directory.string(), reason()));
+    return write_error(path,
+                       fmt::format("directory {}: {}", directory.string(), std::strerror(errno)));
   }
   return {};
 }
@@ -297,9 +219,9 @@ Status check_output_directory(const fs::path& path) {
                        "this is a file, but a directory is needed; give another name");
   }
   if (::access(there.c_str(), W_OK | X_OK) != 0) {
-    return input_error(
-        ErrorCode::kCannotWrite, path.string(),
-        fmt::format("no file can be made in {}: {}; give another name", there.string(), reason()));
+    return input_error(ErrorCode::kCannotWrite, path.string(),
+                       fmt::format("no file can be made in {}: {}; give another name",
+                                   there.string(), std::strerror(errno)));
   }
   return {};
 }
