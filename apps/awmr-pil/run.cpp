@@ -73,39 +73,30 @@ GpsLimits gps_limits_of(const AutopilotParameters& parameters) {
 }
 
 Result<Inputs> read_inputs(const PilOptions& options) {
-  auto model = read_model(options.model);
-  if (!model) return tl::unexpected(model.error());
-  const auto gains = read_gains_for(options.gains, model->vehicle.sample_time_s);
-  if (!gains) return tl::unexpected(gains.error());
-  const auto scenario = read_scenario(options.scenario);
-  if (!scenario) return tl::unexpected(scenario.error());
-  AWMR_RETURN_IF_ERROR(check_scenario(*scenario, options.scenario.string()));
-  if (options.link == cli::PilLink::kMemory) AWMR_RETURN_IF_ERROR(check_sample_time(*model));
-  AWMR_RETURN_IF_ERROR(check_mode(model->vehicle, options.mode));
-  const auto plant = plant_for(*scenario, *model);
-  if (!plant) return tl::unexpected(plant.error());
-  const auto names = cli::emit_inputs(options.model, options.gains);
-  if (!names) return tl::unexpected(names.error());
-  if (estimates_position(*scenario)) know_receiver(*scenario->sensors->gps, *model);
-  const Mission mission = mission_of(*scenario);
   Inputs in;
-  in.emit = emit_options_for(options.emit, *scenario, mission);
-  const auto parameters = autopilot_parameters(*model, *gains, *names, in.emit);
-  if (!parameters) return tl::unexpected(parameters.error());
-  in.setup = {.plant = *plant,
-              .sample_time_s = model->vehicle.sample_time_s,
-              .force_max = model->vehicle.wheel_force.hi,
-              .scenario = *scenario,
+  AWMR_ASSIGN_OR_RETURN(in.model, read_model(options.model));
+  const Vehicle& vehicle = in.model.vehicle;
+  AWMR_ASSIGN_OR_RETURN(in.gains, read_gains_for(options.gains, vehicle.sample_time_s));
+  AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(options.scenario));
+  AWMR_RETURN_IF_ERROR(check_scenario(scenario, options.scenario.string()));
+  if (options.link == cli::PilLink::kMemory) AWMR_RETURN_IF_ERROR(check_sample_time(in.model));
+  AWMR_RETURN_IF_ERROR(check_mode(vehicle, options.mode));
+  AWMR_ASSIGN_OR_RETURN(const auto plant, plant_for(scenario, in.model));
+  AWMR_ASSIGN_OR_RETURN(in.names, cli::emit_inputs(options.model, options.gains));
+  if (estimates_position(scenario)) know_receiver(*scenario.sensors->gps, in.model);
+  const Mission mission = mission_of(scenario);
+  in.emit = emit_options_for(options.emit, scenario, mission);
+  AWMR_ASSIGN_OR_RETURN(in.parameters, autopilot_parameters(in.model, in.gains, in.names, in.emit));
+  in.emit.parts = in.parameters.parts;
+  in.setup = {.plant = plant,
+              .sample_time_s = vehicle.sample_time_s,
+              .force_max = vehicle.wheel_force.hi,
+              .scenario = scenario,
               .mission = mission,
               .mode = options.mode,
               .injection = options.injection,
-              .limits = parameters->block.safety,
-              .gps_limits = gps_limits_of(*parameters)};
-  in.model = std::move(*model);
-  in.gains = *gains;
-  in.names = *names;
-  in.emit.parts = parameters->parts;
-  in.parameters = *parameters;
+              .limits = in.parameters.block.safety,
+              .gps_limits = gps_limits_of(in.parameters)};
   return in;
 }
 
@@ -121,7 +112,7 @@ Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
   }
   if (in.setup.injection == Injection::kParameters) parameters.crc ^= 1U;
   const auto host = host_executor(parameters, in.setup.mission);
-  if (const auto started = host->start(); !started) return tl::unexpected(started.error());
+  AWMR_RETURN_IF_ERROR(host->start());
   LoopSetup setup = in.setup;
   setup.resets = resets;
   return run_loop(setup, *host);
@@ -172,7 +163,7 @@ Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Input
   }
   watch.doing("searching for the longest step");
   const auto host = host_executor(in.parameters, in.setup.mission);
-  if (const auto started = host->start(); !started) return tl::unexpected(started.error());
+  AWMR_RETURN_IF_ERROR(host->start());
   AWMR_ASSIGN_OR_RETURN(
       const Hostile hostile,
       provoke(chip, *host, in.parameters.block.safety, in.setup.mission,
@@ -192,34 +183,30 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in, const Watc
   if (options.build_directory) AWMR_RETURN_IF_ERROR(prepare_to_keep(*options.build_directory));
   AWMR_ASSIGN_OR_RETURN(const auto folder, WorkFolder::make());
   watch.doing("compiling the firmware");
-  const auto library = firmware_library(in.model, in.gains, in.names, in.emit);
-  if (!library) return tl::unexpected(library.error());
-  const auto elf = build_firmware(
-      folder->path(), *library,
-      {.link = options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart,
-       .optimize = *options.optimize,
-       .mission = mission_header(in.setup.mission),
-       .is_directed = has_unsigned_speed(in.setup.scenario),
-       .is_estimated = estimates_position(in.setup.scenario)});
-  if (!elf) return tl::unexpected(elf.error());
+  AWMR_ASSIGN_OR_RETURN(const auto library,
+                        firmware_library(in.model, in.gains, in.names, in.emit));
+  AWMR_ASSIGN_OR_RETURN(
+      const fs::path elf,
+      build_firmware(
+          folder->path(), library,
+          {.link = options.link == cli::PilLink::kMemory ? LinkKind::kMemory : LinkKind::kUart,
+           .optimize = *options.optimize,
+           .mission = mission_header(in.setup.mission),
+           .is_directed = has_unsigned_speed(in.setup.scenario),
+           .is_estimated = estimates_position(in.setup.scenario)}));
   if (options.build_directory) {
     AWMR_RETURN_IF_ERROR(keep_firmware(folder->path(), *options.build_directory));
   }
-  auto chip = connect(options, in, *elf);
-  if (!chip) return tl::unexpected(chip.error());
-  const auto started = (*chip)->start();
-  if (!started) return tl::unexpected(started.error());
+  AWMR_ASSIGN_OR_RETURN(const std::unique_ptr<Chip> chip, connect(options, in, elf));
+  ChipRun run;
+  AWMR_ASSIGN_OR_RETURN(run.start_fault, chip->start());
   watch.doing(options.port ? "running on the board" : "running on the emulated chip");
   const double before_s = elapsed_s(!options.port);
-  auto rows = run_loop(in.setup, **chip, watch.progress);
-  if (!rows) return tl::unexpected(rows.error());
+  AWMR_ASSIGN_OR_RETURN(run.rows, run_loop(in.setup, *chip, watch.progress));
   const double taken_s = elapsed_s(!options.port) - before_s;
-  ChipRun run;
-  run.real_time_factor = static_cast<double>(rows->size()) * in.setup.sample_time_s / taken_s;
-  run.rows = std::move(*rows);
-  AWMR_ASSIGN_OR_RETURN(run.hostile, hostile_of(options, in, **chip, watch));
-  run.figures = (*chip)->figures();
-  run.start_fault = *started;
+  run.real_time_factor = static_cast<double>(run.rows.size()) * in.setup.sample_time_s / taken_s;
+  AWMR_ASSIGN_OR_RETURN(run.hostile, hostile_of(options, in, *chip, watch));
+  run.figures = chip->figures();
   return run;
 }
 
@@ -247,28 +234,26 @@ PilOptions resolved(PilOptions options, const Inputs& in) {
 
 Status compare_runs(const PilOptions& options, const Inputs& in, Report& report) {
   report.restarts = restarts_of(report.chip.rows);
-  const auto twin = run_host(in, options.emit.resistance, report.restarts);
-  if (!twin) return tl::unexpected(twin.error());
-  report.from_float = difference(report.chip.rows, *twin);
+  AWMR_ASSIGN_OR_RETURN(const std::vector<LoopRow> twin,
+                        run_host(in, options.emit.resistance, report.restarts));
+  report.from_float = difference(report.chip.rows, twin);
   if (options.injection != Injection::kNone) {
     report.injected = injected_of(in.setup, report.chip.rows);
     return {};
   }
-  const auto plant = in.model.plant();
-  if (!plant) return tl::unexpected(plant.error());
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, in.model.plant());
   const Run exact = simulate(
-      in.setup.plant, make_controller(*plant, in.model.vehicle, in.gains, in.emit.split),
+      in.setup.plant, make_controller(plant, in.model.vehicle, in.gains, in.emit.split),
       in.setup.scenario, in.setup.mode, {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
   report.heading_apart_deg = heading_apart_deg(report.chip.rows, exact);
   // Resistance families other than the power law have no powf form to compare the tables with.
   if (in.model.surge_family != Family::kPower || in.model.yaw_family != Family::kPower) return {};
-  const auto by_powf = run_host(in, ResistanceForm::kPowf);
-  if (!by_powf) return tl::unexpected(by_powf.error());
-  report.by_float32 = difference(*by_powf, exact);
+  AWMR_ASSIGN_OR_RETURN(const std::vector<LoopRow> by_powf, run_host(in, ResistanceForm::kPowf));
+  report.by_float32 = difference(by_powf, exact);
   if (options.emit.resistance == ResistanceForm::kTable) {
-    report.by_table = difference(*twin, *by_powf);
+    report.by_table = difference(twin, by_powf);
   }
   return {};
 }
@@ -278,30 +263,22 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
 Result<Outcome> run_pil(const PilOptions& requested, const Watch& watch) {
   const std::vector<fs::path> inputs{requested.model, requested.gains, requested.scenario};
   AWMR_RETURN_IF_ERROR(check_output(requested.output, inputs));
-  auto in = read_inputs(requested);
-  if (!in) return tl::unexpected(in.error());
+  AWMR_ASSIGN_OR_RETURN(Inputs in, read_inputs(requested));
   std::vector<Finding> findings;
   AWMR_RETURN_IF_ERROR(
       cli::note_other_model(requested.gains, requested.model, findings, requested.mode));
-  if (requested.injection != Injection::kNone) AWMR_RETURN_IF_ERROR(place_injection(*in));
-  const PilOptions options = resolved(requested, *in);
+  if (requested.injection != Injection::kNone) AWMR_RETURN_IF_ERROR(place_injection(in));
+  const PilOptions options = resolved(requested, in);
   Report report;
-  auto chip = run_chip(options, *in, watch);
-  if (!chip) return tl::unexpected(chip.error());
-  report.chip = std::move(*chip);
+  AWMR_ASSIGN_OR_RETURN(report.chip, run_chip(options, in, watch));
   watch.doing("comparing with the host's runs");
   report.cycles = cycles_of(report.chip.rows);
-  if (auto compared = compare_runs(options, *in, report); !compared) {
-    return tl::unexpected(compared.error());
-  }
-  evaluate(options, in->setup.sample_time_s * kClockHz, report);
-  const auto text = report_text(options, in->setup, report);
-  if (!text) return tl::unexpected(text.error());
-  const std::string document = with_findings(*text, findings);
-  if (auto written = write_file(options.output, document, check_json_text); !written) {
-    return tl::unexpected(written.error());
-  }
-  return Outcome{report_summary(options, in->setup, report), report.passed(), document, findings};
+  AWMR_RETURN_IF_ERROR(compare_runs(options, in, report));
+  evaluate(options, in.setup.sample_time_s * kClockHz, report);
+  AWMR_ASSIGN_OR_RETURN(const std::string text, report_text(options, in.setup, report));
+  const std::string document = with_findings(text, findings);
+  AWMR_RETURN_IF_ERROR(write_file(options.output, document, check_json_text));
+  return Outcome{report_summary(options, in.setup, report), report.passed(), document, findings};
 }
 
 }  // namespace awmr::pil
