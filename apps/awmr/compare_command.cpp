@@ -3,9 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
-#include <csignal>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <set>
@@ -24,34 +21,10 @@
 #include "paths.h"
 #include "progress.h"
 #include "shard_option.h"
+#include "stop_on_interrupt.h"
 
 namespace awmr::cli {
 namespace {
-
-/// Set by Ctrl-C (SIGINT). Runs in progress finish, no new run starts.
-std::atomic<bool> stop_requested = false;
-
-/// Handles SIGINT during its lifetime. The first signal requests a stop; a second one ends the
-/// program at once, as without this object.
-class StopOnInterrupt {
- public:
-  StopOnInterrupt() {
-    struct sigaction action = {};
-    action.sa_handler = [](int) {
-      stop_requested.store(true);
-      sigaction(SIGINT, &before, nullptr);
-    };
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, nullptr, &before);
-    sigaction(SIGINT, &action, nullptr);
-  }
-  ~StopOnInterrupt() { sigaction(SIGINT, &before, nullptr); }
-  StopOnInterrupt(const StopOnInterrupt&) = delete;
-  StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
-
- private:
-  inline static struct sigaction before = {};
-};
 
 /// Names each gains file by its file name, or by its path as given if two file names are equal.
 Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& paths,
@@ -130,17 +103,9 @@ Result<Provenance> provenance_of(const CompareCommand& command, const ComparedIn
 Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, CompareOptions options) {
   const StopOnInterrupt interrupt;
   Working bar("comparing");
-  options.stop = &stop_requested;
+  options.stop = &StopOnInterrupt::requested();
   options.progress = [&bar](std::size_t done, std::size_t total) { bar(done, total); };
   return compare(inputs.model, inputs.gains, inputs.scenarios, options);
-}
-
-/// Prints the notice (not with --json), then ends the program by SIGINT, so that the caller sees
-/// the exit status of a program that Ctrl-C has ended.
-void end_interrupted(const std::string& notice) {
-  print_notice(notice);
-  std::signal(SIGINT, SIG_DFL);
-  std::raise(SIGINT);
 }
 
 /// Option values that read_texts() parses when the command runs.
