@@ -700,10 +700,10 @@ TEST(Tune, AddsAnObserverIfRunsDoNotSettleWithoutIt) {
   const Model model = with_friction(0.03);
   TuneOptions options = short_options();
   options.nominal = false;
-  options.draws = 2;
-  options.evaluation_draws = 4;
-  options.global_evaluations = 40;
-  options.local_evaluations = 10;
+  options.draws = 1;
+  options.evaluation_draws = 2;
+  options.global_evaluations = 10;
+  options.local_evaluations = 0;
   options.mode = YawMode::kSteering;
   options.scenarios = {default_tuning_scenario(model).value()};
   const Result<Tuning> tuning = tune(model, options);
