@@ -1,0 +1,199 @@
+#include "awmr/tune/search_gains.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "awmr/core/index.h"
+#include "awmr/tune/certificate.h"
+#include "awmr/tune/pole_placement.h"
+#include "awmr/tune/problem.h"
+#include "awmr/tune/refusals.h"
+#include "awmr/tune/search.h"
+#include "awmr/tune/sensitivity.h"
+#include "awmr/tune/settling.h"
+#include "awmr/tune/trade_off.h"
+#include "awmr/tune/tuning_context.h"
+
+namespace awmr {
+namespace {
+
+/// The setting with the nominal vehicle and the first draws, for the search.
+ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) {
+  const std::size_t as_many_runs =
+      at(kSearchedDraws) * std::size(kYawModes) / setting.modes().size();
+  const std::size_t draws = std::max(as_many_runs, options.open.combinations());
+  if (setting.vehicles.size() > 1 + draws) setting.vehicles.resize(1 + draws);
+  return setting;
+}
+
+Status check_baseline(const Objective& objective, const Baseline& baseline) {
+  if (objective.baseline().valid) return {};
+  return input_error(ErrorCode::kDiverges, baseline.source,
+                     "runs with the baseline gains diverge, so the objective cannot be normalised; "
+                     "give another baseline, or slower scenarios");
+}
+
+/// Factors of slowed(), for starts with slower poles, which meet the noise limits if the noise is
+/// large.
+constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
+
+/// Bandwidths of the observer at starts of the search, rad/s.
+constexpr double kStartBandwidths[] = {0.5, 1.0, 2.0};
+
+/// Starts of the search: `first`, which meets the constraints; the second of `poles`; the first of
+/// `poles` slowed down by each of kSlowerStarts; if an observer is searched, poles placed with each
+/// of kStartBandwidths; the baseline, if given. Each start but `first` is replaced by gains that
+/// meet the constraints (feasible_start()), or left out if there are none.
+std::vector<Gains<double>> starts_of(const TuneOptions& options, const ConstraintContext& context,
+                                     const Gains<double>& first,
+                                     std::span<const Gains<double>> poles) {
+  std::vector<Gains<double>> starts{first};
+  const auto add = [&](const Gains<double>& gains) {
+    const Candidate other = feasible_start(options, context, gains);
+    if (!(other.violation > 0.0)) starts.push_back(other.gains);
+  };
+  for (const Gains<double>& other : poles.subspan(1)) add(other);
+  for (const double share : kSlowerStarts) add(slowed(poles.front(), share));
+  if (const auto& observer = options.observer) {
+    for (const double bandwidth_radps : kStartBandwidths) {
+      if (!observer->bandwidth_radps.contains(bandwidth_radps)) continue;
+      add(starting_poles(context,
+                         {bandwidth_radps, *observer->yaw_max_m, *observer->surge_max})[0]);
+    }
+  }
+  if (options.baseline) add(options.baseline->gains);
+  return starts;
+}
+
+/// Repeats the search with an observer. Empty if no observer may be added
+/// (TuneOptions::adds_observer), if the runs with `gains` do not need one to settle
+/// (needs_observer()), or if the result does not increase least_settled_share() by kWorthIt.
+std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
+                                           const ConstraintContext& context,
+                                           const TuneOptions& requested, const Scenario& held_out,
+                                           const Gains<double>& gains) {
+  const bool has_observer =
+      requested.observer || std::ranges::any_of(setting.scenarios, [](const Scenario& scenario) {
+        return scenario.control.observer.has_value();
+      });
+  if (has_observer || !requested.adds_observer) return std::nullopt;
+  if (!needs_observer(setting, context, gains)) return std::nullopt;
+  TuneOptions options = requested;
+  options.observer.emplace();
+  if (!limit_observer(context, options.observer)) return std::nullopt;
+  if (options.notice) {
+    options.notice(
+        "some runs settle only with a disturbance observer, so the search is repeated with one");
+  }
+  Result<Tuning> observed = search_gains(model, setting, context, options, held_out);
+  constexpr double kWorthIt = 1.0 - kSettledShare;
+  if (!observed || least_settled_share(setting, observed->gains) <
+                       least_settled_share(setting, gains) + kWorthIt) {
+    return std::nullopt;
+  }
+  observed->observer_added = true;
+  return *std::move(observed);
+}
+
+/// Settings and result of one search.
+struct Searched {
+  const Model& model;
+  const ObjectiveSetting& setting;
+  const ConstraintContext& context;
+  const TuneOptions& options;
+  const Baseline& baseline;
+  const Objective& all;   ///< on all draws
+  const Objective& some;  ///< on the draws of the search
+  const SearchResult& found;
+  const SettledGains& settled;
+};
+
+/// Error (refused) if no run of the nominal vehicle settles with these gains.
+Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
+  const auto settles = [](const ModeScore& score) { return score.metrics.completed; };
+  if (std::ranges::any_of(scores, settles)) return {};
+  ObjectiveSetting nominal = s.setting;
+  nominal.vehicles.resize(1);
+  constexpr double kAny = 1e-9;
+  return never_settles(s.settled.gains, scores.size(),
+                       changes_that_settle(nominal, s.context, s.settled.gains, kAny), s.options);
+}
+
+/// Evaluation in a scenario that the search did not use.
+Evaluation evaluated_in(const Searched& s, const Scenario& held_out) {
+  ObjectiveSetting elsewhere = s.setting;
+  elsewhere.scenarios = {held_out};
+  elsewhere.goals.clear();
+  return Objective(std::move(elsewhere), s.baseline.gains)(s.settled.gains);
+}
+
+/// The result for the gains that the search selected. Errors (refused): no run settles.
+Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
+  const auto& [model, setting, context, options, baseline, all, some, found, settled] = s;
+  AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
+                        active_constraints(options, context, some, *found.best));
+  const Evaluation tuned = all(settled.gains);
+  AWMR_RETURN_IF_ERROR(check_settling(s, tuned.scores));
+  AWMR_ASSIGN_OR_RETURN(Certificate certificate,
+                        certify(model, context, options.open, settled.gains));
+  const Evaluation evaluated = evaluated_in(s, held_out);
+  return Tuning{.gains = settled.gains,
+                .constraints = constraints_of(settled.gains, context),
+                .objective = tuned.objective,
+                .scores = tuned.scores,
+                .baseline = baseline,
+                .limits = context.limits,
+                .examined = {context.speed_mps, context.step_rad, context.fastest_radps},
+                .baseline_objective = all.baseline().objective,
+                .baseline_scores = all.baseline().scores,
+                .algorithm = found.algorithm,
+                .evaluations = found.evaluations,
+                .stop_reason = found.stop_reason,
+                .seed = options.seed,
+                .simulated = found.simulated,
+                .mu_as_good = settled.mu,
+                .speed_mu_as_good = settled.speed_mu,
+                .active = std::move(active),
+                .arithmetic = std::string(setting.arithmetic.rounding),
+                .history = found.history,
+                .held_out_scores = evaluated.scores,
+                .held_out_objective = evaluated.objective,
+                .certificate = std::move(certificate),
+                .trade_off = trade_off_of(some, context, found.met, settled.gains, baseline.gains),
+                .observer_added = false,
+                .unsettled = {},
+                .robust = {}};
+}
+
+}  // namespace
+
+Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
+                            const ConstraintContext& context, const TuneOptions& requested,
+                            const Scenario& held_out) {
+  const std::array<Gains<double>, 2> poles = starting_poles(context);
+  TuneOptions options = requested;
+  bound_around(poles, options.bounds);
+  const Candidate first = feasible_start(options, context, poles[0]);
+  if (first.violation > 0.0) return infeasible(first, context, requested);
+  const std::vector<Gains<double>> starts = starts_of(options, context, first.gains, poles);
+  const Baseline baseline = options.baseline.value_or(Baseline{poles[1], kPolePlacement});
+  const Objective all(setting, baseline.gains);
+  AWMR_RETURN_IF_ERROR(check_baseline(all, baseline));
+  const Objective some(searched(setting, options), baseline.gains);
+  AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, some, all, starts));
+  if (!found.best) return not_found(found, all, requested);
+  const SettledGains settled = settle(options, context, some, all, *found.best);
+  if (auto observed =
+          with_needed_observer(model, setting, context, requested, held_out, settled.gains)) {
+    return *std::move(observed);
+  }
+  return tuning_of({model, setting, context, options, baseline, all, some, found, settled},
+                   held_out);
+}
+
+}  // namespace awmr

@@ -1,0 +1,99 @@
+#include "awmr/tune/tuning_context.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <variant>
+
+#include "awmr/core/units.h"
+#include "awmr/model/steady.h"
+#include "awmr/tune/steering_rate.h"
+
+namespace awmr {
+namespace {
+
+/// The largest change of the commanded heading, rad.
+double largest_step_rad(const Scenario& scenario) {
+  double largest = 0.0;
+  double before = scenario.initial.psi_rad;
+  for (const HeadingStep& step : std::get<HeadingSteps>(scenario.guidance).steps) {
+    largest = std::max(largest, std::abs(wrap_angle(step.psi_rad - before)));
+    before = step.psi_rad;
+  }
+  return largest;
+}
+
+/// Expected highest yaw rate in runs of the scenario, rad/s: the largest heading step divided by 1
+/// s, or the heading-rate limit if that is lower.
+double reached_radps(const Scenario& scenario) {
+  const double in_a_second = largest_step_rad(scenario) / 1.0;
+  return scenario.shaping ? std::min(in_a_second, scenario.shaping->rate_max_radps) : in_a_second;
+}
+
+}  // namespace
+
+ConstraintContext context_of(const TuneOptions& options, const Plant<double>& plant,
+                             const Vehicle& vehicle, const std::vector<Scenario>& scenarios) {
+  ConstraintContext context{.form = options.form,
+                            .margin = options.margin,
+                            .plant = plant,
+                            .has_steering = vehicle.has_steering(),
+                            .mode = options.mode,
+                            .sample_time_s = vehicle.sample_time_s,
+                            .speed_mps = 0.0,
+                            .step_rad = 0.0,
+                            .fastest_radps = kSlowest_radps,
+                            .limits = options.limits,
+                            .wheel_force = vehicle.wheel_force};
+  for (const Scenario& s : scenarios) {
+    context.speed_mps = std::max(context.speed_mps, s.speed_mps);
+    context.step_rad = std::max(context.step_rad, largest_step_rad(s));
+    context.fastest_radps = std::max(context.fastest_radps, reached_radps(s));
+  }
+  // The expected yaw rate is at most that of the steady turn at the largest moment of the stronger
+  // mode.
+  const auto steady = steady_rate(plant.yaw, largest_moment_m(context.own(), context.speed_mps));
+  if (steady) context.fastest_radps = std::clamp(*steady, kSlowest_radps, context.fastest_radps);
+  return context;
+}
+
+void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
+  if (context.limits.steering_rate_rms_degps || !context.steers()) return;
+  constexpr double kShareOfServo = 0.9;
+  constexpr double kOverFeedForward = 1.25;
+  const double servo_degps =
+      std::min(vehicle.steering_max_rate_degps, 2.0 * degrees(context.plant.steering_max_rad) /
+                                                    context.plant.steering_time_constant_s);
+  const Gains<double> none{{0.0, 0.0, 1.0}, {0.0, 1.0}};
+  // The default is computed without Coulomb friction: with_friction_width() keeps the noise that
+  // friction adds within the limit.
+  ConstraintContext without_friction = context;
+  without_friction.plant.yaw.coulomb = 0.0;
+  context.limits.steering_rate_rms_degps =
+      std::max(kShareOfServo * servo_degps,
+               kOverFeedForward * steering_rate_rms_degps(none, without_friction));
+}
+
+Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer) {
+  if (!observer) return {};
+  const Plant<double>& plant = context.plant;
+  const double left = driven_wheels(plant) * forces_beyond_dead_zone(context.own()).hi -
+                      plant.surge(context.speed_mps);
+  const std::tuple<const char*, std::optional<double>*, double> limits[] = {
+      {"yaw_max_m", &observer->yaw_max_m, turning_authority_m(context.own(), context.speed_mps)},
+      {"surge_max", &observer->surge_max, left}};
+  for (const auto& [name, limit, most] : limits) {
+    if (!*limit) *limit = kObserverShare * most;
+    if (**limit > 0.0) continue;
+    return input_error(ErrorCode::kOutOfRange, "",
+                       fmt::format("no default for the observer's {}: at {:g} m/s the wheels have "
+                                   "no force left to compensate a disturbance; give slower "
+                                   "scenarios",
+                                   name, context.speed_mps));
+  }
+  return {};
+}
+
+}  // namespace awmr

@@ -1,0 +1,27 @@
+/// The context of the constraints (constraints.h) for one tuning, and defaults that depend on it.
+/// Private to tune/.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "awmr/core/result.h"
+#include "awmr/model/vehicle.h"
+#include "awmr/simulate/scenario.h"
+#include "awmr/tune/constraints.h"
+#include "awmr/tune/tune.h"
+
+namespace awmr {
+
+/// Context for ideal sensors and motors. Speed, heading step and yaw rate are the largest of the
+/// scenarios.
+ConstraintContext context_of(const TuneOptions& options, const Plant<double>& plant,
+                             const Vehicle& vehicle, const std::vector<Scenario>& scenarios);
+
+/// Sets the limit of the steering rate to its default, if it is absent (TuningLimits).
+void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context);
+
+/// Sets the default limits of an observer. Errors (input): no force remains to compensate with.
+Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer);
+
+}  // namespace awmr
