@@ -12,15 +12,16 @@
 
 namespace awmr::pil {
 
-/// Simulated operator of one run, who sends KEEP every 0.3 s until the line fails. After that, the
-/// failed line delivers other characters or none.
+/// Simulated operator of one run, who sends KEEP every 0.3 s until the failure begins. From then
+/// on, other characters or none arrive in place of KEEP. An injected STOP arrives once, and the
+/// KEEPs continue.
 class CheckedCommands {
  public:
   explicit CheckedCommands(cli::Injection injection) : injection_(injection) {}
 
-  /// Executes one control step: reads the characters sent up to times.now_ms, stores the time of
-  /// the last accepted command in times.command_ms, and disarms at STOP. `fails`: the line has
-  /// failed.
+  /// Executes one control step: reads the characters that arrive at times.now_ms, stores the time
+  /// of the last accepted command in times.command_ms, and disarms at STOP. `fails`: the injected
+  /// failure has begun.
   void step(bool fails, Arming& arming, InputTimes& times);
 
  private:

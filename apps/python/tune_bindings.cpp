@@ -120,10 +120,12 @@ void bind_tune(py::module_& module) {
           "list of dicts by gains (\"robust\": the tuned ones, \"baseline\", ...) and mode: for "
           "each metric its median, 95 % quantile `q95` and mean of the worst runs `tail_mean`, "
           "over new draws that the search did not use; empty if `nominal`")
-      .def_property_readonly("goals", goals_of,
-                             "list of dicts by gains, goal of tune.json and mode: number of runs, "
-                             "number that meet the goal (`held`), 95 % interval of their fraction, "
-                             "and the verdict \"met\", \"missed\" or \"open\" (undecided)");
+      .def_property_readonly(
+          "goals", goals_of,
+          "list of dicts, one for each set of gains, goal of tune.json and mode: "
+          "number of runs (`runs`), number of runs that meet the goal (`held`), "
+          "95 % interval of their fraction (`ci95`), and `verdict`: \"met\", "
+          "\"missed\" or \"open\" (undecided)");
   module.def(
       "tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
       py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = py::none(),

@@ -90,13 +90,15 @@ class CsvTable {
   Parts parts_;
 };
 
-/// Reads the requested columns. A file has signals of different rates if a kHeld or kAbsent column
-/// is empty in a quarter of its rows or more. Empty cells of such columns then have the meaning in
-/// EmptyCells. Rows without a value in any of these columns, and rows before every command (kHeld)
-/// has had a value, are dropped. In other files, empty cells are faults, except in kOptional
-/// columns. Reports all faults of the file at once: a missing required column, a duplicate column,
-/// rows with another number of cells than the header, cells that are empty, not numbers, NaN or
-/// infinite, an unterminated quote, no rows, a formula whose value is infinite or NaN.
+/// Reads the requested columns. A file has signals of different rates if at least a quarter of the
+/// cells of a kHeld or kAbsent column are empty. In such a file:
+///   - Empty cells of kHeld and kAbsent columns have the meaning in EmptyCells.
+///   - Rows are dropped if all their kHeld, kAbsent and kOptional cells are empty, or if a command
+///     (kHeld) has not had its first value yet.
+/// In other files, empty cells are faults, except in kOptional columns. All faults of the file are
+/// reported at once: a missing required column, a duplicate column, rows with another number of
+/// cells than the header, cells that are empty, not numbers, NaN or infinite, an unterminated
+/// quote, no rows, a formula whose value is infinite or NaN.
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                           std::span<const ColumnMapping> mappings = {});
 

@@ -123,7 +123,7 @@ void check_sides(const Table& table, const std::vector<TurningRow>& rows, const 
   for (const char* column : {"force_left", "force_right"}) {
     table.report(
         first->line,
-        fmt::format("force_left or force_right is beyond {}, and reaches {:.4g}: {}",
+        fmt::format("force_left or force_right is beyond {} (largest in the table: {:.4g}): {}",
                     limits_text(tables.vehicle.wheel_force), span.largest, words_of(units)),
         remedy_of(units, force_unit_fixes(units, column), table.options.columns));
   }
@@ -134,11 +134,11 @@ void check_wheel_force(const Table& table, const std::vector<TurningRow>& rows,
   const auto [first, span] = beyond(rows, steered_force, tables.vehicle.wheel_force.hi);
   if (first == nullptr) return;
   const ForceUnits units = force_units(folder_forces(tables).with(span), tables.vehicle);
-  table.report(
-      first->line,
-      fmt::format("wheel_force is {:.4g}, beyond {}, and reaches {:.4g}: {}", first->wheel_force,
-                  limits_text(tables.vehicle.wheel_force), span.largest, words_of(units)),
-      remedy_of(units, force_unit_fixes(units, "wheel_force"), table.options.columns));
+  table.report(first->line,
+               fmt::format("wheel_force is {:.4g}, beyond {} (largest in the table: {:.4g}): {}",
+                           first->wheel_force, limits_text(tables.vehicle.wheel_force),
+                           span.largest, words_of(units)),
+               remedy_of(units, force_unit_fixes(units, "wheel_force"), table.options.columns));
 }
 
 /// Checks the tau_speed of surge runs against n F'max, n the number of driven wheels:
@@ -163,8 +163,8 @@ void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tab
       by_wheel ? fmt::format("{} x wheel_force {:.4g} = ", wheels, first->tau_speed / wheels) : "";
   table.report(
       first->line,
-      fmt::format("tau_speed is {}{:.4g}, beyond {} F'max = {:g} ({}), and reaches {:.4g}: "
-                  "{}",
+      fmt::format("tau_speed is {}{:.4g}, beyond {} F'max = {:g} ({}; largest in the table: "
+                  "{:.4g}): {}",
                   of_wheel, first->tau_speed, wheels, limit, limits_text(vehicle.wheel_force),
                   span.largest, words_of(found.units)),
       remedy_of(found.units, found.unit_fixes, table.options.columns));

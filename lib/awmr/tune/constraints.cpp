@@ -158,11 +158,14 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const SpeedLoop speed = speed_loop(gains, context, plant);
   const bool strict = context.form == ReachingForm::kStrict;
   return {
-      at_most("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
-              "epsilon/(2 mu) <= margin/lambda, s: V = S^2/2 decays faster than the heading error",
-              !strict),
+      at_most(
+          "T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
+          "epsilon/(2 mu) <= margin/lambda (in s): V = S^2/2 decays faster than the heading error",
+          !strict),
       at_most("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
-              "epsilon/mu <= margin/lambda, s: S decays faster than the heading error", strict),
+              "epsilon/mu <= margin/lambda (in s): the sliding variable S decays faster than the "
+              "heading error",
+              strict),
       at_least(
           "heading damping",
           heading_damping(gains, context, at_all_rates(plant, context), 0.0, 0.0),

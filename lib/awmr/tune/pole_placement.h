@@ -22,8 +22,9 @@ namespace awmr {
 Gains<double> place_poles(const ConstraintContext& context,
                           const ObserverGains<double>& observer = {});
 
-/// Starts of the search: the result of place_poles() with wide boundary layers, and as it is. The
-/// default bounds of the gains are around these.
+/// Returns two initial guesses of the search: first, the result of place_poles() with boundary
+/// layers widened to contain the initial errors (the poles stay the same); second, the unchanged
+/// result. The default bounds of the gains lie around these two.
 std::array<Gains<double>, 2> starting_poles(const ConstraintContext& context,
                                             const ObserverGains<double>& observer = {});
 

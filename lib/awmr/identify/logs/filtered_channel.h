@@ -25,7 +25,8 @@ struct SensorFilter {
 /// time constant T.
 class FilteredChannel {
  public:
-  /// `first`: first reading of the window. `columns`: number of derivatives; 0: only y is computed.
+  /// `first`: first reading of the window, the initial y. `columns`: number of columns of the fit,
+  /// by which y is differentiated; 0: only y is computed.
   FilteredChannel(const SensorFilter& filter, double first, std::size_t columns)
       : filter_(filter), y_(first), by_column_(columns, 0.0) {}
 

@@ -23,8 +23,8 @@ struct Posterior {
   std::vector<Alternative> alternatives;
 
   bool empty() const { return alternatives.empty(); }
-  /// True if x_i has a finite centre, a finite variance >= 0 and positive degrees of freedom under
-  /// every alternative.
+  /// True if, under every alternative, x_i has a finite centre, a finite variance >= 0 and positive
+  /// degrees of freedom.
   bool is_proper(Eigen::Index i) const;
   /// Covariance of x about its mean m = sum w_k m_k:
   ///   C = sum w_k (C_k + (m_k - m)(m_k - m)')
