@@ -198,8 +198,13 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
 
   const Layout layout{scenarios.size(), gains.size(), yaw_modes(model.vehicle).size(),
                       at(options.samples) + 1};
-  AWMR_ASSIGN_OR_RETURN(Slots slots,
-                        run_blocks({model, gains, scenarios, options, plants, arithmetic, layout}));
+  AWMR_ASSIGN_OR_RETURN(Slots slots, run_blocks({.model = model,
+                                                 .gains = gains,
+                                                 .scenarios = scenarios,
+                                                 .options = options,
+                                                 .plants = plants,
+                                                 .arithmetic = arithmetic,
+                                                 .layout = layout}));
   Comparison comparison = gathered(layout, options.shard, std::move(slots));
   comparison.arithmetic = arithmetic.rounding;
   comparison.measured_yaw_rate_degps = measured_yaw_rate_degps(model);

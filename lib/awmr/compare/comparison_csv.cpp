@@ -1,4 +1,5 @@
 // Writes the text of comparison.csv.
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -6,7 +6,6 @@
 
 #include "awmr/compare/ranking_entry.h"
 #include "awmr/compare/scoring.h"
-#include "awmr/core/index.h"
 #include "awmr/core/random.h"
 #include "awmr/core/sample_quantile.h"
 
@@ -136,8 +135,9 @@ bool dominates(const Contender& other, const Contender& own,
   bool better = false;
   for (const PairedDifference& d : differences) {
     if (!is_scored(d.metric, scoring) || !d.is_between(own, other) ||
-        d.conclusion != Conclusion::kRelevant)
+        d.conclusion != Conclusion::kRelevant) {
       continue;
+    }
     const bool first_is_worse = *d.mean > 0.0;
     if (first_is_worse != (d.first == own)) return false;
     better = true;

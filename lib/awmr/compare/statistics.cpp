@@ -9,7 +9,6 @@
 #include "awmr/compare/scoring.h"
 #include "awmr/core/binomial.h"
 #include "awmr/core/distributions.h"
-#include "awmr/core/index.h"
 #include "awmr/core/random.h"
 #include "awmr/core/sample_quantile.h"
 

@@ -1,18 +1,17 @@
 /// Speed of routes and limits of the heading error, for the sketches. Private to emit/.
 #pragma once
 
-#include "awmr/control/controller.h"
 #include "awmr/model/dynamics.h"
+#include "awmr/model/gains.h"
 #include "awmr/model/vehicle.h"
 
 namespace awmr {
 
 struct SketchValues {
-  double route_mps;  ///< AWMR_ROUTE_SPEED_MPS, m/s
-  double
-      steady_error_rad;  ///< steady heading error, rad, if the forces of the motors differ by 16 %
-  double on_course_rad;  ///< AWMR_ON_COURSE_RAD, rad
-  double off_course_mrad;  ///< AWMR_OFF_COURSE_MRAD, m rad
+  double route_mps;         ///< AWMR_ROUTE_SPEED_MPS, m/s
+  double steady_error_rad;  ///< heading error, rad, if the forces of the motors differ by 16 %
+  double on_course_rad;     ///< AWMR_ON_COURSE_RAD, rad
+  double off_course_mrad;   ///< AWMR_OFF_COURSE_MRAD, m rad
 };
 
 /// `full_force`: sum of the largest F' of the four wheels, beyond the dead zone.

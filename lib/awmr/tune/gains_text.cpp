@@ -1,7 +1,11 @@
 // Writes gains.json.
+
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "awmr/core/json.h"
 #include "awmr/core/units.h"

@@ -190,7 +190,7 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
 }
 
 /// True for errors of steering and force commands (trim, dead band, asymmetry, imbalance,
-/// saturation), and for the forces of extra_forces.h except Stribeck friction.
+/// saturation, exponent), and for the forces of extra_forces.h except Stribeck friction.
 bool invalidates_all(std::string_view name) {
   constexpr std::string_view kOfCommands[] = {kSteeringTrimName,      kSteeringDeadBandName,
                                               kSteeringAsymmetryName, kForceImbalanceName,
