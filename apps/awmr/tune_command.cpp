@@ -83,7 +83,9 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files(paths, command.names));
   std::vector<std::pair<std::string, std::string>> options = options_of(command.allocation);
   if (command.nominal) options.emplace_back("nominal", "true");
-  if (command.observer) options.emplace_back("observer", *command.observer ? "true" : "false");
+  if (command.observer) {
+    options.emplace_back(*command.observer ? "observer" : "no-observer", "true");
+  }
   if (command.baseline) options.emplace_back("baseline", command.baseline->string());
   if (command.mode) options.emplace_back("mode", std::string(name_of(*command.mode)));
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));

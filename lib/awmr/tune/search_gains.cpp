@@ -70,9 +70,11 @@ std::vector<Gains<double>> starts_of(const TuneOptions& options, const Constrain
   return starts;
 }
 
+constexpr double kWorthIt = 0.05;
+
 /// Repeats the search with an observer. Empty if no observer may be added
 /// (TuneOptions::adds_observer), if the runs with `gains` do not need one to settle
-/// (needs_observer()), or if the result does not increase least_settled_share() by kWorthIt.
+/// (needs_observer()), or if the share of settled runs increases by less than kWorthIt.
 std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
                                            const ConstraintContext& context,
                                            const TuneOptions& requested, const Scenario& held_out,
@@ -91,9 +93,11 @@ std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSe
         "some runs settle only with a disturbance observer, so the search is repeated with one");
   }
   Result<Tuning> observed = search_gains(model, setting, context, options, held_out);
-  constexpr double kWorthIt = 1.0 - kSettledShare;
-  if (!observed || least_settled_share(setting, observed->gains) <
-                       least_settled_share(setting, gains) + kWorthIt) {
+  if (!observed ||
+      settled_share(setting, observed->gains) < settled_share(setting, gains) + kWorthIt) {
+    if (options.notice) {
+      options.notice("the observer does not let more runs settle; the gains without it are kept");
+    }
     return std::nullopt;
   }
   observed->observer_added = true;

@@ -145,18 +145,9 @@ ObjectiveSetting on_few_vehicles(ObjectiveSetting setting) {
   return setting;
 }
 
-double least_settled_share(const ObjectiveSetting& setting, const Gains<double>& gains) {
-  double least = 1.0;
-  for (const Scenario& scenario : setting.scenarios) {
-    for (const YawMode mode : setting.modes()) {
-      least = std::min(least, settled_share(runs_in(setting, scenario.name, mode), gains));
-    }
-  }
-  return least;
-}
-
 bool needs_observer(const ObjectiveSetting& setting, const ConstraintContext& context,
                     const Gains<double>& gains) {
+  if (settled_share(setting, gains) >= kSettledShare) return false;
   for (const Scenario& scenario : setting.scenarios) {
     for (const YawMode mode : setting.modes()) {
       const ObjectiveSetting runs = runs_in(setting, scenario.name, mode);

@@ -1,5 +1,5 @@
-/// Changes with which runs settle that do not settle with the tuned gains, each confirmed by
-/// simulated runs. Private to tune/.
+/// Shares of settled runs, and changes with which runs settle that do not settle with the tuned
+/// gains, each confirmed by simulated runs. Private to tune/.
 #pragma once
 
 #include <string>
@@ -24,11 +24,10 @@ ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, 
 /// The same runs on the nominal vehicle and the first draws only.
 ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);
 
-/// Smallest share of settled runs over the scenarios and modes, [0, 1].
-double least_settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
-
-/// True if, in a scenario and mode, fewer than kSettledShare of the runs settle with these gains,
-/// but on few vehicles at least this share with an observer and gains by pole placement.
+/// True if fewer than kSettledShare of all runs settle with these gains, and the observer lets a
+/// scenario and mode settle that does not without it: fewer than kSettledShare of its runs settle
+/// with these gains, but on few vehicles at least this share with an observer and gains by pole
+/// placement.
 bool needs_observer(const ObjectiveSetting& setting, const ConstraintContext& context,
                     const Gains<double>& gains);
 

@@ -191,11 +191,10 @@ struct TuneOptions {
   GainBounds bounds;
   std::optional<ObserverSearch> observer = {};  ///< absent: see adds_observer
   /// Used if `observer` is absent. true: repeats the search with an observer (with the defaults of
-  /// ObserverSearch) if, in a scenario and mode, fewer than 95 % of the runs settle with the tuned
-  /// gains, but at least 95 % with an observer and gains by pole placement (needs_observer() in
-  /// settling.h). The result with the observer is kept if the smallest share of settled runs over
-  /// the scenarios and modes increases by at least 5 %. Dry friction in yaw is the usual cause.
-  /// false: no observer is tuned.
+  /// ObserverSearch) if fewer than 95 % of the runs settle with the tuned gains, and an observer lets
+  /// a scenario and mode settle (needs_observer() in settling.h). The result with the observer is
+  /// kept if the share of settled runs is larger by 0.05 or more. Dry friction in yaw is the usual
+  /// cause. false: no observer is tuned.
   bool adds_observer = true;
   std::vector<TuningGoal> goals = {};  ///< robust search only
   /// Called with the number of evaluated sets of gains, and with the budget global_evaluations +

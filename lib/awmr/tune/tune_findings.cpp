@@ -79,11 +79,12 @@ void note_observer(const TuneOptions& options, const Tuning& tuning,
   if (tuning.observer_added) {
     findings.push_back(
         {"", 0, Severity::kWarning, "observer-added",
-         fmt::format("in a scenario and mode, fewer than {:g} % of the runs settle without a "
-                     "disturbance observer, so an observer with a bandwidth of {:.3g} rad/s was "
-                     "tuned, which the firmware runs. To tune without an observer: {}",
-                     100.0 * kSettledShare, tuning.gains.observer.bandwidth_radps,
-                     option_text("no_observer"))});
+         fmt::format(
+             "fewer than {:g} % of the runs settle without a disturbance observer, so an "
+             "observer with a bandwidth of {:.3g} rad/s was tuned, which the firmware runs. "
+             "To tune without an observer: {}",
+             100.0 * kSettledShare, tuning.gains.observer.bandwidth_radps,
+             option_text("no_observer"))});
   }
   const bool is_pushed = std::ranges::any_of(
       options.scenarios, [](const Scenario& scenario) { return scenario.disturbance.any(); });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/family_score.h"
@@ -17,7 +18,7 @@ double coasting_s(const DrivingLog& log) {
   constexpr double kRolls_s = 3.0;
   const double gap_s = kGapSteps * log.median_step_s();
   double coasts_s = 0.0;
-  double off_since_s = log.t_s.front() - kRolls_s;
+  double off_since_s = -std::numeric_limits<double>::infinity();
   bool was_driven = false;
   for (std::size_t row = 0; row + 1 < log.rows(); ++row) {
     const double step_s = log.t_s[row + 1] - log.t_s[row];
