@@ -180,6 +180,9 @@ inline std::vector<TestVehicle> test_vehicles() {
 /// Steered vehicles with dry friction in yaw, between a sixth and a half of the moment that their
 /// steering makes. With the default noise, no steering run settles without a disturbance observer.
 inline std::vector<TestVehicle> vehicles_with_dry_friction() {
+  TestVehicle awmr = test_vehicles()[4];  // the paper's
+  awmr.name = "37 kg AWMR with dry friction";
+  awmr.yaw.coulomb = 0.03;
   return {
       {"18 kg rover",
        18.0,
@@ -197,22 +200,7 @@ inline std::vector<TestVehicle> vehicles_with_dry_friction() {
        6.0,
        2.5,
        60},
-      {"37 kg AWMR with dry friction",
-       37.0,
-       1.32,
-       0.78,
-       0.35,
-       0.36,
-       20,
-       300,
-       0.02,
-       0.01,
-       481.8,
-       {.alpha = 1.3268, .beta = 0.8933},
-       {.alpha = 0.3028, .beta = 0.8250, .coulomb = 0.03},
-       3.0,
-       1.66,
-       15.2},
+      awmr,
       {"165 kg hauler",
        165.0,
        1.80,
