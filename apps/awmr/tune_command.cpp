@@ -41,11 +41,7 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
     AWMR_ASSIGN_OR_RETURN(config, read_tune_config(*command.config));
   }
   TuneOptions& options = config.options;
-  if (command.observer == true && !options.observer) options.observer.emplace();
-  if (command.observer == false) {
-    options.observer.reset();
-    options.adds_observer = false;
-  }
+  choose_observer(command.observer, options);
   if (options.scenarios.empty()) {
     AWMR_ASSIGN_OR_RETURN(options.scenarios,
                           default_tuning_scenarios(model, options, command.heading_rate_limit));

@@ -11,11 +11,7 @@ Tuning tuned(const Model& model, const std::optional<std::filesystem::path>& con
   TuneOptions options;
   if (config) options = value_or_raise(read_tune_config(*config)).options;
   options.nominal = options.nominal || nominal;
-  if (observer == true && !options.observer) options.observer.emplace();
-  if (observer == false) {
-    options.observer.reset();
-    options.adds_observer = false;
-  }
+  choose_observer(observer, options);
   if (draws) {
     options.draws = *draws;
   }

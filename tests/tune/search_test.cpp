@@ -729,6 +729,30 @@ TEST(Tune, AddsAnObserverIfRunsDoNotSettleWithoutIt) {
   }
 }
 
+/// With dry friction, no gains without an observer settle, so none reach a goal on settling.
+TEST(Tune, AddsAnObserverIfAGoalIsMissedWithoutIt) {
+  const Model model = with_friction(0.03);
+  TuneOptions options = short_options();
+  options.nominal = false;
+  options.draws = 1;
+  options.evaluation_draws = 0;
+  options.global_evaluations = 40;
+  options.local_evaluations = 30;
+  options.mode = YawMode::kSteering;
+  options.scenarios = {default_tuning_scenario(model).value()};
+  const double duration_s = options.scenarios.front().duration_s;
+  options.goals = {{.at_most = {{"settling_time_s", 0.45 * duration_s}}, .mode = {}}};
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  EXPECT_TRUE(tuning->observer_added);
+  EXPECT_TRUE(tuning->gains.observer.is_on());
+
+  options.adds_observer = false;
+  const Result<Tuning> without = tune(model, options);
+  ASSERT_FALSE(without);
+  EXPECT_EQ(without.error().faults.front().code, ErrorCode::kNoGains);
+}
+
 TEST(Search, ReportsThatItTakesLongBeforeItBegins) {
   std::vector<std::string> notices;
   TuneOptions options = short_options();

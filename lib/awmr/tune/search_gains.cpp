@@ -70,11 +70,13 @@ std::vector<Gains<double>> starts_of(const TuneOptions& options, const Constrain
   return starts;
 }
 
+/// Smallest increase of the share of settled runs for which an observer is added.
 constexpr double kWorthIt = 0.05;
 
-/// Repeats the search with an observer. Empty if no observer may be added
-/// (TuneOptions::adds_observer), if the runs with `gains` do not need one to settle
-/// (needs_observer()), or if the share of settled runs increases by less than kWorthIt.
+/// Repeats the search with an observer. `gains`: the result without one, or the gains nearest to
+/// the limits if none meet them. Empty if no observer may be added (TuneOptions::adds_observer), if
+/// no run that `gains` leave unsettled settles with one (observer_settles_more()), or if the share
+/// of settled runs increases by less than kWorthIt.
 std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
                                            const ConstraintContext& context,
                                            const TuneOptions& requested, const Scenario& held_out,
@@ -84,17 +86,20 @@ std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSe
         return scenario.control.observer.has_value();
       });
   if (has_observer || !requested.adds_observer) return std::nullopt;
-  if (!needs_observer(setting, context, gains)) return std::nullopt;
+  const double share = settled_share(setting, gains);
+  if (share >= kSettledShare || !observer_settles_more(setting, context, gains)) {
+    return std::nullopt;
+  }
   TuneOptions options = requested;
   options.observer.emplace();
   if (!limit_observer(context, options.observer)) return std::nullopt;
   if (options.notice) {
     options.notice(
-        "some runs settle only with a disturbance observer, so the search is repeated with one");
+        "some runs settle only with a disturbance observer, so the search is repeated with one, "
+        "which takes about as long again");
   }
   Result<Tuning> observed = search_gains(model, setting, context, options, held_out);
-  if (!observed ||
-      settled_share(setting, observed->gains) < settled_share(setting, gains) + kWorthIt) {
+  if (!observed || settled_share(setting, observed->gains) < share + kWorthIt) {
     if (options.notice) {
       options.notice("the observer does not let more runs settle; the gains without it are kept");
     }
@@ -190,12 +195,13 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   AWMR_RETURN_IF_ERROR(check_baseline(all, baseline));
   const Objective some(searched(setting, options), baseline.gains);
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, some, all, starts));
-  if (!found.best) return not_found(found, all, requested);
-  const SettledGains settled = settle(options, context, some, all, *found.best);
+  SettledGains settled{.gains = found.nearest.gains};
+  if (found.best) settled = settle(options, context, some, all, *found.best);
   if (auto observed =
           with_needed_observer(model, setting, context, requested, held_out, settled.gains)) {
     return *std::move(observed);
   }
+  if (!found.best) return not_found(found, all, requested);
   return tuning_of({model, setting, context, options, baseline, all, some, found, settled},
                    held_out);
 }

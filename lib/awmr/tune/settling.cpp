@@ -145,9 +145,8 @@ ObjectiveSetting on_few_vehicles(ObjectiveSetting setting) {
   return setting;
 }
 
-bool needs_observer(const ObjectiveSetting& setting, const ConstraintContext& context,
-                    const Gains<double>& gains) {
-  if (settled_share(setting, gains) >= kSettledShare) return false;
+bool observer_settles_more(const ObjectiveSetting& setting, const ConstraintContext& context,
+                           const Gains<double>& gains) {
   for (const Scenario& scenario : setting.scenarios) {
     for (const YawMode mode : setting.modes()) {
       const ObjectiveSetting runs = runs_in(setting, scenario.name, mode);

@@ -24,12 +24,11 @@ ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, 
 /// The same runs on the nominal vehicle and the first draws only.
 ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);
 
-/// True if fewer than kSettledShare of all runs settle with these gains, and the observer lets a
-/// scenario and mode settle that does not without it: fewer than kSettledShare of its runs settle
-/// with these gains, but on few vehicles at least this share with an observer and gains by pole
-/// placement.
-bool needs_observer(const ObjectiveSetting& setting, const ConstraintContext& context,
-                    const Gains<double>& gains);
+/// True if an observer lets the runs of a scenario and mode settle that do not settle without it:
+/// fewer than kSettledShare of them settle with these gains, but on few vehicles at least this
+/// share with an observer and gains by pole placement.
+bool observer_settles_more(const ObjectiveSetting& setting, const ConstraintContext& context,
+                           const Gains<double>& gains);
 
 /// Tries one change at a time, and returns those with which at least `share` of the runs of the
 /// setting settle:

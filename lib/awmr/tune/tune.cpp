@@ -140,6 +140,14 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
 
 }  // namespace
 
+void choose_observer(std::optional<bool> observer, TuneOptions& options) {
+  if (observer == true && !options.observer) options.observer.emplace();
+  if (observer == false) {
+    options.observer.reset();
+    options.adds_observer = false;
+  }
+}
+
 Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   TuneOptions options = requested;
   AWMR_RETURN_IF_ERROR(check_options(options, model.vehicle));

@@ -191,10 +191,11 @@ struct TuneOptions {
   GainBounds bounds;
   std::optional<ObserverSearch> observer = {};  ///< absent: see adds_observer
   /// Used if `observer` is absent. true: repeats the search with an observer (with the defaults of
-  /// ObserverSearch) if fewer than 95 % of the runs settle with the tuned gains, and an observer lets
-  /// a scenario and mode settle (needs_observer() in settling.h). The result with the observer is
-  /// kept if the share of settled runs is larger by 0.05 or more. Dry friction in yaw is the usual
-  /// cause. false: no observer is tuned.
+  /// ObserverSearch) if fewer than 95 % of the runs settle with the tuned gains (if no gains meet
+  /// the limits: with the nearest ones), and an observer lets a scenario and mode settle
+  /// (observer_settles_more() in settling.h). The result with the observer is kept if the share of
+  /// settled runs is larger by 0.05 or more. Dry friction in yaw is the usual cause. false: no
+  /// observer is tuned.
   bool adds_observer = true;
   std::vector<TuningGoal> goals = {};  ///< robust search only
   /// Called with the number of evaluated sets of gains, and with the budget global_evaluations +
@@ -205,6 +206,10 @@ struct TuneOptions {
   /// the search is repeated with an observer (adds_observer), with the reason.
   std::function<void(std::string_view)> notice = {};
 };
+
+/// Applies a choice of the user: true searches an observer (with the configured or default
+/// ObserverSearch), false searches none. Absent: the options are unchanged.
+void choose_observer(std::optional<bool> observer, TuneOptions& options);
 
 /// A constraint that is active at the tuned gains.
 struct ActiveConstraint {
