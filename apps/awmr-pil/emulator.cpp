@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint32_t kRamOffset = 0x800000;  ///< offset of RAM addresses in an ELF file
 constexpr std::uint8_t kPaint = 0xC5;
-/// Maximum number of cycles that simavr runs per call. Without it simavr returns after every
-/// instruction. Timers and interrupts stay exact, because simavr ends a run where one is due.
+/// Maximum number of cycles that simavr runs per call. By default, simavr returns after every
+/// instruction. Timers and interrupts stay exact, because simavr returns earlier if one is due.
 constexpr avr_cycle_count_t kRunCycles = 1000;
 
 /// The only emulator, for sleep(): simavr 1.6 gives this callback no user data.

@@ -48,7 +48,8 @@ class Emulator {
   /// awake after `cycle_limit` cycles.
   Status run_to_sleep(std::uint64_t cycle_limit);
   /// Runs until `done` returns true. `done` is called before each batch of instructions, at most
-  /// 1000 cycles long. Errors (fault): as run_to_sleep(), with `done` instead of the sleep.
+  /// 1000 cycles long. Errors (fault): the program crashed or ended, or `done` is still false after
+  /// `cycle_limit` cycles.
   Status run_until(const std::function<bool()>& done, std::uint64_t cycle_limit);
   /// Clock cycles of the last interrupt that woke the chip, from its entry (included) to the next
   /// sleep.

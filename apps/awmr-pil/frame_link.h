@@ -28,8 +28,8 @@ class Line {
   virtual ChipFigures figures() const = 0;
 };
 
-/// Makes a chip from a line to it. `parameters_crc`: CRC-32 of the parameters, xor mission_crc(),
-/// that the firmware must have; start() refuses another (input error).
+/// Returns a chip that is controlled through the line. `parameters_crc`: CRC-32 of the parameters,
+/// xor mission_crc(). If the firmware reports another value, start() returns an error (input).
 std::unique_ptr<Chip> frame_link(std::unique_ptr<Line> line, std::uint32_t parameters_crc);
 
 }  // namespace awmr::pil

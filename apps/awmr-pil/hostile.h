@@ -22,11 +22,11 @@ struct HostileSearch {
 };
 
 /// Searches for the inputs with the slowest step, by repeatedly changing the slowest input so far.
-/// Values are at and beyond the limits of `limits`, tiny, subnormal or not finite; headings have
-/// many turns. Points of the mission are replaced by points near the vehicle or anywhere. A GPS fix
-/// is new (up to 2 s old, or with any time stamp) or repeated. The sequence is deterministic. The
-/// host executes the same steps, and its outputs are compared with the chip's. Errors: those of the
-/// executors.
+/// Inputs are at and beyond the limits of `limits`, tiny, subnormal or not finite; heading angles
+/// can be many turns. Points of the mission are replaced by random points, most of them near the
+/// vehicle. A GPS fix is new (up to 2 s old, or with any time stamp) or repeated. The sequence is
+/// deterministic. The host executes the same steps, and its outputs are compared with the chip's.
+/// Errors: those of the executors.
 Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limits,
                         const Mission& mission, const HostileSearch& search,
                         const Progress& progress = {});

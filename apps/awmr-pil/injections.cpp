@@ -10,8 +10,8 @@ namespace {
 using cli::Injection;
 
 // Fault bits of the autopilot after the checks of the sketches have rejected a heading (or speed)
-// sensor. The last accepted reading becomes too old. The vehicle is also disarmed, so its commands
-// time out. Either fault may come first.
+// sensor. The autopilot then gets no new readings, and the last one becomes too old. The sketches
+// also disarm the vehicle, so that the last command becomes too old. Either fault may come first.
 constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
 constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
 

@@ -135,20 +135,20 @@ SetUp set_up_of(const Mission& mission) {
 }
 
 constexpr std::string_view kHeader =
-    R"(// Made by awmr pil: this firmware's tasks in addition to heading hold.
+    R"(// Made by awmr pil: guidance that this firmware runs in addition to heading hold.
 #pragma once
 
 #include "awmr.h"
 
-constexpr uint8_t kPilPoints = {};  // most that it holds
+constexpr uint8_t kPilPoints = {};  // maximum number of points to follow
 constexpr uint32_t kPilMission = 0x{:08X}UL;
 
 {}
-/// After awmr_init().
+/// Sets up the mission; call it after awmr_init().
 inline void pil_set_up() {{
 {}}}
 
-/// From the next step on.
+/// Follows these points from the next step on.
 inline void pil_follow(const awmr_point* points, int16_t count, float acceptance_m) {{
 {}}}
 )";

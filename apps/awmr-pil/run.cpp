@@ -118,7 +118,8 @@ Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
   return run_loop(setup, *host);
 }
 
-/// Sets the sample at which the injection begins: in the middle of a run without injection.
+/// Sets the sample at which the injection begins: half of the number of samples of the same run
+/// without injection, which is simulated here.
 Status place_injection(Inputs& in) {
   Inputs undisturbed = in;
   undisturbed.setup.injection = Injection::kNone;

@@ -182,8 +182,8 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
-  // Files without rows are not read. While there are any, a mapping that no file uses is no fault,
-  // because it can be for one of them.
+  // Files without rows are not read. A column mapping that no file uses is a fault only if all
+  // files have rows; otherwise it may belong to one of the files that were not read.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;

@@ -60,8 +60,8 @@ std::string styled(const std::string& summary, const Style& style) {
   return text;
 }
 
-/// Prints the findings: all with `--verbose`, with `--quiet` only the errors that explain a
-/// refusal, else as findings_text().
+/// Prints the findings. `--verbose`: all of them. `--quiet`: only the errors that explain a
+/// refusal. Otherwise: findings_text(), which shortens long lists.
 void print_findings(const Outcome& outcome, Manner manner) {
   const Style style(stderr);
   std::string text;

@@ -31,7 +31,7 @@ namespace awmr::cli {
 namespace {
 
 /// Writes each file to `DIR/PATH` and creates directories as needed. Writes all files or none.
-/// Errors: as make_directory(), check_output() and write_files().
+/// Errors: those of make_directory(), check_output() and write_files().
 Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>& files,
                      const std::string& manifest) {
   const fs::path inputs[] = {command.model, command.gains};

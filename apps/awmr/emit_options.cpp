@@ -22,9 +22,10 @@ void add_resistance_options(CLI::App& command, EmitOptions& options) {
       ->default_str("table");
   command
       .add_option("--table-error", options.table_error,
-                  "Largest permitted error of a table, relative to the resistance or, where that "
-                  "is smaller, to a tenth of the largest force (yaw: moment). It is an error if no "
-                  "table is that accurate [5e-4, or the error of the most accurate table]")
+                  "Largest permitted error of a table, relative to the resistance; relative to a "
+                  "tenth of the largest force (yaw: moment) where the resistance is below that. It "
+                  "is an error if no table is that accurate [5e-4, or the error of the most "
+                  "accurate table]")
       ->check(within(1e-7, 0.1));
 }
 

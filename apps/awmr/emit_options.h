@@ -16,7 +16,7 @@ namespace awmr::cli {
 void add_emit_options(CLI::App& command, EmitOptions& options);
 
 /// Returns the hashes of the two input files, the name of the gains file, and the robustness
-/// certificate in it. Errors: as input_file() and read_certificate().
+/// certificate in it. Errors: those of input_file() and read_certificate().
 Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
                                const std::filesystem::path& gains);
 

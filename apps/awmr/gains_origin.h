@@ -18,7 +18,7 @@ namespace awmr::cli {
 /// is not among them. `gains-of-another-mode`: the gains were tuned for one mode and are used in
 /// another. `mode`: the mode in which they are used; absent: all modes. No warning for gains that
 /// were written by hand, because they list no inputs, and for gains from a pipe, which can be read
-/// only once. Errors: as read_json_file().
+/// only once. Errors: those of read_json_file().
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings, std::optional<YawMode> mode = {});
 

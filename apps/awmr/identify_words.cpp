@@ -49,8 +49,9 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,
-         "Family of the resistance laws: power (default; logs take another that is significantly "
-         "better), coulomb-linear, coulomb-linear-quadratic, coulomb-power, dead-zone, or auto "
+         "Family of the resistance laws: power (default; a fit of logs uses another family if "
+         "that is significantly better), coulomb-linear, coulomb-linear-quadratic, "
+         "coulomb-power, dead-zone, or auto "
          "(least AICc); surge=NAME or yaw=NAME selects it for one law")
       ->delimiter(',');
   sub.add_option("--loss", words.loss,

@@ -72,7 +72,7 @@ inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
 }
 
 /// Reads the tyres from the file and adds a finding on their prediction errors (`tyres-simulated`).
-/// Without a file, returns the default tyres. Errors: as read_tyres().
+/// Without a file, returns the default tyres. Errors: those of read_tyres().
 inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Finding>& findings) {
   if (!choice.tyres_file) return Tyres<double>{};
   AWMR_ASSIGN_OR_RETURN(const TyreFit fit, read_tyres(*choice.tyres_file));

@@ -47,8 +47,9 @@ constexpr ProjectKey kKeys[] = {
     {"compare", "scenario", "compare/scenarios"},
 };
 
-/// Text for a user of project.json that replaces the option `option` (as marked by option_text():
-/// "family surge=..."): its key in project.json or tune.json, else its command and name.
+/// Text that replaces an option in messages for a user of project.json. `option`: name of the
+/// option and possibly a value, as given to option_text(): "family surge=...". The text is the key
+/// with the same effect and its file or, without such a key, the command with the option.
 std::string project_text(std::string_view command, std::string_view option) {
   std::string name(option.substr(0, option.find(' ')));
   std::ranges::replace(name, '_', '-');

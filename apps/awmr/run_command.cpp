@@ -108,9 +108,9 @@ Result<Trials> read_trials(const Project& project) {
                       .options = project.trials});
 }
 
-/// Returns every input file, after checks before anything is written. Errors: an invalid file; an
-/// implausible vehicle; two scenario files of the same name; an output that is also an input, or an
-/// existing file that awmr did not write.
+/// Checks inputs and outputs before anything is written. Returns every input file. Errors: an
+/// invalid file; an implausible vehicle; two scenario files of the same name; an output file that
+/// is also an input, or that exists and was not written by awmr.
 Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Project& project) {
   TuneConfig tune;
   std::vector<Fault> faults;

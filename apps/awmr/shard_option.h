@@ -24,8 +24,8 @@ inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& tex
 /// Parses I/N. Errors (input): the text is not of this form.
 Result<ShardChoice> shard_of(const std::optional<std::string>& text);
 
-/// Writes a part into the directory. `content` describes the part: "5 runs". Errors: as
-/// write_part().
+/// Writes a part into the directory. `content` describes the part: "5 runs". Errors: those
+/// of write_part().
 Result<Outcome> written_part(const ShardKind& kind, const Shard& shard,
                              const std::filesystem::path& directory, const PartText& part,
                              const std::string& content, std::vector<Finding> findings = {});

@@ -138,7 +138,8 @@ Result<std::vector<fs::path>> checked_inputs(const SimulateCommand& command) {
   return inputs;
 }
 
-/// The gains of the command; any gains for an open-loop scenario, which uses none.
+/// Returns the gains in the file of `--gains`. Without `--gains`, an open-loop scenario, which does
+/// not use gains, gets the paper's; any other scenario is an error (input).
 Result<Gains<double>> gains_for(const SimulateCommand& command, const Scenario& scenario,
                                 const Model& model) {
   if (command.gains) return read_gains_for(*command.gains, model.vehicle.sample_time_s);

@@ -47,7 +47,8 @@ std::string brief_of(const Validation& validation) {
                      others.empty() ? "none" : fmt::format("{}", fmt::join(others, " ")));
 }
 
-/// Reads the logs of the command and returns the result of `evaluate` for each run in them.
+/// Reads the logs of the command, each of which can contain several runs. Returns the result of
+/// `evaluate` for each run.
 template <class Evaluate>
 auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const Evaluate& evaluate,
                    std::vector<Finding>& findings)

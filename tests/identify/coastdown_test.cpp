@@ -87,8 +87,8 @@ TEST(CoastDown, FindsTheMomentOfMotorsOffInACurveRecordedFromBefore) {
 }
 
 TEST(CoastDown, TheClosedFormIsTheIntegratedOneForOtherFamiliesToo) {
-  // c + alpha w: u(t) = (u0 + c/alpha) e^(-alpha t/m') - c/alpha until rest, compared with RK4 at 2
-  // ms.
+  // Resistance c + alpha u: u(t) = (u0 + c/alpha) e^(-alpha t/m') - c/alpha until rest. The fit
+  // integrates the motion by RK4 with steps of 2 ms.
   const double alpha = 1.1, c = 0.2, m = 0.3, u0 = 1.4;
   TrialData data;
   data.surge = TrialSet<SurgeRow>{"surge.csv", {}, 0};
@@ -107,8 +107,8 @@ TEST(CoastDown, TheClosedFormIsTheIntegratedOneForOtherFamiliesToo) {
   options.surge_family.family = Family::kCoulombLinear;
   const auto result = identify(vehicle(), data, options, {});
   ASSERT_TRUE(result);
-  // Tolerance: the vehicle stops within an integration step, an error of about c h/m' = 1e-3 m/s in
-  // one row of a hundred.
+  // Tolerance: the vehicle stops in the middle of an integration step h, which causes an error of
+  // about c h/m' = 1e-3 m/s in one of the hundred rows.
   EXPECT_NEAR(*result->model[ParameterId::kMassNorm].value / m, 1.0, 1e-3);
 }
 
@@ -145,7 +145,7 @@ TEST(CoastDown, WithoutASurgeLawRefusesTheMassAndReportsTheRatio) {
     reported = reported || (f.code == "not-identifiable" &&
                             f.message.find("m'/a1 = 0.5556") != std::string::npos);
   }
-  EXPECT_TRUE(reported);  // 0.5/0.9
+  EXPECT_TRUE(reported);  // m'/a1 = 0.5/0.9
 }
 
 TEST(CoastDown, SetsAsideACurveWithoutADeceleration) {
@@ -216,7 +216,7 @@ TEST(CoastDown, AloneReportsAnInadequatePowerLaw) {
   EXPECT_FALSE(inadequate(plain->model));
   const auto* mass = found(plain->model, "power", "mass_norm/surge.alpha");
   EXPECT_NEAR(mass->value, 0.5 / 1.3, 4.0 * *mass->std_error);
-  // `auto` selects the better one, whose numbers come first.
+  // The family `auto` selects the best family, whose report comes first.
   IdentifyOptions options;
   options.surge_family = {.family = std::nullopt, .requested = true};
   const auto chosen = identify(vehicle(), coulomb, options, {});
@@ -275,11 +275,11 @@ TEST(CoastDown, CorrelatedNoiseWidensTheInterval) {
                           [](const Finding& f) { return f.code == "coloured-residuals"; }));
 }
 
-/// A sensor of the speed.
+/// Errors of a simulated speed sensor.
 struct SpeedSensor {
   double lag_s = 0.0;       ///< time constant of a filter; 0: none
-  double lead_s = 0.0;      ///< record before motors-off
-  double lowest_mps = 0.0;  ///< lower speeds read 0
+  double lead_s = 0.0;      ///< duration of the record before the motors go off
+  double lowest_mps = 0.0;  ///< readings below this are 0
   int hold = 1;             ///< rows for which a reading is repeated
   double noise_mps = 0.01;
 };

@@ -53,7 +53,8 @@ TEST(Compass, FindsAKnownEllipseToTheRounding) {
     const auto fit = fit_compass(record_of(truth, {.turned_deg = turned, .noise = 0.0}), 4.5);
     ASSERT_TRUE(fit) << to_text(fit.error());
     const CompassCalibration& c = fit->calibration;
-    // The solver ends when a step promises less than 1e-8 of the residuals' size.
+    // Tolerances: the solver stops when the next step is expected to reduce the residuals by less
+    // than 1e-8 of their size.
     EXPECT_NEAR(c.centre_ahead.value, truth.ahead_0, 1e-5);
     EXPECT_NEAR(c.centre_left.value, truth.left_0, 1e-5);
     EXPECT_NEAR(c.gain_ahead.value, truth.ahead, 1e-7);
@@ -79,16 +80,17 @@ TEST(Compass, IntervalsCoverTheTruthAtTheirRate) {
     held[1] += c.gain_ahead.ci95.contains(truth.ahead) ? 1 : 0;
     held[2] += c.gain_cross.ci95.contains(truth.cross) ? 1 : 0;
     held[3] += c.field.ci95.contains(truth.field) ? 1 : 0;
-    // Heading error towards north, where the true heading is 0. The bound for the worst heading
-    // holds there too.
+    // Heading error when the vehicle points north (true heading 0). The bound is for the worst
+    // heading, so it also applies to this one.
     const double ahead = truth.ahead_0 + truth.left() * truth.field - c.centre_ahead.value;
     const double left = truth.left_0 - truth.cross * truth.field - c.centre_left.value;
     const double heading = std::atan2(-(c.gain_cross.value * ahead + c.gain_left.value * left),
                                       c.gain_ahead.value * ahead + c.gain_cross.value * left);
     heading_held += std::abs(degrees(heading)) <= c.heading_error_deg ? 1 : 0;
   }
-  // 95 % of 400 are 380, with a binomial standard deviation of 4.4: minus three of them. The
-  // jackknife is conservative by up to a percent.
+  // Expected: 95 % of 400 = 380, with a binomial standard deviation of 4.4. The lower bound is
+  // three standard deviations below. The upper bound is farther away, because intervals of the
+  // jackknife contain the truth in up to 1 % more cases.
   for (const int count : held) {
     EXPECT_GE(count, 0.92 * kRuns);
     EXPECT_LE(count, 0.99 * kRuns);

@@ -191,7 +191,8 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
   }
 }
 
-/// A drive that never coasts, of a vehicle with this surge and yaw resistance whose motors lag.
+/// Log of a drive that never coasts. The vehicle has the resistances of `vehicle`, and motors with
+/// the time constant `lag_s`.
 DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::uint64_t seed) {
   DrivingLog log = drive(kTruths[1], seed, {.duration_s = 20.0, .rate_hz = 50.0});
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
@@ -208,8 +209,8 @@ DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::ui
   return log;
 }
 
-/// While the yaw family is the (wrong) power law, the errors of the yaw motion hide the Coulomb
-/// friction of surge.
+/// The fit must choose the yaw family before the surge family: with a wrong yaw family (power law),
+/// the errors of the yaw motion hide the Coulomb friction of surge.
 TEST(Families, OfSurgeAreComparedOnceTheYawFamilyIsRight) {
   Plant<double> vehicle = plant(kTruths[1]);
   vehicle.surge = {.alpha = 1.0, .beta = 1.0, .coulomb = 0.25};
@@ -244,7 +245,7 @@ TEST_P(FamiliesAtNoise, AreIdentifiedRightWithFrictionFromRest) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Short, FamiliesAtNoise, ::testing::Values(1e-5, 5e-2));
-/// Noise between the extremes of `Short`.
+/// Noise levels between the two of `Short`.
 INSTANTIATE_TEST_SUITE_P(Long, FamiliesAtNoise, ::testing::Values(5e-4, 1e-3, 5e-3, 2e-2));
 
 TEST(Families, DropTermsOfThePreviousFamily) {

@@ -25,8 +25,8 @@ std::vector<State<double>> motion_with(const DrivingLog& log, const Plant<double
   return states;
 }
 
-/// A drive of the plant with sensor noise and these forces. `reverses`: from 5 s on, the forces are
-/// negative in every other 3 s.
+/// Log of a drive of the plant with sensor noise and the extra forces. `reverses`: after the first
+/// 5 s, the commanded wheel forces are reversed in every second interval of 3 s.
 DrivingLog drive_with(const Plant<double>& plant, ExtraForces extra, bool reverses = false) {
   Random random(8, 5);
   DrivingLog log = simulate_log(plant, robot(), {.duration_s = 25.0, .drive = 8}, {}, random);

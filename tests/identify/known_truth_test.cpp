@@ -59,8 +59,8 @@ TEST(Identify, IntervalsCoverTheTruthAtTheirRateWhereTheNoiseIsTheEstimatorsOwn)
   EXPECT_NEAR(surge_alpha, 950, 28);
   EXPECT_NEAR(surge_beta, 950, 28);
   EXPECT_NEAR(yaw_beta, 950, 28);
-  // ln m' is a nonlinear function of b1 (1 - b1 is 0.116 +- 0.014): first-order propagation costs
-  // about a percent of coverage beyond the binomial spread.
+  // ln m' is a nonlinear function of b1 (1 - b1 is 0.116 +- 0.014). First-order error propagation
+  // therefore lowers the coverage by about a percent; 15 runs of the 1000 are allowed for this.
   EXPECT_NEAR(mass, 950, 28 + 15);
 }
 
@@ -100,7 +100,8 @@ TEST(Identify, StopTimeErrorIncludesTheCorrelationOfTheSurgeFit) {
   const double fit_share = c[0][0] / (a1 * a1) + 2.0 * by * c[0][1] / a1 + by * by * c[1][1];
   const double relative = *m[ParameterId::kMassNorm].std_error / *m[ParameterId::kMassNorm].value;
   EXPECT_GE(relative * relative, fit_share * (1.0 - 1e-9));
-  // The scatter of the three runs about the fitted exponent adds the rest, at most a tenth here.
+  // The rest of the variance of m' comes from the scatter of the three stop times. It is at most a
+  // tenth of the variance from the surge fit here.
   EXPECT_LT(relative * relative, 1.1 * fit_share);
 }
 

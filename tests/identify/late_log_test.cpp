@@ -202,7 +202,8 @@ TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
-/// The log with a yaw rate that was computed from the heading, which is then lost.
+/// The log with a yaw rate that is computed as the difference of successive headings. Heading and
+/// position are then removed from the log.
 DrivingLog with_differenced_heading(DrivingLog log) {
   const std::vector<double>& heading = log[LogChannel::kHeading]->value;
   std::vector<double>& rate = log[LogChannel::kYawRate]->value;
@@ -225,7 +226,8 @@ TEST(LateLog, AllowsForAYawRateThatIsTheDifferenceOfHeadings) {
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
   const Estimate& inertia = result->model[ParameterId::kInertiaNorm];
-  // With white noise of the same size, the standard error would be a third of the value.
+  // If the noise of the yaw rate were modelled as white noise of the same size, the standard error
+  // would be a third of the value.
   EXPECT_LT(*inertia.std_error, 0.1 * *inertia.value);
 }
 
@@ -332,8 +334,8 @@ TEST_P(SlippingWheels, AreFoundInTheirReadings) {
 }
 
 TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
-  // Slip of the speed resembles a speed that is read early, as by late commands and a late yaw
-  // rate.
+  // Wheel slip changes the measured speed as if it were read early. Late commands together with a
+  // late yaw rate have the same effect, so the log does not show which of the two is the cause.
   DrivingLog log = with_slip(drive(kTruths[1], 8, {.duration_s = 40.0}), 0.02, false);
   for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     log[absent].reset();
@@ -397,7 +399,7 @@ TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
     EXPECT_EQ(terms[i].quantity.name(), fit.quantities[i].name());
     EXPECT_EQ(terms[i].begin, fit.coordinates[i]);
   }
-  // In a fit, the terms of the commands come before those of the sensors.
+  // Expected order: the terms of the commands come before those of the sensors.
   EXPECT_EQ(initial_coordinates(options), (std::vector{0.1, 0.2, 0.05, -0.1, 0.3, 1.1, 0.3, 0.4}));
 }
 
@@ -499,7 +501,8 @@ DrivingLog smooth_commands(double step_s) {
   return log;
 }
 
-/// Every `every`-th row of `fast` with measurements of the vehicle that its commands drive.
+/// Simulates the vehicle with the commands of `fast`. Returns a log with every `every`-th row:
+/// commands and noisy measurements.
 DrivingLog measured_rows(const DrivingLog& fast, const Plant<double>& vehicle, std::size_t every) {
   std::vector<State<double>> states;
   replay<double>(LogSignals(fast), 0, fast.rows(), vehicle, nullptr, 0.002, {},
@@ -540,7 +543,7 @@ TEST(LateLog, InterpolatesCommandsThatChangeFasterThanTheRows) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
 }
 
-/// The commands, held over `rows` rows each.
+/// Keeps only every `rows`-th command and holds it until the next one.
 void hold_commands(DrivingLog& log, std::size_t rows) {
   for (std::vector<double>* const signal :
        {&log.force_left, &log.force_right, &*log.steering_command_rad}) {
@@ -548,7 +551,7 @@ void hold_commands(DrivingLog& log, std::size_t rows) {
   }
 }
 
-/// The signal on straight lines between its values in every `rows`-th row.
+/// Interpolates the signal linearly between its values in every `rows`-th row.
 std::vector<double> on_lines(const std::vector<double>& signal, std::size_t rows) {
   std::vector<double> lines = signal;
   for (std::size_t i = 0; i + rows < signal.size(); ++i) {
@@ -627,8 +630,10 @@ INSTANTIATE_TEST_SUITE_P(Short, ForceImbalance, ::testing::Values(0.05));
 /// Long tests: the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(-0.1));
 
-/// The log with commands F' that push with F'/(1 + s (F'/F'm)^n)^(1/n), s = (1 - L)^(-n) - 1, F'm
-/// the largest of them.
+/// The log of a vehicle whose motors saturate: a command F' gives the force
+///   F'/(1 + s (F'/F'm)^n)^(1/n),   s = (1 - L)^(-n) - 1
+/// F'm is the largest command, and L (`loss`) the fraction of the force that is lost at F'm. The
+/// commands are increased so that the forces stay those of `log`.
 DrivingLog saturated(DrivingLog log, double loss, double n) {
   double most = 0.0;  // largest force after the saturation
   for (const auto* const forces : {&log.force_left, &log.force_right}) {
@@ -689,7 +694,8 @@ TEST(LateLog, FindsForcesThatGrowWithAPowerOfTheCommands) {
   EXPECT_FALSE(mass.ci95);
 }
 
-/// The saturation of tanh is not of the fitted form, so that each log has other values.
+/// The forces saturate as tanh, which the fitted law does not describe exactly. The estimates
+/// therefore differ between logs, and this difference must not be reported.
 TEST(LateLog, DoesNotCompareLogsWithALargeSaturation) {
   TrialData data;
   for (const std::uint64_t seed : {8U, 9U}) {
@@ -707,7 +713,7 @@ TEST(LateLog, DoesNotCompareLogsWithALargeSaturation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Short, ForceSaturation, ::testing::Values(4.0));
-/// Long tests: a gradual loss of force and a hard limit.
+/// Sharpness n of the saturation: from a gradual loss of force (1) to nearly a hard limit (20).
 INSTANTIATE_TEST_SUITE_P(Long, ForceSaturation, ::testing::Values(1.0, 2.0, 20.0));
 
 TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {

@@ -76,13 +76,14 @@ State<T> first_state(const std::function<T(std::size_t, double)>& seed) {
 
 struct ByHand {
   std::vector<LinearMotion> motions;
-  std::vector<LinearMotion> earlier;  ///< as measured with the delay kSpeedDelay_s
+  std::vector<LinearMotion> earlier;  ///< by row: motion at the time of the row - kSpeedDelay_s
 };
 
 constexpr double kInputDelay_s = 0.033;
 constexpr double kSpeedDelay_s = 0.047;
 
-/// With Coulomb friction, stops of the vehicle split integration steps.
+/// Whether the vehicle has Coulomb friction, which makes it stop in the middle of integration
+/// steps.
 enum class Friction { kNone, kCoulomb };
 
 ParameterValues<double> values_with(Friction friction) {
@@ -133,10 +134,11 @@ struct ByJets {
   std::vector<State<Jet>> earlier;
 };
 
-/// State at the time delay_s >= 0 before the last of `states`, the states at the rows from `begin`
-/// on. The state is computed by Runge-Kutta steps from the row before that time; their length
-/// carries the derivative with respect to the delay. For a time before the row `begin`, the state
-/// there is extrapolated linearly with its rates. `input_delay_s`: `delay_s` of replay().
+/// State at the time delay_s >= 0 before the last of `states`. `states` are the states at the rows
+/// from `begin` on. Runge-Kutta steps start at the last row before that time; the derivative with
+/// respect to the delay enters through the length of these steps. For a time before the row
+/// `begin`, the first state is extrapolated linearly with its rates. `input_delay_s`: `delay_s` of
+/// replay().
 template <class T>
 State<T> earlier_state(const LogSignals& signals, std::size_t begin,
                        const std::vector<State<T>>& states, const Plant<T>& plant, const T& delay_s,
@@ -181,15 +183,16 @@ ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourW
   return found;
 }
 
-/// Additional tolerance of the derivative with respect to the delay of the commands. By hand it
-/// follows from the rates where a command changes, by jets from the lengths of the Runge-Kutta
-/// steps. The two differ by the error of a step in which the yaw rate passes the kink of its
-/// resistance: 8.5e-4 with steps of 4 ms, 8e-6 with 0.25 ms.
+/// Additional tolerance of the derivative with respect to the delay of the commands. The hand-coded
+/// derivative is computed from the rates at the time at which a command changes, that of the jets
+/// from the lengths of the Runge-Kutta steps. They differ by the integration error of a step in
+/// which the yaw rate passes the kink of its resistance: 8.5e-4 with steps of 4 ms, 8e-6 with 0.25
+/// ms.
 constexpr double kChanges = 1e-3;
 
-/// Expects equal states and derivatives by jets and by hand. The tolerance is relative to the
-/// largest derivative of the column over the log, at least to `least`. `but`: a column to skip; -1:
-/// none.
+/// Expects that the states and derivatives of `jets` and `motions` (hand-coded) are equal.
+/// `tolerance` is relative to the largest derivative of the column over the log, or to `least` if
+/// that is larger. `but`: a column to skip; -1: none.
 void expect_equal(const std::vector<State<Jet>>& jets, const std::vector<LinearMotion>& motions,
                   double tolerance, int but = -1, double least = 1e-9) {
   ASSERT_EQ(jets.size(), motions.size());
@@ -285,8 +288,9 @@ TEST(LinearReplay, ACommandThatArrivesBetweenRowsActsFromThen) {
 }
 
 TEST(LinearReplay, DerivativeByACommandDelayIsThatOfDifferences) {
-  // A change of the command that falls on a row (0.03 s) has the derivative by a
-  // longer delay. Steps in which the servo leaves its limit have a kink.
+  // With the delay 0.03 s, a delayed command changes exactly at a row, where the motion has a kink.
+  // The derivative is then the one-sided derivative towards longer delays, as computed here.
+  // Tolerance: steps in which the servo leaves its limit also have a kink.
   constexpr double kApart_s = 1e-6;
   const DrivingLog log = commands(true);
   for (const double delay_s : {0.033, 0.03, -0.017}) {
@@ -312,9 +316,9 @@ TEST(LinearReplay, DerivativeByACommandDelayIsThatOfDifferences) {
 }
 
 TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
-  // Central differences over 2e-6 s of a motion whose rates are below 10 and change within at least
-  // 0.02 s: the error is below 1e-6. Exceptions are steps with a kink, at a limit of the servo or
-  // where the vehicle stops.
+  // Central differences over 2e-6 s. The rates of the motion are below 10 and take at least 0.02 s
+  // to change, so the error of the differences is below 1e-6. Exceptions are steps in which the
+  // motion has a kink, at a limit of the servo or where the vehicle stops.
   constexpr double kApart_s = 1e-6;
   const DrivingLog log = commands(true);
   const std::vector<LinearMotion> here = by_hand(log, 0.004, kSpeedDelay_s).earlier;
@@ -332,13 +336,13 @@ TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
   EXPECT_LT(apart, here.size() * kStateSize / 20);
 }
 
-/// Steering trim, rad, force imbalance, saturation, the logarithms of its sharpness and of the
-/// exponent of the forces, the servo's largest rate, rad/s, and dead band, rad, and asymmetry of
-/// the steering.
+/// Number of errors of the commands: 0 steering trim, rad; 1 force imbalance; 2 saturation of the
+/// forces; 3 logarithm of its sharpness; 4 logarithm of the exponent of the forces; 5 largest rate
+/// of the servo, rad/s; 6 dead band, rad, and 7 asymmetry of the steering.
 constexpr std::size_t kErrors = 8;
 using CommandErrors = std::array<double, kErrors>;
 
-/// The motion with these errors of the commands as the only columns.
+/// Simulates the log with these errors of the commands, and derivatives with respect to them only.
 std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors& errors) {
   constexpr double kStep_s = 0.004;
   const LogSignals signals(log);
@@ -395,11 +399,13 @@ TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
   }
 }
 
-/// Speed, yaw rate, logarithm of the dead zone, back-EMF, imbalance and slip.
+/// Number of coordinates: speed, yaw rate, logarithm of the dead zone, back-EMF, force imbalance
+/// and slip.
 constexpr std::size_t kSlipColumns = 6;
 using SlipCoordinates = std::array<double, kSlipColumns>;
 
-/// What slip adds to a reading, with its derivatives.
+/// Amount that wheel slip adds to a reading of the channel, and its derivatives with respect to the
+/// coordinates.
 std::pair<double, std::vector<double>> slip_at(const SlipCoordinates& x, LogChannel channel,
                                                bool is_ratio) {
   Plant<double> plant = plant_by_hand(true, 0.004, Drive::kFourWheel, Friction::kNone);
@@ -448,10 +454,11 @@ TEST(WheelSlip, OfAStandingWheelIsZero) {
   EXPECT_EQ(slip_at(at_rest, LogChannel::kSpeed, false).first, 0.0);
 }
 
-/// By ExtraForce: values, for the speed scales of Stribeck friction their logarithms.
+/// Values of the extra forces, by ExtraForce; for the speed scales of Stribeck friction the
+/// logarithms.
 using ForceCoordinates = std::array<double, kExtraForceCount>;
 
-/// The motion with these forces as the only columns.
+/// Simulates the log with these extra forces, and derivatives with respect to them only.
 std::vector<LinearMotion> with_forces(const DrivingLog& log, const ForceCoordinates& coordinates,
                                       Friction friction) {
   constexpr double kStep_s = 0.004;
@@ -475,8 +482,8 @@ std::vector<LinearMotion> with_forces(const DrivingLog& log, const ForceCoordina
   return motions;
 }
 
-/// Expects that the derivatives by the forces [first, end) are those of central differences, up to
-/// a share of the largest one.
+/// Expects that the derivatives with respect to the forces [first, end) equal central differences.
+/// `share`: tolerance, relative to the largest derivative in the column.
 void expect_derivatives_by_forces(const ForceCoordinates& at, Friction friction, std::size_t first,
                                   std::size_t end, double share) {
   constexpr double kApart = 1e-6;
@@ -507,8 +514,8 @@ void expect_derivatives_by_forces(const ForceCoordinates& at, Friction friction,
 }
 
 TEST(LinearReplay, OfExtraForcesHasTheDerivativesOfCentralDifferences) {
-  // Where friction stops the vehicle within a step, derivatives and differences agree less exactly,
-  // and the less so, the more the forces jump there.
+  // Derivatives and differences agree less exactly in steps in which friction stops the vehicle.
+  // Forces that jump at a stop therefore need a larger tolerance.
   constexpr std::size_t kJumping = at(ExtraForce::kTurnDrag);
   const ForceCoordinates none{0.0, -2.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
   const ForceCoordinates all{0.04, -2.0, 0.01, -1.0, 0.06, -0.1, 0.1, 0.8, 0.6, 0.3, -0.2, 0.25};
@@ -563,7 +570,7 @@ TEST(ProductSums, EqualTheSumsOfAllRowsAndOfTheTriangle) {
   few.topLeftCorner(kSize - 1, kSize - 1) = t.r;
   few.col(kSize - 1).head(kSize - 1) = t.z;
   few(kSize - 1, kSize - 1) = t.rest;
-  // Pivots of at most 1e-14 are dropped: 1e-7 of their direction.
+  // Tolerance: pivots of at most 1e-14 are dropped. These are squares, so 1e-7 of a column is lost.
   EXPECT_LT(relative(few.transpose() * few - expected).cwiseAbs().maxCoeff(), 1e-7);
 }
 

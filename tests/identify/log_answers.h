@@ -30,8 +30,9 @@ inline IdentifyOptions power_law() {
   return options;
 }
 
-/// Mean force from each row to the next of motors with the time constant T = lag_s under the
-/// command c: F'(t + h) = c + (F'(t) - c) exp(-h/T). `force`: F' at the first row.
+/// Force of motors with the time constant T = lag_s, averaged from each row to the next. In this
+/// time the command c is constant: F'(t + h) = c + (F'(t) - c) exp(-h/T). `force`: F' at the first
+/// row.
 inline std::vector<double> behind_motors(const DrivingLog& log, const std::vector<double>& command,
                                          double lag_s, double force) {
   std::vector<double> mean = command;
@@ -48,8 +49,8 @@ inline std::vector<double> behind_motors(const DrivingLog& log, const std::vecto
 inline constexpr double kSimulationStep_s = 0.002;
 
 /// The log with the measurements of a vehicle whose motors lag by the time constant `lag_s`. Before
-/// the log, the motors had the force of the first row, or none if it begins `from_rest`. `vehicle`:
-/// for steps of kSimulationStep_s.
+/// the log, the motors had the force of the first row, or none if it begins `from_rest`. `vehicle`
+/// must be resolved for steps of kSimulationStep_s.
 inline DrivingLog measured_behind_lag(DrivingLog log, const Plant<double>& vehicle, double lag_s,
                                       std::uint64_t seed, bool from_rest) {
   const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},
@@ -74,7 +75,7 @@ inline DrivingLog measured_behind_lag(DrivingLog log, const Plant<double>& vehic
   return log;
 }
 
-/// The log of drive(), measured_behind_lag().
+/// measured_behind_lag() of the log of drive().
 inline DrivingLog drive_with_lag(const Truth& t, std::uint64_t seed, double lag_s,
                                  DrivePlan plan = {.duration_s = 20.0}, bool from_rest = false) {
   return measured_behind_lag(drive(t, seed, plan), plant(t), lag_s, seed, from_rest);

@@ -458,7 +458,7 @@ TEST_P(BackEmfOfSeeds, IsRecoveredFromDrivingAndCoastingAndReported) {
     ASSERT_TRUE(ci95);
     covered += ci95->contains(kBackEmf) ? 1 : 0;
   }
-  // An interval misses the truth with 5 %; all three do with a probability of 1.3e-4.
+  // An interval misses the truth with a probability of 5 %, all three with 0.05^3 = 1.3e-4.
   if (GetParam() == 3) {
     EXPECT_GE(covered, 1);
   }
@@ -557,8 +557,8 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// A log whose last fifth has another a1: 48 s of a drive, a pause in the recording, and 12 s with
-/// a1 times `factor`.
+/// A log with another a1 in its last fifth: a drive of 48 s, a pause in the recording, and a drive
+/// of 12 s of a vehicle with a1 multiplied by `factor`.
 DrivingLog log_with_change(double factor, std::uint64_t seed) {
   constexpr double kPause_s = 2.0;
   Truth changed = kTruths[0];
@@ -582,7 +582,7 @@ DrivingLog log_with_change(double factor, std::uint64_t seed) {
   return log;
 }
 
-/// The model of a log whose a1 changes by this factor in the last fifth.
+/// The model identified from log_with_change().
 Identification identified_with_change(double factor, std::uint64_t seed) {
   TrialData data;
   data.logs = {log_with_change(factor, seed)};
@@ -614,8 +614,8 @@ TEST_P(HeldOut, AChangeInTheLastFifthIsReportedAndWithdrawsTheIntervals) {
   EXPECT_FALSE(result.model[ParameterId::kSurgeAlpha].ci95);
 }
 
-// The significance level is 0.001, so the probability that chance gives one of the five drives the
-// finding is 1 in 200.
+// The significance level is 0.001, so the probability of a false finding in any of the five drives
+// is 1 in 200.
 TEST_P(HeldOut, ADriveWithoutAChangeIsPredicted) {
   const Identification result = identified_with_change(1.0, GetParam());
   EXPECT_FALSE(has_finding(result, "held-out-misses", ""));
@@ -670,8 +670,8 @@ TEST(Log, RecognisesDifferencedNoise) {
   }
 }
 
-/// Scores of `logs` logs with alternating signs; their size is `times` the standard deviation that
-/// the information gives.
+/// Scores (gradients of the log-likelihood) of `logs` logs, with alternating signs. Their size is
+/// `times` the standard deviation that follows from `information`.
 Scores scattered(int logs, double times, double information) {
   Scores scores;
   const double size = times * std::sqrt(information / logs);
@@ -689,8 +689,9 @@ TEST(Log, WholeLogsThatScatterBeyondChanceWidenTheIntervals) {
                            {free_parameter(ParameterId::kSurgeAlpha)})
         .factor.front();
   };
-  // V/C = m/(m - 1) times^2; by chance it stays below chi^2_0.95/5 = 2.21 of six logs. The prior's
-  // share is 4e-6.
+  // With m logs, V/C = m/(m - 1) times^2, the variance between the logs (V) over that expected from
+  // the noise (C). For six logs without other scatter it is below chi^2_0.95/5 = 2.21 with a
+  // probability of 95 %. The prior changes the result by 4e-6.
   EXPECT_NEAR(factor(6, 3.0), std::sqrt(1.2) * 3.0, 1e-4);
   EXPECT_EQ(factor(6, 1.3), 1.0);
   EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs are too few";

@@ -37,8 +37,8 @@ double posterior_weight(const Model& model, FitSubject subject) {
 TEST(NoiseAverage, KeepsThePapersValuesAndCoversTheOtherEstimators) {
   const Model model = identified();
   const Estimate& mass = model[ParameterId::kMassNorm];
-  // Golden: the log-linear values of README.md, and the quantiles of the mixture by SciPy's Student
-  // t and Brent's method. The digits that are shown.
+  // Golden values: the log-linear values of README.md, and quantiles of the mixture computed by
+  // SciPy (Student's t, Brent's method). Tolerance: rounding to the digits given here.
   EXPECT_NEAR(*model[ParameterId::kSurgeAlpha].value, 1.3157, 5e-5);
   EXPECT_NEAR(*model[ParameterId::kSurgeBeta].value, 0.8841, 5e-5);
   EXPECT_NEAR(*mass.value, 0.0824, 5e-5);
@@ -48,8 +48,8 @@ TEST(NoiseAverage, KeepsThePapersValuesAndCoversTheOtherEstimators) {
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
     EXPECT_NEAR((*mass.quantiles)[q], expected[q], 1e-4) << kQuantiles[q].key;
   }
-  // The interval contains the values of m' by equation (60) and Table 2, with errors on the force
-  // and on the speed.
+  // The interval contains the values of m' from equation (60) and Table 2, fitted with errors on
+  // the force (0.1117) and with errors on the speed (0.1168).
   EXPECT_TRUE(mass.ci95->contains(0.1117));
   EXPECT_TRUE(mass.ci95->contains(0.1168));
   for (const FitSubject subject : {FitSubject::kSurge, FitSubject::kYaw, FitSubject::kMass}) {
@@ -61,7 +61,7 @@ TEST(NoiseAverage, InertiaInheritsTheMassesQuantiles) {
   const Model model = identified();
   const double factor = model.vehicle.inertia_kgm2() / model.vehicle.mass_kg;
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
-    // Tolerance: the same product in another order, with a few roundings.
+    // Tolerance: the same product is computed in another order, with a few rounding errors.
     EXPECT_NEAR((*model[ParameterId::kInertiaNorm].quantiles)[q] /
                     (factor * (*model[ParameterId::kMassNorm].quantiles)[q]),
                 1.0, 1e-13);
@@ -91,7 +91,7 @@ TEST(NoiseAverage, UsesOnlyTheRequestedErrorModel) {
 
 TEST(NoiseAverage, ReportsTheGripMassNextToAnImplausibleOne) {
   const Model model = identified();
-  // g1(1.66)/(0.8 g)
+  // m' for which the deceleration g1(u)/m' at u = 1.66 m/s is that of a tyre friction of 0.8
   const double expected = 1.31567 * std::pow(1.66, 0.884123) / (0.8 * 9.80665);
   ASSERT_TRUE(model.mass_norm_by_grip);
   EXPECT_NEAR(*model.mass_norm_by_grip / expected, 1.0, 1e-4);

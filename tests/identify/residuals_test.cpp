@@ -61,7 +61,7 @@ std::vector<double> errors_of_channel(const LogProblem& problem, LogChannel chan
   return errors;
 }
 
-// Smoothing waits for later rows, latency for earlier ones.
+// A smoothed reading depends on later rows, a delayed reading on earlier rows.
 TEST(Residuals, SmoothingOfOneChannelLeavesTheOthersAsTheyAre) {
   const Truth& t = kTruths[1];
   const std::vector<DrivingLog> logs = {drive(t, 3, {.duration_s = 10.0})};
@@ -101,7 +101,8 @@ TEST_P(TermDerivatives, AgreeWithDifferencesOfTheCost) {
       less.coordinates[i] -= kStep;
       const double difference =
           (total_cost(problem, more) - total_cost(problem, less)) / (2.0 * kStep);
-      // Commands that change within a step make the cost rough at the scale of the differences.
+      // Tolerance: commands that change within an integration step make the cost function rough at
+      // the scale of kStep.
       EXPECT_NEAR(gradient, difference, 0.02 * std::abs(difference) + 1.0)
           << problem.model.quantities[i].name() << " interpolated " << is_interpolated;
     }

@@ -88,8 +88,9 @@ TEST(Scrub, IntervalsCoverTheTruthAtLeastAtTheirRate) {
     held += model.yaw_scrub->ci95_m.contains(0.01) ? 1 : 0;
   }
   RecordProperty("held", held);
-  // With few turns Welch's degrees of freedom are conservative: 97 % of 2,000 tables. The bounds
-  // are four standard errors of a binomial fraction on either side.
+  // With few turns Welch's degrees of freedom make the intervals slightly too wide: they contained
+  // the truth in 97 % of 2,000 tables. The bounds are four binomial standard errors below 95 % and
+  // above 97 %.
   const double share = held / double(kTables);
   EXPECT_GT(share, 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
   EXPECT_LT(share, 0.97 + 4.0 * std::sqrt(0.97 * 0.03 / kTables));
@@ -152,8 +153,8 @@ TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   EXPECT_GT(held / double(kTables), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
 }
 
-/// Number of 200 tables with a constant scrub for which a rate-dependent scrub is reported. `turn`
-/// makes the row of a table from its number and a standard normal deviate.
+/// Of 200 tables with constant scrub, returns the number for which a rate-dependent scrub is
+/// (wrongly) reported. `turn` makes a row from its number and a standard normal deviate.
 template <class MakeTurn>
 int alarms_with(const MakeTurn& turn) {
   int alarms = 0;
@@ -183,8 +184,8 @@ TEST(Scrub, IsConstantForTurnsWithOneForceOrAtOneRate) {
               return by_sides(0.2, 0.01, std::exp(0.1 * deviate), 20 + i);
             }),
             0);
-  // With turns at several rates, a false finding for at most one table in twenty, plus four
-  // standard errors.
+  // Turns at several rates: a false finding is expected in at most 10 of 200 tables (5 %). 12 more
+  // are allowed, four standard errors.
   EXPECT_LE(alarms_with([](int i, double deviate) {
               return by_sides(0.05 * (1 + i % 4), 0.01, std::exp(0.03 * deviate), 20 + i);
             }),

@@ -33,7 +33,7 @@ TEST(SmoothingKernel, HasSumOneAndTheGivenVariance) {
     for (const SmoothingKernel& kernel : {gaussian_kernel(variance), moving_average(variance)}) {
       EXPECT_NEAR(sum_of(kernel.weight, 0), 1.0, 1e-12) << variance;
       EXPECT_NEAR(sum_of(kernel.weight, 2), variance, 1e-7 * (1.0 + variance)) << variance;
-      // Weights beyond six standard deviations are missing: 2e-9 of the sum.
+      // Tolerance: the kernel is cut off at six standard deviations; 2e-9 of the sum is lost.
       EXPECT_NEAR(sum_of(kernel.by_variance, 0), 0.0, 2e-9) << variance;
       EXPECT_NEAR(sum_of(kernel.by_variance, 2), 1.0, 1e-5) << variance;
     }
@@ -92,7 +92,7 @@ TEST(DifferencedNoise, HasTheLikelihoodOfItsCovarianceMatrix) {
   }
 }
 
-// A gap ends the noise: the parts before and after it are independent.
+// The noise before a gap in the log is independent of the noise after it.
 TEST(DifferencedNoise, RestartsAfterAGap) {
   Random random(5, 2);
   ErrorSeries all;

@@ -83,7 +83,7 @@ TEST(Suggest, PredictedErrorOfARepeatedTrialIsThatOfMoreRuns) {
     const double before = t.std_error_before * t.std_error_before;
     const double after = t.std_error_after * t.std_error_after;
     return before / after -
-           1.0;  // x/(1 + y) in the information x of the trial: grows, at most fourfold
+           1.0;  // has the form x/(1 + y) in the trial's information x: increases, at most fourfold
   };
   EXPECT_GT(fall(b), fall(a));
   EXPECT_LE(fall(b), 4.0 * fall(a));

@@ -230,7 +230,7 @@ TEST_P(OutlierSeeds, OfTimedRunsAreSetAsideByTheirTime) {
 }
 
 TEST(Outliers, RunsThatCoulombFrictionExplainsAreKept) {
-  // The slowest run is far off any power law of the others.
+  // The slowest run differs much from every power law that is fitted to the other runs.
   TrialData data = runs_on({.alpha = 0.8, .beta = 1.0, .coulomb = 0.1}, 0.0, 1e-4, 3);
   const auto result = identify(vehicle(), data, {}, {});
   ASSERT_TRUE(result);
@@ -252,8 +252,8 @@ TEST(Outliers, LeaveOneOutEqualsAFitWithoutTheRow) {
 }
 
 TEST(Profiles, AreTheCurvaturesIntervalForAlmostExactRunsAndCoverTheTruth) {
-  // With small noise the model is linear over the interval: profile and curvature agree to second
-  // order.
+  // With small noise the model is nearly linear over the interval, so the intervals from the
+  // profile likelihood and from the curvature differ only by second-order terms.
   const TrialData data = runs_on({.alpha = 1.3157, .beta = 0.8841}, 0.0, 1e-4, 5);
   IdentifyOptions options;
   options.method = Method::kNonlinear;
@@ -354,10 +354,10 @@ TEST(Tables, SubtractsTheDeadZoneFromEachSidesCommand) {
     const auto points = turning_points({row}, 0.05);
     return points.empty() ? 0.0 : points[0].force;
   };
-  EXPECT_DOUBLE_EQ(moment(-0.1, 0.3), 0.4 * 0.3 / 0.4);  // 0.25 and -0.05 remain of them
-  EXPECT_DOUBLE_EQ(moment(0.1, 0.3), 0.4);               // both lose 0.05: same difference
-  EXPECT_DOUBLE_EQ(moment(0.0, 0.2), 0.4 * 0.15 / 0.2);  // the left force has nothing to lose
-  EXPECT_EQ(moment(-0.04, 0.04), 0.0);                   // both are within the dead zone
+  EXPECT_DOUBLE_EQ(moment(-0.1, 0.3), 0.4 * 0.3 / 0.4);  // forces: -0.05 and 0.25
+  EXPECT_DOUBLE_EQ(moment(0.1, 0.3), 0.4);               // 0.05 and 0.25: the difference is kept
+  EXPECT_DOUBLE_EQ(moment(0.0, 0.2), 0.4 * 0.15 / 0.2);  // 0 and 0.15
+  EXPECT_EQ(moment(-0.04, 0.04), 0.0);                   // both commands are in the dead zone
 }
 
 }  // namespace

@@ -85,7 +85,8 @@ bool finite(const Estimate& e) {
          (!e.ci95 || (std::isfinite(e.ci95->lo) && std::isfinite(e.ci95->hi)));
 }
 
-/// Results for model.json are finite, and missing values have a finding.
+/// Expects an error message, or a model whose numbers are finite and whose refused parameters have
+/// a finding.
 void expect_value_or_refusal(const TrialData& data, const IdentifyOptions& options) {
   const auto result = identify(vehicle(), data, options, {});
   if (!result) {

@@ -16,7 +16,7 @@
 namespace {
 
 const uint8_t kRingMask = 31;
-volatile uint8_t ring[kRingMask + 1];  // received bytes; main() takes each before 32 more arrive
+volatile uint8_t ring[kRingMask + 1];  // received bytes; main() removes each before 32 more arrive
 volatile uint8_t ring_head;
 uint8_t ring_tail;
 
@@ -87,8 +87,8 @@ void follow() {
   answer(points, 0);
 }
 
-// Executes a control step. Timer 1 (16 bits) counts its clock cycles; 65535 stands for more cycles,
-// too.
+// Executes a control step. Timer 1 (16 bits) counts its clock cycles; the result 65535 means 65535
+// cycles or more.
 void step() {
   awmr_input input;
   struct {

@@ -35,8 +35,8 @@ struct ModeSetting {
   BatchArithmetic arithmetic;
 };
 
-/// Simulates the scenario in a mode with each of the scrub moments. Returns the metrics of each
-/// run; empty for a run that fails.
+/// Simulates the scenario in `mode`, once with each scrub moment. Returns the metrics by moment;
+/// absent if the simulation fails.
 std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
@@ -53,10 +53,11 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
   return driven;
 }
 
-/// True if a mode with scrub (`run`) has no worse score than the other mode with the same scrub
-/// (`other`), or if the run of the other mode failed. False if `run` failed, did not complete
-/// although the run without scrub (`without`) did, or lacks a metric that `without` has, such as a
-/// settling time.
+/// True if mode A is ahead of mode B. `run`, `other`: metrics of A and B, both with the same scrub;
+/// absent if the simulation failed. `without`: metrics of A without scrub. A is ahead if its score
+/// is at least as good, or if only the simulation of B failed. A is not ahead if its simulation
+/// failed, or if scrub keeps it from completing the scenario or removes one of its scored metrics,
+/// such as the settling time.
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
   if (!run || (without.completed && !run->completed)) return false;
@@ -184,8 +185,9 @@ void answer(Question& question) {
       });
 }
 
-/// Adds to an otherwise complete entry the scrub that was measured in differential turns, and the
-/// number of differential turns that would decide whether the mode is ahead.
+/// Adds the scrub that was measured in differential turns and, if further turns could decide
+/// whether the mode is ahead, the total number of turns needed. Precondition: all other fields of
+/// `entry` are set.
 void add_measured(const Model& model, BreakEven& entry) {
   const auto& scrub = model.yaw_scrub;
   if (scrub) {
@@ -205,8 +207,8 @@ void add_measured(const Model& model, BreakEven& entry) {
       lead_of(entry) != Lead::kOpen || !scrub->ci95_m.contains(*entry.yaw_coulomb_m)) {
     return;
   }
-  // The half width of the interval decreases as 1/sqrt(n) with the number n of turns. n is enough
-  // when the interval no longer contains the break-even scrub.
+  // The half width of the measured interval is proportional to 1/sqrt(n), with n the number of
+  // turns. n is sufficient if the interval no longer contains the break-even scrub.
   constexpr double kMaxTurns = 1000.0;
   const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);
   const double shrunk = half / std::abs(*entry.yaw_coulomb_m - scrub->moment_m);

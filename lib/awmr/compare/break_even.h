@@ -10,12 +10,14 @@
 
 namespace awmr {
 
-/// Computes, for each scenario and each pair of modes, the scrub at which the first mode is no
-/// longer better than the second. Only pairs are used whose first mode has the larger wheel-force
-/// differences (differential > combined > steering), has the better score without scrub, and
-/// completes the scenario if the second does. The controller does not compensate the scrub.
-/// `comparison` has the runs of sample 0 with one set of gains. Errors (input): yaw resistance was
-/// identified from differential turns and therefore already includes scrub; as compare().
+/// Computes, for each scenario and pair of modes, the scrub at which the first mode is no longer
+/// better than the second. The first mode of a pair
+///   - has larger wheel-force differences than the second (differential > combined > steering),
+///   - has the better score without scrub,
+///   - completes the scenario, or the second mode does not complete it either.
+/// The controller does not compensate the scrub. `comparison` must contain the runs of sample 0
+/// (the nominal model) with one set of gains. Errors (input): yaw resistance was identified from
+/// differential turns and therefore already includes scrub; the errors of compare().
 Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
                                              const std::vector<Scenario>& scenarios,
                                              const Comparison& comparison,

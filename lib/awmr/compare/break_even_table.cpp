@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Text for one pair of modes: the numbers of scenarios in which, with the measured scrub, the
-/// first mode is still ahead, is no longer ahead, and in which this is undecided. `all`: the
+/// Text for one pair of modes with the measured scrub: number of scenarios in which the first mode
+/// is still ahead, in which it is no longer ahead, and in which this is undecided. `all`: the
 /// entries of the pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;

@@ -38,8 +38,8 @@ struct Layout {
 /// One entry per row of the output, empty until its run is finished.
 using Slots = std::vector<std::optional<ComparisonRow>>;
 
-/// Longest run, in samples, whose noise is drawn in advance and shared. The noise takes 24 bytes
-/// per sample and run, up to 38 MB for a batch.
+/// Longest run, in control steps, whose sensor noise is drawn in advance and shared by the modes.
+/// The noise takes 24 bytes per step and run, up to 38 MB for a batch.
 constexpr double kMaxSharedNoise = 1e5;
 
 /// A batch of runs: one scenario, set of gains and mode, with the samples to run.
@@ -92,8 +92,8 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
   return runs;
 }
 
-/// Draws the noise of the block's runs, or takes it from another block with the same samples (in
-/// another mode or with other gains) that has drawn it.
+/// Gives the block's runs their sensor noise. Blocks of the same samples in other modes or with
+/// other gains use the same noise; the first of them draws it.
 void share_noise(const Scenario& scenario, double sample_time_s, const Block& block,
                  std::vector<BatchRun>& runs) {
   if (scenario.duration_s / sample_time_s > kMaxSharedNoise) return;

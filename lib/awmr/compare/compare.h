@@ -74,7 +74,7 @@ struct CompareOptions {
   /// model or four wheels) and, with a single set of gains, with slower and faster gains. If the
   /// comparison is divided into parts (`shard`), only part 1 computes these rankings.
   bool other_settings = false;
-  /// Tyres for scenarios without tyres, when `other_settings` runs them on four wheels.
+  /// Tyres of the four-wheel plant when `other_settings` runs a scenario that has no tyres itself.
   Tyres<double> tyres = {};
   /// Part of the samples to run, to be combined by merge_shards() (shard.h); default: all samples.
   /// There can be at most as many parts as samples, including the nominal one.
@@ -95,8 +95,8 @@ struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< the mode with the better score without scrub
   YawMode against{};  ///< the other mode, which has smaller wheel-force differences
-  /// Smallest scrub at which `mode` is no longer ahead, m, > 0; its error is at most 1 %, or 3e-8
-  /// of most_m. Absent if the mode stays ahead up to most_m.
+  /// Smallest scrub at which `mode` is no longer ahead, m, > 0. The error is at most 1 % of the
+  /// value or 3e-8 most_m, whichever is larger. Absent if the mode stays ahead up to most_m.
   std::optional<double> yaw_coulomb_m;
   double most_m = 0.0;  ///< largest yaw moment by left and right wheel forces: 2 d (F'max - F'min)
   /// Largest possible scrub, m: 0.8 g m' l_f. It is the moment of four tyres that slide sideways
@@ -119,10 +119,10 @@ struct BreakEven {
 
 /// Result for BreakEven::mode with the measured scrub.
 enum class Lead {
-  kKept,  ///< the mode is ahead in the whole measured range
+  kKept,  ///< the mode is ahead in the whole measured range, or with any scrub up to most_m
   kLost,  ///< the mode is ahead nowhere in the measured range
-  /// Undecided: the mode is ahead in only a part of the range, or scrub was not measured at the yaw
-  /// rates of the run.
+  /// Undecided, and not kKept: the mode is ahead in only a part of the range, or scrub was not
+  /// measured at the yaw rates of the run.
   kOpen,
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
@@ -181,10 +181,10 @@ struct Comparison {
 /// samples (simulate/batch.h) is finished in every scenario and mode before the next block starts,
 /// so a stopped comparison is valid for the samples that it finished.
 /// Errors (input): the model lacks a parameter, a covariance (with samples) or an interval that a
-/// scenario's corner needs; as check_scenario() and controller_for(); no scenario or gains, or two
-/// of the same name; a negative number of samples or threads; a part that does not exist; more than
-/// kMaxRuns runs; break-even with several sets of gains, in a
-/// part, for a scenario on four wheels, or as break_even_of(). Also the error of a run that fails.
+/// scenario's corner needs; no scenario or gains, or two of the same name; a negative number of
+/// samples or threads; a part that does not exist; more than kMaxRuns runs; break-even with several
+/// sets of gains, in a part, or for a scenario on four wheels; the errors of check_scenario(),
+/// controller_for() and break_even_of(). Also the error of a run that fails.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 Result<Comparison> compare(const Model& model, const Gains<double>& gains,

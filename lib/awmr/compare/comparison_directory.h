@@ -15,8 +15,8 @@ namespace awmr {
 /// other columns, or an invalid row.
 Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const std::string& file);
 
-/// Checks that a text is a comparison.csv; write_files() (core/file.h) reads the file back with it.
-/// Errors: as comparison_rows().
+/// Checks that a text is a comparison.csv. write_files() (core/file.h) calls this function to check
+/// the file that it has written. Errors: those of comparison_rows().
 Status check_comparison_csv(std::string_view text, const std::string& file);
 
 /// Names of the files of a comparison in its directory.
@@ -24,7 +24,7 @@ inline constexpr const char* kComparisonTable = "comparison.csv";
 inline constexpr const char* kComparisonJson = "comparison.json";
 
 /// Writes both files into the directory, which is created if necessary. `document` is the text of
-/// comparison.json. Errors: as write_files().
+/// comparison.json. Errors: those of write_files().
 Status write_comparison(const std::filesystem::path& directory, const Comparison& comparison,
                         const std::string& document);
 

@@ -45,9 +45,9 @@ std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& s
 std::vector<std::size_t> first_with_same_runs(const std::vector<EvaluatedScenario>& scenarios);
 
 /// For each metric that can be used to rank modes, counts for each contender the scenarios in which
-/// it is not worse than any other. It is worse if its mean is higher by a relevant difference, or
-/// if only the other has a value. Scenarios with identical runs count once. `scenarios`: those with
-/// a ranking.
+/// no other contender is better. Another one is better if its mean is lower by a relevant
+/// difference, or if only it has a value. Scenarios with identical runs count once. `scenarios`:
+/// those with a ranking.
 std::vector<MetricTally> tally(const std::vector<EvaluatedScenario>& scenarios);
 
 /// Number of scenarios with each kind of decision, and number of scenarios whose rank 1 survives

@@ -27,11 +27,13 @@ struct RankedMode {
   /// worse. Absent for the first mode.
   std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the other modes of the same rank
-  /// Shares in [0, 1] of random weightings, and of the samples (absent below 2 samples), for which
-  /// this mode has the best score. 0 for modes that complete significantly less often. A weighting
-  /// or sample is divided equally among the modes whose score is within `relevance` of the best.
-  /// Modes that are tied for rank 1 get the mean of their shares of weightings and, if equivalent,
-  /// of samples.
+  /// Share in [0, 1] of random weightings of the metrics for which this mode has the best score,
+  /// and the same share of the samples (absent below 2 samples).
+  ///   - A weighting or sample is divided equally among all modes whose score is within `relevance`
+  ///     of the best.
+  ///   - A mode that completes significantly less often has the shares 0.
+  ///   - Modes that are tied for rank 1 get the mean of their shares of weightings and, if they are
+  ///     equivalent, the mean of their shares of samples.
   double first_by_weights = 0.0;
   std::optional<double> first_by_samples;
   /// Labels of modes that are relevantly better in a ranked metric and relevantly worse in none.

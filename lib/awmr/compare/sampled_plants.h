@@ -22,7 +22,7 @@ struct SampledPlants {
 /// drawn from the model's covariance (simulate/plant_sampler.h). A scenario with a corner
 /// (parameters moved to the ends of their intervals) applies the corner to every sample. Errors
 /// (input): the model lacks a parameter, a covariance (with samples), or an interval that a corner
-/// needs; as check_scenario().
+/// needs; the errors of check_scenario().
 Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);
 

@@ -30,8 +30,8 @@ struct Merged {
   std::vector<Finding> findings;
 };
 
-/// Combines the parts in these directories, in any order. Errors (input): as read_parts(); a row is
-/// invalid, belongs to another part, is missing or appears twice.
+/// Combines the parts in these directories, in any order. Errors (input): those of read_parts(); a
+/// row is invalid, belongs to another part, is missing or appears twice.
 Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace awmr

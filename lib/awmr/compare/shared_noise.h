@@ -16,7 +16,7 @@ namespace awmr {
 /// threads. The first block that needs the noise draws it; the last one frees it.
 class SharedNoise {
  public:
-  /// By sample.
+  /// The noise of each Monte-Carlo sample, by the number of the sample.
   using Drawn = std::map<std::size_t, DrawnNoise>;
 
   /// Adds a block. Call it for all blocks before the first of them starts.
@@ -29,7 +29,7 @@ class SharedNoise {
     return drawn_;
   }
 
-  /// Ends the use by a block.
+  /// Removes a block. The last one to be removed frees the noise.
   void remove_user() {
     if (--users_ == 0) drawn_.clear();
   }

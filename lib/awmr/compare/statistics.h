@@ -91,9 +91,9 @@ struct ScenarioStatistics {
   /// Differences of every metric between every pair of contenders with the same gains or the same
   /// mode.
   std::vector<PairedDifference> differences;
-  /// Mean log_loss() (scoring.h) of each mode and metric, index loss_row(), in each resample; 0 for
-  /// metrics that are never ranked. Empty below 2 samples. The mean score with any weights is a
-  /// weighted sum of these series.
+  /// For each mode and metric (index: loss_row()), the mean log_loss() (scoring.h) in each
+  /// bootstrap resample; 0 for metrics that are never ranked. Empty below 2 samples. The mean score
+  /// with any weights is a weighted sum of these series.
   std::vector<std::vector<double>> resampled_losses;
 };
 

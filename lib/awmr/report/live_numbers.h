@@ -14,7 +14,7 @@ namespace awmr {
 /// `gains`: content of gains.json. The page evaluates the constraints of `awmr tune` with the
 /// settings in `/robust`, `/constraints`, `/limits` and `/examined` of that file. Precondition: the
 /// scenario commands headings. Errors (input): gains.json does not have the format of `awmr tune`;
-/// its latency is more than 20 samples. Also as vehicles_of() (tune/robust.h).
+/// its latency is more than 20 sample times. Also the errors of vehicles_of() (tune/robust.h).
 Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
                                          const Scenario& scenario);
 

@@ -42,7 +42,7 @@ struct FigureSet {
 };
 
 /// Makes all figures for which the directory has results. The same results give the same bytes.
-/// Errors: as report_page(); a figure has a number that is not finite.
+/// Errors: those of report_page(); a figure has a number that is not finite.
 Result<FigureSet> report_figures(const std::filesystem::path& directory);
 
 /// JSON Schema of figures.json.

@@ -79,9 +79,9 @@ struct Acceptance {
 /// from the state at the beginning of the logged drive. Sensor noise, sensor latency and motor lag
 /// are those of the scenario or the vehicle. If neither has a value, noise is estimated from the
 /// log, and latencies and lag are drawn between 0 and twice the defaults of LoopConditions.
-/// Errors (input): as simulate(), controller_for() and PlantSampler; the vehicle does not have the
-/// yaw mode of the options; the log has no command, or less than 2 s of the scenario; from_s is not
-/// within the log; options.draws is out of range.
+/// Errors (input): the vehicle does not have the yaw mode of the options; the log has no command,
+/// or less than 2 s of the scenario; from_s is not within the log; options.draws is out of range;
+/// the errors of simulate(), controller_for() and PlantSampler.
 Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
                                 const Gains<double>& gains, const Scenario& scenario,
                                 const AcceptanceOptions& options);

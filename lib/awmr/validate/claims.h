@@ -46,8 +46,9 @@ struct ClaimSetting {
   BatchArithmetic arithmetic;   ///< arithmetic of the runs
   ControlOptions control = {};  ///< control options of every scenario
 
-  /// Simulates the scenario in all three modes. Precondition: the model has every parameter, and a
-  /// 95 % interval for each parameter that the scenario's `corner` moves to an end of it.
+  /// Simulates the scenario in all three modes. Precondition: the model has every parameter. Each
+  /// parameter in the scenario's `corner` (a parameter at an end of its interval) has a 95 %
+  /// interval.
   ModeRuns run(const Scenario& scenario) const;
 };
 /// ClaimSetting::run() for each setting, simulated together in one batch. Precondition: all
@@ -79,8 +80,7 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains);
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
 /// C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims of each
-/// setting.
-/// Precondition: as run_all().                                           [paper 5, section 7]
+/// setting. Precondition: that of run_all().                             [paper 5, section 7]
 std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);
 
 /// Longest settling time that counts as fast in C3, s: the time for the heading step at the largest

@@ -52,9 +52,9 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
 /// give is estimated from the log, if the log has the channel.
 LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle);
 
-/// Returns the measured channels of the log and its commands, over duration_s from row `first`. The
-/// noise of a channel that is a sensor of the controller is that of the scenario. If the scenario
-/// has 0, or for any other measured channel, it is estimated from the log. Commands have no noise.
+/// Returns the measured channels of the log and its commands, over duration_s from row `first`.
+/// Noise of a channel: for a sensor of the controller, noise and rounding of the scenario; if these
+/// are 0, and for every other sensor, the noise estimated from the log; for a command, 0.
 /// Precondition: the scenario has `sensors`.
 std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, double duration_s,
                                       const Scenario& scenario);

@@ -61,8 +61,8 @@ struct TyreFit {
   std::optional<Estimate> cornering_per_rad;
   int windows = 0;                          ///< windows of 5 s in the fit, kMinTyreWindows ... 60
   std::vector<HeldOutError> held_out = {};  ///< cross-validated errors by channel
-  /// The plant with the smaller errors on held-out windows; absent if the interval of D_w contains
-  /// 0.
+  /// The plant with the smaller errors on held-out windows; absent if the 95 % interval of the mean
+  /// of D_w contains 0.
   std::optional<PlantKind> better = {};
 };
 

@@ -167,8 +167,8 @@ bool is_inside(Eigen::Index parameter, double log_value) {
   return log_value > range.lo + kNear && log_value < range.hi - kNear;
 }
 
-/// Returns, of the free parameters that the windows do not determine, the one with the largest
-/// error. Empty if they determine all.
+/// Among the free parameters that the windows do not determine, returns the one with the largest
+/// standard error. Empty if the windows determine all free parameters.
 std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   std::optional<Eigen::Index> worst;
   double largest = 0.0;

@@ -59,9 +59,9 @@ std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
 /// slower, but hardly better.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
-/// Cause of the turns in a window: the difference of left and right wheel forces, or the steering.
-/// At most one is true. Its commands are not near 0, and the sum of squares of its yaw moments over
-/// the window is at least 3 times that of the other cause.
+/// Cause of the turns in a window: left and right wheel forces (by_sides), or the steering. At most
+/// one is true: the cause whose commands are not near 0 and whose yaw moment is large enough. The
+/// sum over the window of its squared moment must be at least 3 times that of the other cause.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;

@@ -102,7 +102,7 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
 /// the model lacks parameters, or because the vehicle does not have four driven wheels and
 /// steering. Errors (input): the model lacks a parameter that its trials measure or, with gains,
 /// any parameter; the input or the measurement of a trial is not above 0; the tolerance is not
-/// above 0; as batch_arithmetic().
+/// above 0; the errors of batch_arithmetic().
 Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 

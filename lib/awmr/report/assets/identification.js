@@ -213,9 +213,9 @@ function drivesPart(parent, validation) {
   for (const drive of (validation || {}).drives || []) {
     add(parent, "h3", `Drive ${drive.file}, “${scenarioWords(drive.scenario)}”, ${drive.mode}: ` +
       `${drive.inside ? "as predicted" : "not as predicted"}`);
-    small(parent, `${digits(drive.duration_s)} s, compared with ${drive.draws} predicted drives, ` +
-      `of which ${percent(drive.p_value)} are at least ` +
-      "as far from the mean prediction as this drive. A distance is the difference of means over half a " +
+    small(parent, `${digits(drive.duration_s)} s, compared with ${drive.draws} predicted drives. ` +
+      `Of all these drives, including this one, ${percent(drive.p_value)} are at least ` +
+      "as far from the mean prediction as this one. A distance is the difference of means over half a " +
       "second, divided by the standard deviation of the predictions.");
     table(parent, ["channel", "#samples", "#distance", "#allowed", "#outside since, s",
       "#measured − predicted"],

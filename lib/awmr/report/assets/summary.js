@@ -39,8 +39,8 @@ function nextSteps(data) {
   if (data.header) steps.push("Include awmr_params.h (next to this page) in your sketch, or use " +
     "the sketches with the controller that awmr emit writes.");
   if (!gains) steps.push("Tune gains: awmr tune.");
-  if (!data.pil && gains) steps.push("Run the firmware on the emulated chip before it drives: " +
-    "awmr pil, with its result as pil.json next to this page.");
+  if (!data.pil && gains) steps.push("Run the firmware on the emulated chip before it runs on the " +
+    "vehicle: awmr pil. Write its result to pil.json next to this page.");
   const first = ((suggest || {}).trials || [])[0];
   steps.push(first ? `Record this trial next, as it reduces the uncertainty most: ${first.words}.`
     : "Find out which trial to record next: awmr suggest.");
