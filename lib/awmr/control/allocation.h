@@ -3,8 +3,8 @@
 ///
 /// The limits are applied in this order: tau_speed is clipped to the motors' thrust, d_r to
 /// |d_r| <= d_max, and then each F', computed with the clipped d_r, to [F'min, F'max]. With
-/// CombinedSplit::kRedistribute, the moment that the steering cannot make goes to the wheel forces,
-/// or the reverse.
+/// CombinedSplit::kRedistribute, the wheel forces make the moment that the steering cannot make, or
+/// the reverse.
 #pragma once
 
 #include "awmr/control/allocation_limits.h"
@@ -18,9 +18,9 @@ namespace awmr {
 
 namespace detail {
 
-/// The steering that makes a yaw moment, as q (steering_geometry.h; tan(d_r/2) with four driven
-/// wheels). `limited`: q was clipped. `powerless`: tau_speed is below steering_authority_min(), and
-/// q is 0.
+/// The steering that makes a yaw moment: q, a function of the steering angle (steering_geometry.h;
+/// tan(d_r/2) with four driven wheels). `limited`: q was clipped. `powerless`: q is 0 because
+/// tau_speed is below steering_authority_min().
 template <class T>
 struct Steering {
   T q;
@@ -40,7 +40,8 @@ AWMR_INLINE Steering<T> steer(const AllocationConstants<T>& c, const T& tau_spee
   return {clipped, math::is_different(clipped, q), powerless};
 }
 
-/// The steering angle d_r for q; exactly +-d_max where `at_stop` is true: q was clipped to +-q_max.
+/// The steering angle d_r for q. It is exactly +-d_max if `at_stop` is true, that is, if q was
+/// clipped to +-q_max.
 template <class T>
 AWMR_INLINE T steering_angle_rad(const SteeringGeometry& geometry, const AllocationConstants<T>& c,
                                  const T& q, const Mask<T>& at_stop) {
@@ -118,7 +119,8 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
 }
 
 /// allocate() for a yaw mode. The speed u, m/s, forward positive, has an effect only if the motors
-/// have back-EMF, which lowers the force limits by k_e u. `constants` must be prepared(limits).
+/// have back-EMF, because back-EMF lowers the force limits by k_e u. `constants`: the result of
+/// prepared(limits).
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps,

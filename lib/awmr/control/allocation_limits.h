@@ -24,11 +24,11 @@ struct AllocationLimits {
   CombinedSplit split = CombinedSplit::kRedistribute;
   /// Exact equations, or those for small angles (kPaper). The chip supports only kExact.
   AllocationForm form = AllocationForm::kExact;
-  /// F'0, the dead zone of every motor, over F_max, >= 0. The allocated forces and the limits above
-  /// exclude the dead zone; with_dead_zone() adds it to the motor command.
+  /// F'0, the dead zone of every motor, over F_max, >= 0. It is not contained in the allocated
+  /// forces and in the limits above; with_dead_zone() adds it to the motor command.
   T dead_zone = T(0.0);
-  /// k_e, the back-EMF coefficient of every motor, s/m, >= 0 (motor_force() in model/dynamics.h): a
-  /// wheel that rolls at u m/s can make forces in [F'min - k_e u, F'max - k_e u].
+  /// k_e, s/m, >= 0: back-EMF coefficient of every motor (motor_force() in model/dynamics.h). The
+  /// force of a wheel that rolls at u m/s is within [F'min - k_e u, F'max - k_e u].
   T back_emf_s_per_m = T(0.0);
   /// True: all four wheels are driven; false: only the front wheels. The chip supports only true.
   bool is_rear_driven = true;
@@ -54,8 +54,8 @@ SteeringGeometry geometry_of(const AllocationLimits<T>& limits) {
   return {limits.is_rear_driven, limits.form};
 }
 
-/// Computes the constants from the limits. With the geometry of the chip, q_max is the stored
-/// steering_max_tan_half, so that the chip need not compute it.
+/// Computes the constants from the limits. With the geometry of the chip, q_max is the stored value
+/// steering_max_tan_half, so the chip computes no tangent.
 template <class T>
 AllocationConstants<T> prepared(const AllocationLimits<T>& l) {
   const SteeringGeometry geometry = geometry_of(l);
@@ -72,14 +72,14 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& l) {
           on_chip ? l.steering_max_tan_half : geometry.to_q(l.steering_max_rad)};
 }
 
-/// Below this tau_speed (dimensionless), the front wheels push too little to turn the vehicle: d_r
-/// is 0.
+/// At a tau_speed (dimensionless) below this, the front wheels push too little to turn the vehicle,
+/// and d_r is 0.
 template <class T>
 constexpr T steering_authority_min() {
   return T(1e-6);
 }
-/// Smallest tau_speed (dimensionless; 1/64 of the thrust of four motors) at which d_r may reach its
-/// stop.
+/// Smallest tau_speed (dimensionless) at which d_r may reach its stop: 1/64 of the thrust of four
+/// motors.
 template <class T>
 constexpr T steering_authority_full() {
   return T(0.0625);
@@ -88,8 +88,8 @@ constexpr T steering_authority_full() {
 /// Limit of |q| (steering_geometry.h) at tau_speed:
 ///   q_max sat(tau_speed/steering_authority_full(), [0, 1])
 /// The q of a given moment grows as 1/tau_speed and is 0 for tau_speed <= 0. With a constant limit,
-/// the wheels would jump from the stop to straight ahead at tau_speed = 0. The reduced limit costs
-/// at most 1/256 of the steering moment that is available at full thrust.
+/// the wheels would jump from the stop to straight ahead at tau_speed = 0. This reduction lowers
+/// the steering moment by at most 1/256 of that available at full thrust.
 template <class T>
 AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
   using math::any;

@@ -2,8 +2,8 @@
 /// C++14.
 ///
 /// The state after a reset is disarmed. ARM is refused while there is any fault other than the
-/// command time-out. STOP, a command time-out, any fault and the end of a route disarm the vehicle;
-/// it then stays disarmed until the next ARM, even if the reason ends.
+/// command time-out. STOP, a command time-out, any fault and the end of a route disarm the vehicle.
+/// It then stays disarmed until the next ARM, even after the reason has ended.
 #pragma once
 
 #include <stdint.h>
@@ -29,8 +29,8 @@ struct Arming {
 
   bool is_armed() const { return reason == DisarmReason::kNone; }
 
-  /// Arms the vehicle, unless the last step had a sensor fault or a fault other than the command
-  /// time-out. False: refused, the state is unchanged.
+  /// Arms the vehicle and returns true. Refuses this (false, the state is unchanged) if the last
+  /// step had a sensor fault, or a fault other than the command time-out.
   bool arm(uint8_t step_fault, uint8_t sensor_fault) {
     if ((step_fault & ~static_cast<unsigned>(kFaultCommandTimeout)) != 0 || sensor_fault != 0) {
       return false;
@@ -44,7 +44,8 @@ struct Arming {
   void disarm(DisarmReason why) {
     if (is_armed() || why == DisarmReason::kStop) reason = why;
   }
-  /// Call after each step: any fault disarms. True: this step disarmed the vehicle.
+  /// Call after each step: disarms the vehicle if the step had any fault. True: this step disarmed
+  /// it.
   bool observe(uint8_t step_fault, uint8_t sensor_fault) {
     if (!is_armed() || (step_fault == kFaultNone && sensor_fault == 0)) return false;
     const bool is_silence = step_fault == kFaultCommandTimeout && sensor_fault == 0;

@@ -49,8 +49,8 @@ AWMR_INLINE uint8_t check_input(Autopilot<G, P>& a, const AutopilotInput& in) {
   return static_cast<uint8_t>(fault);
 }
 
-/// Updates the reference by guidance, obstacle avoidance and heading shaping. True when the route
-/// is finished.
+/// Updates the reference by guidance, obstacle avoidance and heading shaping. Returns true when the
+/// route is finished.
 template <class G, class P>
 AWMR_INLINE bool update_reference(Autopilot<G, P>& a, const AutopilotInput& in,
                                   const Position<float>& position_m, Reference<float>& ref) {
@@ -80,9 +80,9 @@ AWMR_CALLED void read_speed(Autopilot<G, P>& a, const AutopilotInput& in) {
   correct_speed(a.direction, {in.measured.u_mps, in.position_m, in.measured.psi_rad, is_new});
 }
 
-/// True if the heading reference and the outputs of both laws are finite. A check of the command
-/// alone would miss a heading reference of NaN: in steering mode, the wheels of a braking vehicle
-/// are straight whatever the reference is.
+/// True if the heading reference and the outputs of both laws are finite. Checking only the command
+/// is not enough: in steering mode, the wheels of a braking vehicle are straight even if the
+/// heading reference is NaN.
 inline bool is_finite(const AutopilotOutput& out) {
   const uint16_t infinity = static_cast<uint16_t>(float_math::kInfinityBits >> 16U);
   return float_math::leading_bits(out.psi_ref_rad) < infinity &&
@@ -114,8 +114,8 @@ AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
   make_up_back_emf(motors, at_rest, measured, out.command.force);
 }
 
-/// Stops the motors and straightens the wheels. Avoidance, shaping and observers start anew in the
-/// next step without a fault.
+/// Stops the motors and straightens the wheels. Resets avoidance, shaping and observers, so that
+/// they start again in the next step without a fault.
 template <class G, class P>
 AWMR_INLINE void stop(Autopilot<G, P>& a, AutopilotOutput& out) {
   reset(part_of<typename P::Avoidance>(a));

@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// Follows these waypoints from the next step on, instead of any line or path. With `count` 0, the
-/// vehicle holds the heading of AutopilotInput::reference.
+/// Makes the autopilot follow these waypoints from the next step on, instead of any line or path.
+/// With `count` 0, the vehicle holds the heading of AutopilotInput::reference.
 template <class G, class P>
 void follow_waypoints(Autopilot<G, P>& a, const Waypoints<float>& waypoints) {
   a.waypoints = waypoints;
@@ -17,8 +17,8 @@ void follow_waypoints(Autopilot<G, P>& a, const Waypoints<float>& waypoints) {
   disable(part_of<typename P::Path>(a));
 }
 
-/// Follows this line from the next step on, instead of any waypoints or path. `sample_time_s`: time
-/// between two steps.
+/// Makes the autopilot follow this line from the next step on, instead of any waypoints or path.
+/// `sample_time_s`: time between two steps.
 template <class G, class P>
 void follow_line(Autopilot<G, P>& a, const typename P::Line::Route& line, float sample_time_s) {
   follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
@@ -28,8 +28,9 @@ void follow_line(Autopilot<G, P>& a, const typename P::Line::Route& line, float 
   part.is_started = false;
 }
 
-/// Follows this timed path from the next step on, instead of any waypoints or line; that step is
-/// the path's t = 0. `gain_per_s`: k of closed_path(), > 0; 0: without position feedback.
+/// Makes the autopilot follow this timed path from the next step on, instead of any waypoints or
+/// line. The next step is at t = 0 of the path. `gain_per_s`: k of closed_path(), > 0; 0: without
+/// position feedback.
 template <class G, class P>
 void follow_path(Autopilot<G, P>& a, const Lissajous<float>& path, float gain_per_s) {
   follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
@@ -40,8 +41,9 @@ void follow_path(Autopilot<G, P>& a, const Lissajous<float>& path, float gain_pe
   part.is_started = false;
 }
 
-/// Avoids `count` obstacles from the next step on; 0: none. `sectors` is work space for `count`
-/// elements. Both arrays are used in every step and not copied, so they must stay valid.
+/// Makes the autopilot avoid `count` obstacles from the next step on; 0: none. `sectors` is work
+/// space for `count` elements. The arrays are not copied but used in every step, so they must stay
+/// valid.
 template <class G, class P>
 void avoid_obstacles(Autopilot<G, P>& a, const Avoidance<float>& avoidance,
                      const Obstacle<float>* obstacles, Sector<float>* sectors, int count) {
@@ -53,8 +55,8 @@ void avoid_obstacles(Autopilot<G, P>& a, const Avoidance<float>& avoidance,
   part.state = AvoidanceState();
 }
 
-/// Smooths the heading reference by this filter from the next step on, starting from the vehicle's
-/// heading. `sample_time_s`: time between two steps.
+/// Makes the autopilot smooth the heading reference by this filter from the next step on. The
+/// filter starts at the vehicle's heading. `sample_time_s`: time between two steps.
 template <class G, class P>
 void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, float sample_time_s) {
   Shaper<float>& part = part_of<Shaper<float>>(a);
@@ -64,15 +66,15 @@ void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, flo
   part.is_started = false;
 }
 
-/// Estimates the position with these constants, starting at the next step whose position is a fix
-/// (AutopilotInput::position_is_fix).
+/// Makes the autopilot estimate the position with these constants, from the next step on whose
+/// position is a fix (AutopilotInput::position_is_fix).
 template <class G, class P>
 void filter_position(Autopilot<G, P>& a, const PositionFilter<float>& filter) {
   part_of<Positioner<>>(a).estimate = PositionEstimate<float>(filter);
 }
 
-/// Estimates and compensates the disturbance from the next step on, starting from 0.
-/// `sample_time_s`: time between two steps.
+/// Makes the autopilot estimate and compensate the disturbance from the next step on. The first
+/// estimate is 0. `sample_time_s`: time between two steps.
 template <class G, class P>
 void observe_disturbance(Autopilot<G, P>& a, const Observers<float>& observers,
                          float sample_time_s) {

@@ -70,7 +70,7 @@ struct AllParts {
   static constexpr bool kIsDirected = true;
 };
 
-/// Estimates the disturbance from the next step on, starting from 0.
+/// Makes the part estimate the disturbance from the next step on. The first estimate is 0.
 inline void enable(Observer& part, const Observers<float>& observers, float sample_time_s) {
   part.observers = observers;
   part.sample_time_s = sample_time_s;
@@ -96,9 +96,9 @@ AWMR_INLINE void reset(Positioner<Filter>& part) {
 }
 
 /// Returns the present position: the estimate, or position_m of the input if the part is not
-/// compiled in or position_m is not a fix. Call it only if the input has no fault except the
-/// command time-out. A measured speed without a sign gets the sign of `speed_mps`, the predicted
-/// speed.
+/// compiled in or position_m is not a fix. Call it only if the input has no fault other than the
+/// command time-out. `speed_mps`: predicted speed, which gives a measured speed without a sign its
+/// sign.
 template <class Filter>
 AWMR_INLINE const Position<float>& position_now(const Disabled<Positioner<Filter>>&,
                                                 const AutopilotInput& in, const float&) {
@@ -119,15 +119,15 @@ AWMR_CALLED Position<float> position_now(Positioner<Filter>& part, const Autopil
   return part.estimate.step({in.position_m, age_s, is_new}, motion);
 }
 
-/// Replaces the forces by the motor commands that make these forces despite the dead zone.
+/// Replaces each force by the motor command that makes this force in spite of the dead zone.
 AWMR_INLINE void make_up_dead_zone(const Disabled<MotorCurve>&, SideForces<float>&) {}
 inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) {
   force = with_dead_zone(force, part.dead_zone);
 }
 
-/// If the mode changes and MotorCurve is compiled in, sets the friction width of the new mode in
-/// g3: the yaw rate below which Coulomb friction is fed forward smoothly
-/// (Gains::friction_width_at()).
+/// Sets the friction width of g3 to that of the mode, if the mode has changed and MotorCurve is
+/// compiled in. The friction width is the yaw rate below which Coulomb friction is fed forward
+/// smoothly (Gains::friction_width_at()).
 template <class G>
 AWMR_INLINE void use_friction_width(Disabled<MotorCurve>&, uint8_t, G&) {}
 template <class G>
@@ -137,7 +137,7 @@ void use_friction_width(MotorCurve& part, uint8_t mode, G& yaw) {
   if (part.rest != 0) set_friction_width(part.rest, mode, yaw);
 }
 
-/// Allocation limits at the speed u, m/s: reduced by the back-EMF if MotorCurve is compiled in.
+/// Allocation limits at the speed u, m/s. If MotorCurve is compiled in, back-EMF reduces them.
 AWMR_INLINE const AllocationConstants<float>& limits_at(const Disabled<MotorCurve>&,
                                                         const AllocationConstants<float>& c,
                                                         const float& /*u_mps*/) {
@@ -149,7 +149,7 @@ inline AllocationConstants<float> limits_at(const MotorCurve& part,
   return at_speed(c, part.back_emf_s_per_m, u_mps);
 }
 
-/// Replaces the forces by the motor drives that make these forces despite the back-EMF.
+/// Replaces each force by the motor drive that makes this force in spite of the back-EMF.
 AWMR_INLINE void make_up_back_emf(const Disabled<MotorCurve>&, const AllocationConstants<float>&,
                                   const Measurement<float>&, SideForces<float>&) {}
 inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<float>& c,

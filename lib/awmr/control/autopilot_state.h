@@ -50,7 +50,7 @@ inline void set_observer(const ObserverBlock* tuned, Observer& part) {
 }
 
 /// Reads the parameters and compares their check sum with `crc`, the check sum in the emitted
-/// header. If the two differ, returns false, and every step then gives the safe command. `rest` has
+/// header. If the two differ, returns false; every step then outputs the safe command. `rest` has
 /// the parameters of RestingTable and MotorCurve, `observer` those of Observer; null: none. On an
 /// AVR, all pointers are addresses in flash.
 template <class G, class P>

@@ -31,8 +31,8 @@ struct AllocationRequest {
   Allocation<T>& command;
 };
 
-/// Momentum, resistance and coupling force m' r v at the measured motion, by the controller's
-/// model, for the observers.
+/// Momentum, resistance and coupling force m' r v at the measured motion, computed by the
+/// controller's model. Input of the observers.
 template <class T, class G>
 ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measurement<T>& m) {
   const ControlConstants<T>& k = c.constants;
@@ -41,8 +41,8 @@ ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measu
           k.mass_norm * m.r_radps * m.v_mps};
 }
 
-/// Generalised forces (41) that the allocated wheel forces and steering angle make. `c` has the
-/// geometry of the vehicle.
+/// Generalised forces (41) that the allocated wheel forces and steering angle make. The constants
+/// `c` must be those of the vehicle.
 template <class T>
 GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
                                       const AllocationConstants<T>& c, const Allocation<T>& a) {

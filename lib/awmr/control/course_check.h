@@ -8,9 +8,9 @@ namespace awmr {
 
 /// Integral over the distance driven of the heading error beyond e0, m rad:
 ///   off = max(0, off + int (|psi_d - psi| - e0) |u| dt),  e0 = on_course_rad
-/// It keeps growing while the vehicle does not turn to the commanded heading, for any reason:
-/// a gyroscope with the wrong sign, a failed or reversed servo or motor, a target inside the
-/// turning circle. A turn by 180 deg with the radius R adds
+/// It keeps growing while the vehicle does not turn to the commanded heading. Possible reasons: a
+/// gyroscope with the wrong sign, a failed or reversed servo or motor, a target inside the turning
+/// circle. A turn by 180 deg with the radius R adds
 ///   R int_e0^pi (e - e0) de = R (pi - e0)^2/2
 class CourseCheck {
  public:
@@ -36,7 +36,8 @@ class CourseCheck {
   }
 
  private:
-  /// A change of the commanded heading between two fixes by more than this, rad, is a new command.
+  /// The commanded heading counts as a new command if it changes by more than this, rad, between
+  /// two fixes.
   static constexpr float kNewCourse_rad = 0.35F;
 
   float off_course_mrad_ = 0.0F;  // integral of the heading error beyond e0 over the distance

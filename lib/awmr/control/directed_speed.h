@@ -1,8 +1,8 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
 /// The speed law needs a signed speed: with |u| as its input, it can accelerate a vehicle that
-/// rolls backward (runs_away_unsigned()). The sign is that of a predicted speed u, computed from
-/// the commanded force by the identified model:
+/// rolls backward (runs_away_unsigned()). The sign is taken from a predicted speed u, which the
+/// identified model gives for the commanded force:
 ///   m' u_dot = tau_speed - g1(u)
 /// The sensor corrects the magnitude of the prediction; the displacement along the heading verifies
 /// its sign. Rules:
@@ -11,8 +11,8 @@
 ///   - A direction is verified only while the vehicle does not brake, after 1 m along the heading.
 ///   - If the direction is unknown and |u| > |u_ref|, the vehicle coasts: tau_speed is 0.
 ///   - At u_ref = 0, tau_speed is 0 while |u| <= kStandstill_mps.
-/// On a slope, a vehicle therefore brakes in pulses: each ends when the predicted speed is 0, and
-/// the next starts when the displacement has verified the direction again.
+/// On a slope, a vehicle therefore brakes in pulses. A pulse ends when the predicted speed is 0.
+/// The next one starts when the displacement has verified the direction again.
 #pragma once
 
 #include <stdint.h>
@@ -138,8 +138,8 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
 /// Force, over F_max, with which the speed law accelerates a vehicle that rolls backward, if the
 /// input of the law is |u|. The vehicle rolls at u = speed_mps > 0. At u_ref = 0 the law commands
 ///   tau_speed = -(m' mu_s sat(u/eps_s) + f)
-/// f is the Coulomb friction that the law feeds forward: g1(w0) sat(u/w0) with
-/// w0 = feed_forward_rest_speed(), or 0 if g1 does not jump at rest. `surge`: g1 of the model.
+/// f is the Coulomb friction that the law feeds forward. If g1 jumps at rest, f = g1(w0) sat(u/w0)
+/// with w0 = feed_forward_rest_speed(); else f = 0. `surge`: g1 of the model.
 template <class T>
 T unsigned_push(const Resistance<T>& surge, const T& mass_norm, const SpeedGains<T>& gains,
                 const T& speed_mps) {
@@ -147,8 +147,8 @@ T unsigned_push(const Resistance<T>& surge, const T& mass_norm, const SpeedGains
   return mass_norm * correction - fed_forward(feed_forward(surge), T(0.0), T(-speed_mps));
 }
 
-/// True if unsigned_push() exceeds the resistance g1(u): the speed law, with |u| as its input,
-/// would accelerate a vehicle that rolls backward at the speed u = speed_mps.
+/// True if the speed law, with |u| as its input, would accelerate a vehicle that rolls backward at
+/// the speed u = speed_mps, because unsigned_push() exceeds the resistance g1(u).
 template <class T>
 bool runs_away_unsigned(const Resistance<T>& surge, const T& mass_norm, const SpeedGains<T>& gains,
                         const T& speed_mps) {

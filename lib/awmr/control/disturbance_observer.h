@@ -1,5 +1,6 @@
-/// Disturbance observer for surge and yaw. The control laws omit the unknown disturbance; its
-/// estimate is subtracted from their outputs. Freestanding C++14.
+/// Disturbance observer for surge and yaw. The control laws omit the unknown disturbance. The
+/// observer estimates it, and the estimate is subtracted from the outputs of the laws. Freestanding
+/// C++14.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -35,8 +36,8 @@ ObserverState<T> start_observer(const DisturbanceObserver<T>& observer, const T&
   return {-observer.bandwidth_radps * momentum};
 }
 
-/// The estimated disturbance d_hat, in the unit of tau. At the limit, the state z is set to the
-/// value that gives the limit, so that d_hat decreases immediately when d does.
+/// The estimated disturbance d_hat, in the unit of tau. If it exceeds the limit, the state z is set
+/// to the value for which d_hat equals the limit. So d_hat decreases as soon as d does.
 template <class T>
 T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverState<T>& state) {
   const T share = observer.bandwidth_radps * momentum;
@@ -45,8 +46,8 @@ T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverSt
   return d;
 }
 
-/// Advances the state by one sample. `known` is tau - g(w). With the requested tau instead of the
-/// limited one, a saturated actuator would look like a disturbance and d_hat would wind up.
+/// Advances the state by one sample. `known` is tau - g(w). If tau is the requested command and not
+/// the limited one, a saturated actuator looks like a disturbance, and d_hat winds up.
 template <class T>
 void advance(const DisturbanceObserver<T>& observer, const T& d_hat, const T& known,
              const T& sample_time_s, ObserverState<T>& state) {

@@ -13,9 +13,10 @@ namespace awmr {
 ///   g(rest_speed) sat((w + intent)/rest_speed)  below
 /// The second line is for resistances that jump at rest (feed_forward() in resistance.h). Below
 /// rest_speed the sign of w is noise, so the force has the direction in which the vehicle is to
-/// move. `intent` is the speed error e_u, or the sliding variable S in the heading law. Noise of w
-/// cancels in w + intent: the sum is psi_d_dot + lambda e in the heading law, and u_d in the speed
-/// law. (At u_d = 0, the speed law passes w = 0, and the sum is -u: friction then helps to brake.)
+/// move. `intent` is the speed error e_u, or the sliding variable S in the heading law. The noise
+/// of w cancels in w + intent. This sum is psi_d_dot + lambda e in the heading law, and u_d in the
+/// speed law. (At u_d = 0, the speed law passes w = 0, and the sum is -u: friction then helps to
+/// brake.)
 template <class T>
 T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   using math::abs;

@@ -1,4 +1,4 @@
-/// Constants in the flash of an AVR, whose program memory is a separate address space. On other
+/// Reads constants that are in the flash of an AVR, which is a separate address space. On other
 /// processors they are ordinary constants. Freestanding C++14.
 #pragma once
 

@@ -39,8 +39,8 @@ class GpsCheck {
     return is_believed;
   }
 
-  /// First part of take_fix(): decides whether to accept the fix. check_motion() can do the rest in
-  /// later steps, before the next fix.
+  /// First part of take_fix(): decides whether to accept the fix. The rest can be done by
+  /// check_motion() in later steps, before the next fix.
   bool accept_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
     sentence_ms_ = now_ms;
     if (has_utc_) {
@@ -78,8 +78,8 @@ class GpsCheck {
     return true;
   }
 
-  /// Does the next comparison of MotionCheck::check(), for the last accepted fix. Returns false
-  /// once all are done.
+  /// Makes the next comparison of MotionCheck::check() for the last accepted fix. Returns false
+  /// once all comparisons are done.
   bool check_motion() { return motion_.check(limits_); }
   void finish_motion() {
     while (check_motion()) {
@@ -101,13 +101,14 @@ class GpsCheck {
     uint32_t time_ms;
   };
 
-  /// Maximum increase of the fixes' latency above its smallest value, ms; beyond it, fixes are
-  /// refused as kGpsOld.
+  /// Maximum difference, ms, between the latency of a fix and the smallest latency so far. A fix
+  /// with a larger one is refused as kGpsOld.
   static constexpr int32_t kGpsLag_ms = 500;
   /// Displacement between two fixes that counts as noise, m.
   static constexpr float kNoise_m = 3.0F;
-  /// Number of consecutive fixes out of reach, of which the last is accepted while disarmed. Also
-  /// the number of fixes after UTC ran back, of which the last is accepted.
+  /// While the vehicle is disarmed, the last of this many consecutive fixes out of reach is
+  /// accepted as a new position. After UTC ran back, the last of this many further fixes is
+  /// accepted.
   static constexpr uint8_t kRelocations = 10;
 
   Limits limits_;
@@ -128,7 +129,7 @@ class GpsCheck {
     return false;
   }
 
-  /// Updates lag_ms_, the increase of the fixes' latency above its smallest value. Between two
+  /// Updates lag_ms_, the latency of the last fix minus the smallest latency so far. Between two
   /// fixes, lag_ms_ grows by the advance of the board's clock minus that of UTC. 1/64 of the time
   /// is deducted, because a board's clock can be wrong by up to 0.5 %.
   void note_lag(uint32_t wait_ms, uint32_t advance_ms) {

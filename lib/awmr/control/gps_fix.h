@@ -29,9 +29,10 @@ constexpr uint32_t kDay_ms = 1000 * kDay_s;
 /// Units of GpsFix::lat_e7 in a degree.
 constexpr uint32_t kDegree_e7 = 10000000;
 
-/// A number of a sentence. `whole`: the digits before the decimal point. `part`: the digits after
-/// it, in units of the last decimal place that is kept. Hours or degrees, minutes and seconds are
-/// combined with base 60: the digits 1234 of 12 deg 34 min become 12 * 60 + 34.
+/// A number in a GPS sentence. `whole`: the digits before the decimal point. `part`: the fraction
+/// in units of the last decimal place that is kept; with three places, .5 is 500. Hours or degrees,
+/// minutes and seconds are combined with base 60: the digits 1234 of 12 deg 34 min become
+/// 12 * 60 + 34.
 struct RmcNumber {
   uint32_t whole;
   uint32_t part;

@@ -8,7 +8,7 @@ namespace awmr {
 /// Reads a number digit by digit.
 class RmcNumberReader {
  protected:
-  RmcNumber* number_ = 0;    // number that this field fills in; 0: the field is not a number
+  RmcNumber* number_ = 0;    // number into which the field is read; 0: the field is not a number
   uint32_t value_ = 0;       // value of the field's digits since its start or its point
   uint8_t digits_left_ = 0;  // digits still expected before the point
   uint8_t places_left_ = 0;  // digits still kept behind the point

@@ -1,7 +1,7 @@
 /// Strict reader for the RMC sentence of a GPS (NMEA 0183). An empty or malformed field, or a
-/// missing or wrong check sum, makes the whole sentence unusable. The reader works character by
-/// character and in integers, so that its computing time is spread over the steps in which the
-/// sentence arrives. Freestanding C++14.
+/// missing or wrong check sum, makes the whole sentence unusable. The reader processes each
+/// character when it arrives, with integers only. So its computing time is spread over the steps in
+/// which the sentence arrives. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/gps_fix.h"
@@ -27,8 +27,8 @@ inline uint8_t hex_value(char c) {
 /// port, and ignores everything else; xx are two characters of the talker, as in $GPRMC and $GNRMC.
 class RmcReader : RmcNumberReader {
  public:
-  /// True: this character ended a sentence (each starts with $); kind() and numbers() are valid
-  /// until the next $. A sentence that is too long is dropped.
+  /// Processes a character. True: it ended a sentence; kind() and numbers() are then valid until
+  /// the next $, which starts a sentence. A sentence that is too long is dropped.
   bool take(char c) {
     const uint8_t digit = static_cast<uint8_t>(c - '0');
     if (c == '$') {

@@ -6,8 +6,8 @@
 namespace awmr {
 
 /// Measures the zero-rate offset of a gyroscope as the mean of 100 readings. The measurement starts
-/// again if the spread or mean of the readings, or the change of the compass heading, is too large
-/// for a vehicle at rest.
+/// again if the vehicle was not at rest, that is, if the spread or the mean of the readings or the
+/// change of the compass heading is too large.
 class GyroCalibration {
  public:
   /// Processes the gyroscope's raw reading `word` of one sample; one count is `rate_per_word`

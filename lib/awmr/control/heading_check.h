@@ -36,9 +36,10 @@ class FrozenCheck {
   bool is_frozen_ = false;
 };
 
-/// Compares compass and gyroscope. The heading is the integral of the gyroscope's yaw rate,
-/// corrected by the compass with the time constant T. In the steady state, the innovation
-/// e = wrap(compass - heading) is T times the difference of the two sensors' yaw rates.
+/// Compares compass and gyroscope by their innovation e. The heading is the integral of the
+/// gyroscope's yaw rate, corrected by the compass with the time constant T. In the steady state,
+/// the innovation e = wrap(compass - heading) is T times the difference of the two sensors' yaw
+/// rates.
 class StepCheck {
  public:
   /// Processes one innovation e, `dt_s` seconds after the last.
@@ -56,8 +57,8 @@ class StepCheck {
   /// gyroscope is wrong and the vehicle turns.
   static constexpr float kJump_rad = 0.35F;
   static constexpr float kJump_s = 0.2F;
-  /// Fault: a mean innovation above 6 deg (low pass of 5 s); with T = 2 s, the yaw rates differ by
-  /// 3 deg/s. Causes: the compass is frozen, or the gyroscope drifts.
+  /// Fault: a mean innovation above 6 deg (low pass of 5 s). With T = 2 s, this is a difference
+  /// between the two yaw rates of 3 deg/s. Causes: the compass is frozen, or the gyroscope drifts.
   static constexpr float kSlow_per_s = 0.2F;
   static constexpr float kSlowMax_rad = 0.105F;
 
@@ -67,9 +68,9 @@ class StepCheck {
 };
 
 /// Compares the yaw rate with the commanded yaw moment, to detect swapped left and right motors, a
-/// reversed servo, or a gyroscope with the wrong sign. The fault is a turn of 90 deg against the
-/// moment in which the yaw rate does not fall by a quarter from its maximum. A yaw rate that falls
-/// means that the moment is braking an earlier turn.
+/// reversed servo, or a gyroscope with the wrong sign. The fault: the vehicle turns by 90 deg
+/// against the moment, and its yaw rate stays above three quarters of its maximum. (A falling yaw
+/// rate means that the moment is braking an earlier turn.)
 class TurnCheck {
  public:
   /// rate_per_word: rad/s per count of the gyroscope. dt_s: time between two readings, s.
@@ -130,14 +131,14 @@ class HeadingCheck {
     gyro_ms_ = now_ms;
     gyro_.take(static_cast<uint16_t>(word), now_ms);
   }
-  /// Processes the value read back from the gyroscope's range register. `is_right`: the register
-  /// still holds the range that was set at the start.
+  /// Processes the result of reading the gyroscope's range register. `is_right`: the register still
+  /// holds the range that was set at the start.
   void take_range(bool is_right) { is_range_wrong_ = !is_right; }
   /// Processes a new magnetic field reading of the compass, as three raw words.
   void take_field(int16_t x, int16_t y, int16_t z, uint32_t now_ms) {
     field_ms_ = now_ms;
-    // The three words of 16 bits are hashed to one of 32 bits. Simultaneous changes of two words
-    // can cancel, but not in all readings of half a second.
+    // Combines the three 16-bit words into one 32-bit word. The changes of two words can cancel in
+    // it, but not in every reading of half a second.
     const uint32_t low = static_cast<uint16_t>(x);
     const uint32_t high = static_cast<uint16_t>(y);
     field_.take(

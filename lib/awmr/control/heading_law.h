@@ -21,9 +21,10 @@ AWMR_INLINE T sliding_surface(const T& lambda, const T& error_rate_radps, const 
 /// The heading law, m:
 ///   tau_turn = g3(r) + I'z (psi_d_ddot + lambda e_dot) + I'z mu sat(S/eps)
 ///   sat(z)   = z for |z| <= 1, sgn z beyond                           [paper (84)-(89), corrected]
-/// Corrected: (84)-(85) print r_ddot for r_dot; (88)-(89) print psi_d_dot - r_dot for psi_d_dot -
-/// r; in (87), as in (78), sat has the condition |e| <= eps instead of |S| <= eps. The printed law
-/// also subtracts the disturbance, which is unknown: it is omitted, and mu must dominate it.
+/// Corrected: (84)-(85) print r_ddot instead of r_dot. (88)-(89) print psi_d_dot - r_dot instead of
+/// psi_d_dot - r. (87) and (78) print the condition |e| <= eps of sat instead of |S| <= eps. The
+/// printed law also subtracts the disturbance. It is omitted here because it is unknown, and mu
+/// must dominate it.
 template <class T, class G>
 AWMR_INLINE T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m,
                           const Reference<T>& ref) {

@@ -108,7 +108,7 @@ T lqi_law(const G& yaw, const T& inertia_norm, const LqiGains<T>& gains, const M
          inertia_norm * (ref.psi_accel_radps2 + w);
 }
 
-/// Largest relative difference of two moments that counts as rounding: the moments are then equal.
+/// Largest relative difference between two moments that are equal except for rounding.
 template <class T>
 constexpr T same_moment_share() {
   return T(1e-6);
@@ -117,7 +117,7 @@ constexpr T same_moment_share() {
 /// Advances z by one sample:
 ///   z_dot = e
 ///   z_dot = 0 while a limit reduces the moment and e requires more of it
-/// The second line is conditional integration, without which z would wind up at a limit.
+/// The second line is a conditional integration. Without it, z would wind up at a limit.
 /// `requested_m`: the moment requested from the allocation `a`. `made`: the moment that it gives.
 template <class T>
 void integrate_error(const T& requested_m, const Allocation<T>& a, const GeneralisedForces<T>& made,

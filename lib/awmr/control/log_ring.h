@@ -1,8 +1,9 @@
-/// Ring buffer for log rows between the control step, which must not wait, and the idle loop, which
-/// stores the rows on a card that can block for a quarter of a second. Freestanding C++11.
+/// Ring buffer for log rows. The control step, which must not wait, writes rows into it. The idle
+/// loop stores them on a card, which can block for a quarter of a second. Freestanding C++11.
 ///
-/// The writer (the control step, an interrupt) and the reader (the idle loop) need no lock. Each
-/// changes only its own counter, a byte, which an 8-bit processor reads and writes atomically.
+/// The writer (the control step, an interrupt) and the reader (the idle loop) need no lock. Each of
+/// them changes only its own counter. A counter is a byte, which an 8-bit processor reads and
+/// writes atomically.
 #pragma once
 
 #include <stdint.h>
@@ -37,8 +38,8 @@ class LogRing {
     written_ = static_cast<uint8_t>(written_ + 1);
   }
 
-  /// Number of rows that can be read now: the rows of the current block once the block is complete,
-  /// else 0. With `rest`, also the complete rows of an incomplete block.
+  /// Number of rows that can be read now: the remaining rows of the current block once it is
+  /// complete, else 0. With `rest`, also the complete rows of an incomplete block.
   uint8_t ready(bool rest = false) const {
     const uint8_t there = static_cast<uint8_t>(written_ - read_);
     const uint8_t whole = static_cast<uint8_t>(kLogBlockRows - read_ % kLogBlockRows);

@@ -1,4 +1,4 @@
-/// Measurements and references of the controller. Freestanding C++14.
+/// Inputs of the controller: measurements and references. Freestanding C++14.
 #pragma once
 
 namespace awmr {

@@ -19,10 +19,9 @@ class MotionCheck : MotionLimits {
     due_ = Due::kDirection;
   }
 
-  /// Does the next comparison for the last motion. The first call compares the displacement with
-  /// the command, the second with the speed, the third with the heading. The fourth compares the
-  /// heading with the commanded one. Returns false once all four are done. `Limits`: GpsLimits, or
-  /// a type with the same names as constants.
+  /// Makes the next of the four comparisons for the last motion: 1. displacement and command, 2.
+  /// displacement and speed, 3. displacement and heading, 4. heading and commanded heading. Returns
+  /// false once all four are done. `Limits`: GpsLimits, or a type with the same names as constants.
   template <class Limits>
   bool check(const Limits& limits) {
     switch (due_) {
@@ -100,9 +99,10 @@ class MotionCheck : MotionLimits {
     window_s_ = window_m_ = window_left_m_ = travelled_m_ = 0.0F;
   }
 
-  /// Compares the displacement with the distance travelled, both since the window began:
+  /// Compares the displacement with the distance travelled, both since the window began. Always:
   ///   |sum of ahead| <= 1.25 int |u| dt + kFurther_m
-  /// and at the end of a window (at u_ref = 0 only if it was shorter than kMoving_s)
+  /// At the end of a window with int |u| dt > kWindow_m (at u_ref = 0, only if this window was
+  /// shorter than kMoving_s):
   ///   |sum of ahead| + |sum of left| >= 0.25 int |u| dt
   /// The sum of left is included so that a compass error is not reported here but as kOffHeading.
   AWMR_CALLED_MEMBER void compare_with_speed() {

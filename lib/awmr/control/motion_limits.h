@@ -11,8 +11,8 @@ struct GpsContext {
   float psi_rad;      ///< heading
   float psi_ref_rad;  ///< commanded heading
   int8_t direction;   ///< sign of the commanded speed: 1, 0 or -1
-  /// False: of ten consecutive fixes that the vehicle cannot have reached (2 s at 5 Hz), the tenth
-  /// is accepted. True: none is.
+  /// True: the vehicle is armed, and a fix that it cannot have reached is never accepted. False: of
+  /// ten such fixes in a row (2 s at 5 Hz), the tenth is accepted.
   bool is_armed;
 };
 
@@ -41,23 +41,23 @@ struct MotionLimits {
   /// of the measured speed). A healthy vehicle reaches 0.39 even with a compass error of 30 deg and
   /// three times the RMS drift above.
   static constexpr float kNotFurther = 0.25F;
-  /// At u_ref = 0, longest window in which displacement and measured speed are compared, s. In a
-  /// longer one, the noise of the unsigned speed alone can add up to kWindow_m.
+  /// Longest window, s, in which displacement and measured speed are compared at u_ref = 0. In a
+  /// longer window, the noise of the unsigned speed alone can add up to kWindow_m.
   static constexpr float kMoving_s = kWindow_m / kStandstill_mps;
   /// Maximum integral of the measured speed while the position does not change, m. While a motion
-  /// is commanded, a speed of at most kStandstill_mps counts as kStill_mps, m/s. So a receiver that
-  /// froze at rest is detected after 10 s.
+  /// is commanded, a speed of at most kStandstill_mps counts as kStill_mps, m/s, so that a receiver
+  /// that froze at rest is detected within 10 s.
   static constexpr float kSame_m = 1.5F;
   static constexpr float kStill_mps = 0.15F;
   /// Maximum displacement against the commanded direction, m: a fault if kAgainstFixes consecutive
-  /// fixes exceed it. Up to kAhead_m of earlier displacement in the commanded direction is
-  /// subtracted. The maximum is larger than the drift of the fixes while the vehicle moves.
+  /// fixes exceed it. An earlier displacement in the commanded direction is subtracted, but at most
+  /// kAhead_m. The maximum is larger than the drift of the fixes while the vehicle moves.
   static constexpr float kAgainst_m = 2.0F;
   static constexpr float kAhead_m = 1.0F;
   static constexpr uint8_t kAgainstFixes = 3;
   /// The direction of travel is compared with the heading after a displacement |ahead| + |left| of
-  /// kTrack_m plus kTrack_mps times the time. The sideways part that is a fault (kOffTrack) is then
-  /// at least 3.5 times the RMS drift of the fixes (kFurther_m), also at low speed.
+  /// kTrack_m plus kTrack_mps times the time. A sideways displacement that is a fault (kOffTrack)
+  /// is then at least 3.5 times the RMS drift of the fixes (see kFurther_m), at low speed too.
   static constexpr float kTrack_m = 10.0F;
   static constexpr float kTrack_mps = 0.1F;
   /// Maximum |left|/|ahead| of the displacement: tan 30 deg. This angle exceeds the sideslip of a
@@ -66,8 +66,9 @@ struct MotionLimits {
   /// Largest change of the heading between two fixes whose displacement is compared with the
   /// heading, rad.
   static constexpr float kStraight_rad = 0.1F;
-  /// After a change of the commanded direction, the vehicle may brake for this time, s, while its
-  /// speed increases by at most kFaster_mps.
+  /// For this time, s, after a change of the commanded direction, a motion against the command
+  /// counts as braking and not as a fault. It must not be faster than at the change by more than
+  /// kFaster_mps, m/s.
   static constexpr float kBraking_s = 10.0F;
   static constexpr float kFaster_mps = 0.5F;
 };

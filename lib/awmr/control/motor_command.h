@@ -10,8 +10,8 @@
 namespace awmr {
 
 /// Constants of the allocation at the speed u, m/s, for motors with back-EMF: each force limit is
-/// reduced by k_e u. In a turn, the wheel speeds also differ from u by -+ d r, which motor_drives()
-/// takes into account.
+/// reduced by k_e u. In a turn, the wheel speeds differ from u by -+ d r. This is not taken into
+/// account here, but in motor_drives().
 template <class T>
 AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_per_m, const T& u_mps,
                                 double driven_wheels = 4.0) {
@@ -28,9 +28,9 @@ AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_pe
 /// Motor drives e, over F_max, that make these forces at the speed u, m/s, and yaw rate r, rad/s:
 ///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
 /// w is the speed of a rear wheel. The speed of a front wheel differs by w d_r^2/2 and by l_f r
-/// d_r, which are neglected. A drive of 0 switches the motor off: a vehicle that cannot reverse its
-/// motors (F'min = 0) brakes by back-EMF only while its drive is above 0; at 0 it rolls freely. NaN
-/// stays NaN.
+/// d_r, which are neglected. A drive of 0 switches the motor off, and the wheel rolls freely. So a
+/// vehicle that cannot reverse its motors (F'min = 0) brakes by back-EMF only while its drive is
+/// above 0. NaN stays NaN.
 template <class T>
 SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants<T>& c,
                            const T& back_emf_s_per_m, const T& u_mps, const T& r_radps) {
@@ -43,8 +43,8 @@ SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants
                   c.force_max)};
 }
 
-/// Motor commands, over F_max, that give these drives after the dead zone F'0 = `dead_zone` is
-/// subtracted from their magnitudes.
+/// Motor commands, over F_max, that give these drives: the magnitude of each drive other than 0 is
+/// increased by the dead zone F'0 = `dead_zone`, which the motor subtracts.
 template <class T>
 SideForces<T> with_dead_zone(const SideForces<T>& drive, const T& dead_zone) {
   return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};

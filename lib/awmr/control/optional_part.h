@@ -18,8 +18,8 @@ struct Optional<false, Part> {
   typedef Disabled<Part> type;
 };
 
-/// Returns the base class `Part` of an object that inherits from its parts. `Part` can also be the
-/// Disabled stand-in.
+/// Returns the base class `Part` of an object that inherits from its parts, or the base class
+/// Disabled<...> if `Part` is that stand-in.
 template <class Part, class Whole>
 Part& part_of(Whole& whole) {
   return static_cast<Part&>(whole);
@@ -29,8 +29,8 @@ Part& part_of(Whole& whole) {
 template <class Part>
 void disable(Disabled<Part>&) {}
 
-/// Resets a part after a step with the safe command, because its stored state no longer matches the
-/// vehicle's motion.
+/// Resets a part. Called after a step with the safe command, because the state of the part then no
+/// longer matches the vehicle's motion.
 template <class Part>
 void reset(Disabled<Part>&) {}
 

@@ -11,8 +11,8 @@
 ///   P += q t                        t: time since the previous fix
 ///   K  = P/(P + R),   nu = z - D(age_s ago) - o
 ///   o += K nu,   P -= K P
-/// The first fix sets P = R, so that the first fixes are averaged. c follows o linearly within
-/// kSpread_s, so that the direction to a near waypoint does not jump with each fix.
+/// The first fix sets P = R, so that the first fixes are averaged. After each fix, c changes
+/// linearly to o within kSpread_s, so that the direction to a near waypoint does not jump.
 ///
 /// A fix is rejected if |nu| > kInnovationMax sqrt(P + R). After kRejections rejected fixes in a
 /// row, the estimate is assumed wrong and reset to the last fix; `resets` counts these resets. In
@@ -39,8 +39,8 @@ class PositionEstimate {
   /// Restarts the estimate with the fix of the next step.
   void restart() { is_started_ = false; }
 
-  /// Returns the present position; in the first step and after restart(), that of the fix. Call
-  /// step() once per step, with the last fix and the measured motion. A fix that arrives while the
+  /// Returns the present position; in the first step and after restart(), that of the fix. Call it
+  /// once per step, with the last fix and the measured motion. A fix that arrives while the
   /// previous one is being processed is not used.
   Position<T> step(const PositionFix<T>& fix, const Measurement<T>& m) {
     if (!is_started_) {
@@ -59,8 +59,7 @@ class PositionEstimate {
 
  private:
   /// If the work is spread over several steps, the processing of a fix starts kWait steps after its
-  /// arrival, because GpsReceiver uses the steps before for its checks. The processing takes
-  /// kWorkSteps steps.
+  /// arrival and takes kWorkSteps steps. GpsReceiver uses the steps before for its checks.
   static constexpr uint8_t kWorkSteps = 4;
   static constexpr uint8_t kWait = 5;
 
@@ -73,7 +72,8 @@ class PositionEstimate {
   Position<T> follow_m_ = {};            // increment of c per step
   Position<T> innovation_m_ = {};        // z, then nu
   Position<T> ring_m_[kTravelled] = {};  // D every `stride` steps
-  T age_s_ = T(0.0);        // age of z; after locate(): fraction of the way from newer_ to older
+  T age_s_ = T(0.0);        // age of z; after locate(): fraction of the way from newer_ to the
+                            // element before it
   T variance_m2_ = T(0.0);  // P: variance of o
   uint16_t steps_ = 0;      // steps since the last processed fix
   uint8_t since_ = 0;       // steps since the newest element of the ring

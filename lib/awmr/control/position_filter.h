@@ -25,7 +25,7 @@ constexpr double kFixNoiseMin_m = 0.01;
 /// Largest accepted innovation |nu| over sqrt(P + R). One of 300,000 fixes with normal errors
 /// exceeds it.
 constexpr double kInnovationMax = 5.0;
-/// Number of consecutive rejected fixes that resets the estimate.
+/// After this number of consecutive rejected fixes, the estimate is reset.
 constexpr uint8_t kRejections = 5;
 /// Number of past dead-reckoned positions in the ring buffer, a power of two.
 constexpr uint8_t kTravelled = 8;

@@ -2,10 +2,10 @@
 ///
 /// A cell contains the speeds with the same float exponent and leading m mantissa bits: 2^m cells
 /// per octave, evenly spaced in the octave. So the relative error is similar at all speeds, and the
-/// index is a shift of the float's bits, without a logarithm. Within a cell, the table gives the
-/// straight line (chord) through the curve's points at both ends of the cell: one multiplication
-/// and one addition. Below the first cell, it gives the line from the origin to the start of this
-/// cell. The table is odd: g(-w) = -g(w).
+/// index of a cell is computed by a shift of the float's bits, without a logarithm. Within a cell,
+/// the table gives the straight line (chord) through the curve's points at both ends of the cell:
+/// one multiplication and one addition. Below the first cell, it gives the line from the origin to
+/// the start of this cell. The table is odd: g(-w) = -g(w).
 #pragma once
 
 #include <stdint.h>

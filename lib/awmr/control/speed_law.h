@@ -10,7 +10,8 @@
 namespace awmr {
 
 /// Fastest speed whose resistance the speed law feeds forward, m/s: max(0, u_d + eps_s) if the
-/// vehicle drives forward, else min(0, u_d - eps_s). Called only if the vehicle is faster.
+/// vehicle drives forward, else min(0, u_d - eps_s). It is computed only if the vehicle is faster
+/// than that.
 template <class T>
 AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& epsilon_mps) {
   using math::select;
@@ -22,10 +23,10 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
 ///   w = 0                     at u_d = 0
 ///   w = max(0, u_d + eps_s)   if the vehicle is faster than that, forward; backward likewise
 ///   w = u                     else
-/// Do not feed forward g1(u) at every speed: a vehicle that rolls down a slope faster than u_d
-/// would get tau_speed = g1(u) - m' mu_s, which accelerates it further where g1(u) > m' mu_s.
-/// `wanted`: the correction m' mu_s e_u/eps_s before saturation. `limit`: its largest magnitude,
-/// m' mu_s. `epsilon()` returns eps_s.
+/// The resistance g1(u) is not fed forward at every speed: a vehicle that rolls down a slope faster
+/// than u_d would get tau_speed = g1(u) - m' mu_s, which accelerates it further where
+/// g1(u) > m' mu_s. `wanted`: the correction m' mu_s e_u/eps_s before saturation. `limit`: its
+/// largest magnitude, m' mu_s. `epsilon()` returns eps_s.
 template <class T, class Epsilon>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
                                 const T& wanted, const T& limit, const Epsilon& epsilon) {

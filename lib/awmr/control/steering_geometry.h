@@ -6,8 +6,8 @@
 ///   F'L + F'R    = 2 k tau_speed         k = 1/(2 (1 + cos d_r))   = (1 + q^2)/4
 /// If only the front wheels are driven (front_wheel_forces() in model/dynamics.h):
 ///   q = tan d_r,   k = 1/(2 cos d_r) = sqrt(1 + q^2)/2
-/// The small-angle form has sin d_r = d_r and cos d_r = 1: with four driven wheels q = d_r/2 and
-/// k = 1/4, with two q = d_r and k = 1/2.
+/// The small-angle form assumes sin d_r = d_r and cos d_r = 1. With four driven wheels, it gives
+/// q = d_r/2 and k = 1/4; with two, q = d_r and k = 1/2.
 #pragma once
 
 #include "awmr/model/allocation_form.h"

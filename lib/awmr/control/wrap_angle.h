@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// Number of turns up to which wrap_angle() subtracts 2 pi repeatedly. Above, it uses atan2.
+/// Up to this number of turns, wrap_angle() subtracts 2 pi repeatedly. Above it, it uses atan2.
 constexpr int kTurnsOneByOne = 64;
 
 /// The equivalent angle in (-pi, pi], in bounded time. NaN stays NaN, and an infinite angle becomes
@@ -36,8 +36,8 @@ AWMR_CALLED T called_wrap_angle(const T& angle_rad) {
   return wrap_angle(angle_rad);
 }
 
-/// Prepares an angle that is integrated over many steps for the next one. A float is wrapped to
-/// (-pi, pi], because full turns would use up its resolution; other types are returned unchanged.
+/// Prepares an angle that is integrated over many steps for the next step. A float is wrapped to
+/// (-pi, pi], because full turns would use up its resolution. Other types are returned unchanged.
 template <class T>
 T without_turns(const T& angle_rad) {
   return angle_rad;

@@ -14,7 +14,7 @@ enum class YawMode {
 
 constexpr int kYawModeCount = 3;  ///< number of modes, numbered from 0
 
-/// Reaction of the combined mode when steering or wheel forces reach their limit (saturate).
+/// Reaction of the combined mode when the steering or the wheel forces are at their limit.
 enum class CombinedSplit {
   kFixedHalf,     ///< as in the paper: half of tau_turn each way, regardless of limits
   kRedistribute,  ///< the wheel forces make the moment that the steering cannot, and the reverse

@@ -18,13 +18,14 @@ Interval clopper_pearson(std::size_t successes, std::size_t runs);
 double mcnemar_p(std::size_t only_first, std::size_t only_second);
 
 /// p value of the two-sided paired t test that the true mean difference is 0. `mean` and
-/// `deviation` (standard deviation) are those of `count` >= 2 differences. With zero deviation: 1
-/// for mean 0, else 0.
+/// `deviation` (standard deviation) are those of `count` >= 2 differences. For a deviation of 0,
+/// returns 1 if the mean is 0, else 0.
 double paired_t_p(double mean, double deviation, std::size_t count);
 
-/// p value of the equivalence test (TOST): the larger p of two one-sided t tests of the hypotheses
-/// that the true mean is beyond +`margin` or -`margin` (>= 0). p < 0.05: the mean is significantly
-/// within the margin. With zero deviation: 0 if `mean` is within the margin, else 1.
+/// p value of the equivalence test (TOST): the larger p of two one-sided t tests. Their hypotheses
+/// are that the true mean is above `margin`, or below -`margin`; `margin` >= 0. p < 0.05: the mean
+/// is significantly within the margin. For a deviation of 0, returns 0 if `mean` is within the
+/// margin, else 1.
 double equivalence_p(double mean, double deviation, std::size_t count, double margin);
 
 }  // namespace awmr

@@ -131,7 +131,7 @@ Result<ColumnMapping> parse_column(std::string_view text) {
 std::string text_of(const ColumnMapping& mapping) {
   const std::string name =
       mapping.file.empty() ? mapping.name : fmt::format("{}:{}", mapping.file, mapping.name);
-  // A constant parses as SOURCE and as a formula; it is written as a formula.
+  // A constant such as 0.5 matches both forms, SOURCE and formula. It is written as a formula.
   const bool scaled = !mapping.source.empty() && !number_from_text(mapping.expression);
   if (!scaled) return fmt::format("{}={}", name, mapping.expression);
   return fmt::format("{}={}*{}+{}", name, mapping.source, format_number(mapping.scale),

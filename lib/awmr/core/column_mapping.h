@@ -9,7 +9,8 @@
 
 namespace awmr {
 
-/// Gives column `name` from a file, in the first of these ways that the file's header allows:
+/// Defines column `name`. The header of the file decides which of these definitions is used; the
+/// first possible one is taken:
 ///   1. `expression` is exactly the name of a column: that column;
 ///   2. the header has `source`: that column times `scale` plus `offset`;
 ///   3. `expression` is a formula over columns of the header.
@@ -32,8 +33,8 @@ Result<ColumnMapping> parse_column(std::string_view text);
 /// The same, with `[FILE:]NAME` and EXPRESSION as separate texts, as in JSON.
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);
 
-/// The mapping as text, `[FILE:]NAME=EXPRESSION`. Output files record this text among the options
-/// of the command (Provenance::options).
+/// The mapping as text, `[FILE:]NAME=EXPRESSION`, as output files record it among the options of
+/// the command (Provenance::options).
 std::string text_of(const ColumnMapping& mapping);
 
 /// Returns an EXPRESSION whose value is that of `mapping` (including its scale and offset) times

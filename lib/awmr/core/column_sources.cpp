@@ -20,8 +20,7 @@ bool stands(const std::string& name, Header header) {
   return std::find(header.begin(), header.end(), name) != header.end();
 }
 
-/// Lists the names for a message. Of more than 20 names, it lists 20 and gives the number of the
-/// others.
+/// Lists the names for a message: at most 20 names, followed by the number of those left out.
 std::string listed(Header names) {
   constexpr std::size_t kMax = 20;
   std::string text;
@@ -32,16 +31,15 @@ std::string listed(Header names) {
   return text;
 }
 
-/// A mapping as this header interprets it.
+/// A mapping, interpreted for the header of one file.
 struct Candidate {
   ColumnSource source;
   std::vector<std::string> names;    ///< columns that the mapping uses
   std::vector<std::string> missing;  ///< those of `names` that the header lacks
 };
 
-/// Interprets a mapping in the first of these ways that the header permits (column_mapping.h): as a
-/// column whose name is exactly the mapping's expression, as SOURCE with scale and offset, or as a
-/// formula.
+/// Interprets a mapping for this header: as a column whose name is exactly the mapping's
+/// expression, else as SOURCE with scale and offset, else as a formula (column_mapping.h).
 Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, Header header) {
   Candidate candidate{
       .source = {.column = column, .indices = {}, .mapping = &mapping}, .names = {}, .missing = {}};
@@ -67,8 +65,8 @@ Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, He
   return candidate;
 }
 
-/// Rank of a mapping; the lowest rank wins: 0 for a mapping for this file only, 1 for a mapping for
-/// every file, 2 for a mapping for every file from vehicle.json.
+/// Priority of a mapping; the lowest number wins. 0: the mapping is for this file only; 1: for
+/// every file; 2: for every file, and it comes from vehicle.json.
 int distance(const ColumnMapping& mapping) {
   return !mapping.file.empty() ? 0 : mapping.standing ? 2 : 1;
 }
@@ -143,8 +141,8 @@ class Search {
     }
   }
 
-  /// Uses the column that find_time() finds. False if it finds none; true if one is used, and after
-  /// a fault.
+  /// Uses the column that find_time() finds. Returns false if there is none. Returns true if a
+  /// column is used, or if a fault was added.
   bool use_time() {
     auto time = find_time(header_, samples_);
     if (!time) {
@@ -167,8 +165,8 @@ class Search {
     return true;
   }
 
-  /// Adds the source to the result, with the indices of its columns `names`. A name that occurs
-  /// twice in the header is a fault.
+  /// Adds the source to the result, together with the indices of the columns `names`. Adds a fault
+  /// for a name that occurs twice in the header.
   void use(ColumnSource source, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
       const auto first = std::find(header_.begin(), header_.end(), name);
@@ -182,8 +180,7 @@ class Search {
       }
       source.indices.push_back(static_cast<std::size_t>(first - header_.begin()));
     }
-    // A mapping of t_s may name a column of dates. It is one if its cell in the first row is a
-    // date.
+    // A mapping of t_s may name a column of dates. A column is one if its first cell is a date.
     const bool is_one = source.indices.size() == 1 && !source.expression && source.scale == 1.0;
     if (column_.name == kTimeName && source.mapping != nullptr && is_one &&
         source.indices[0] < samples_.size() && seconds_of_date(samples_[source.indices[0]])) {

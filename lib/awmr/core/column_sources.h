@@ -14,7 +14,7 @@
 
 namespace awmr {
 
-/// How a requested column is computed from the columns of the file.
+/// Source of a requested column: how it is computed from the columns of the file.
 struct ColumnSource {
   CsvColumn column;                              ///< the requested column
   std::vector<std::size_t> indices;              ///< columns of the header from which it is made
@@ -41,8 +41,9 @@ struct ColumnSources {
 /// Priority: mappings for this file, mappings for every file, mappings of vehicle.json, then the
 /// column of the requested name. If t_s is neither present nor mapped, find_time() looks for it.
 /// `samples`: the cells of the first row, by which dates are recognised. `file`: path of the table.
-/// Faults: a missing required column; two mappings of one column; a formula of which the header has
-/// only some columns; a name that occurs twice in the header; more than one candidate for the time.
+/// Faults: a missing required column; two mappings of one column; a formula for which the header
+/// lacks some of its columns; a name that occurs twice in the header; several candidates for the
+/// time.
 ColumnSources find_columns(std::span<const std::string> header,
                            std::span<const std::string> samples, std::span<const CsvColumn> columns,
                            std::span<const ColumnMapping> mappings, const std::string& file);
@@ -55,8 +56,8 @@ std::vector<std::string> missing_columns(const ColumnMapping& mapping,
 /// True if the mapping is for every file, or names this file by its path or name.
 bool is_for(const ColumnMapping& mapping, const std::string& file);
 
-/// All column names by which a header can be recognised: the names of these columns, and the names
-/// in the mappings.
+/// Column names that distinguish a header from other lines: the names of these columns, and the
+/// names in the mappings.
 std::set<std::string> wanted_names(std::span<const CsvColumn> columns,
                                    std::span<const ColumnMapping> mappings);
 

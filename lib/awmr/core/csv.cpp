@@ -157,7 +157,7 @@ bool CsvParser::read_row() {
   return true;
 }
 
-/// True if decimal commas may have split the cells of this row: the delimiter is a comma, the row
+/// True if decimal commas probably split the cells of this row: the delimiter is a comma, the row
 /// has more cells than the header, and all cells are whole numbers.
 bool CsvParser::has_decimal_commas() const {
   if (header_.delimiter != ',' || cells_.size() <= header_.names.size()) return false;

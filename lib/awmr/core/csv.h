@@ -17,7 +17,7 @@
 
 namespace awmr {
 
-/// Meaning of an empty cell.
+/// Meaning of an empty cell in a requested column.
 enum class EmptyCells {
   kFault,   ///< a fault: every row needs a value
   kHeld,    ///< a command in a log with signals of different rates: the previous value still holds
@@ -71,8 +71,9 @@ class CsvTable {
   /// As column(), but moves the values out of the table: its column is empty afterwards.
   /// Precondition: has(column).
   std::vector<double> take(std::string_view column);
-  /// By row: true if the file has the value, false if it was carried over from an earlier row.
-  /// Empty: the file has all values. Precondition: has(column).
+  /// By row: true if the file has the value. False: the value is a copy of the previous one in the
+  /// file (before the first one, of the first). Empty: the file has all values. Precondition:
+  /// has(column).
   const std::vector<bool>& present(std::string_view column) const;
   /// Line in the file, from 1.
   int line(std::size_t row) const { return parts_.lines[row]; }
@@ -96,9 +97,9 @@ class CsvTable {
 ///   - Rows are dropped if all their kHeld, kAbsent and kOptional cells are empty, or if a command
 ///     (kHeld) has not had its first value yet.
 /// In other files, empty cells are faults, except in kOptional columns. All faults of the file are
-/// reported at once: a missing required column, a duplicate column, rows with another number of
-/// cells than the header, cells that are empty, not numbers, NaN or infinite, an unterminated
-/// quote, no rows, a formula whose value is infinite or NaN.
+/// reported at once: a missing required column; a duplicate column; no rows; a row with another
+/// number of cells than the header; a cell that is empty, not a number, NaN or infinite; an
+/// unterminated quote; a formula whose value is infinite or NaN.
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                           std::span<const ColumnMapping> mappings = {});
 

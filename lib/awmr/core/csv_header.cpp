@@ -17,7 +17,7 @@ namespace {
 
 using Outcome = CsvScanner::Outcome;
 
-/// Text of a cell with doubled quotes replaced by single ones.
+/// Text of a cell in which each pair of doubled quotes is replaced by one quote.
 std::string name_of(const CsvCell& cell) {
   std::string name;
   for (std::size_t i = 0; i < cell.text.size(); ++i) {
@@ -32,8 +32,8 @@ struct Delimiter {
   int found = 0;  ///< number of requested columns among the cells of the header
 };
 
-/// The delimiter with which the scanner's next line has the most requested columns; among equals,
-/// the most cells.
+/// Returns the delimiter that splits the scanner's next line into cells with the most requested
+/// columns. Of several such delimiters, returns the one that makes the most cells.
 Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& wanted) {
   int best = 0;
   Delimiter chosen;
@@ -113,7 +113,8 @@ bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, Cs
   return false;
 }
 
-/// True for a line that is not part of the table: PuTTY's mark of a new log, Excel's `sep=;`.
+/// True for a line that is not part of the table: the line with which PuTTY begins a new log, or
+/// Excel's `sep=;`.
 bool is_mark(std::string_view line) {
   std::string_view text = trimmed(line);
   if (text.starts_with("=~=~=")) return true;
@@ -129,8 +130,8 @@ bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
                      [&](const CsvCell& cell) { return is_number(cell, delimiter != ','); });
 }
 
-/// True if the scanner is at a header: a line with two or more requested columns, or a line without
-/// numbers above a row with as many cells, one of which is a number.
+/// True if the scanner's next line is a header: it has two or more requested columns; or it has no
+/// numbers, and the row below has as many cells and at least one number.
 bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   const std::vector<CsvCell> names = scanner.peek_cells(chosen.character);
   if (chosen.found >= 2) return true;

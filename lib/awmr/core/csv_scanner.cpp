@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// True for the first byte of a UTF-8 character: the others are 10xxxxxx.
+/// True for the first byte of a UTF-8 character. The further bytes of a character are 10xxxxxx.
 bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }
 
 constexpr std::array<double, 20> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,

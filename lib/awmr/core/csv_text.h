@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// As read_csv(), from the bytes of a file. `file`: name of the file in errors.
+/// As read_csv(), but parses `bytes`, the content of a file. `file`: name of the file in errors.
 Result<CsvTable> read_csv_text(std::string_view bytes, const std::string& file,
                                std::span<const CsvColumn> columns,
                                std::span<const ColumnMapping> mappings = {});

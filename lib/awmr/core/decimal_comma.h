@@ -21,11 +21,11 @@ struct DecimalCommas {
 /// Parses a cell such as `-1,25` or `1,25e3` and records its comma in `seen`. Empty for other text.
 std::optional<double> number_with_comma(const CsvCell& cell, DecimalCommas& seen);
 
-/// Records the point of a number in `seen`; nothing if the cell has none.
+/// Records in `seen` that the number in this cell has a decimal point. No effect if it has none.
 void note_point(const CsvCell& cell, DecimalCommas& seen);
 
-/// Text of the fault if a file with commas also has decimal points, or if all of its commas may be
-/// thousands separators; else empty.
+/// Text of the fault of a file with commas that also has decimal points, or whose commas may all be
+/// thousands separators. Empty if there is no fault.
 std::optional<std::string> fault_of(const DecimalCommas& seen);
 
 }  // namespace awmr

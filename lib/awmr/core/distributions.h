@@ -13,8 +13,8 @@ double normal_tail(double z);
 double students_t_tail(double t, double degrees_of_freedom);
 /// The t with P(T <= t) = p, 0 < p < 1.
 double students_t_quantile(double p, double degrees_of_freedom);
-/// 97.5 % quantile of Student's t: half width of a 95 % interval in standard errors. Infinity
-/// without degrees of freedom.
+/// 97.5 % quantile of Student's t: half width of a 95 % interval, divided by the standard error.
+/// Infinity if there are no degrees of freedom.
 double t_quantile_95(double degrees_of_freedom);
 
 /// P(X > x), X chi-squared with degrees_of_freedom > 0; x >= 0.

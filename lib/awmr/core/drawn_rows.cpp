@@ -25,8 +25,8 @@ struct Farthest {
   double distance = 0.0;  ///< from the straight line, divided by the signal's range
 };
 
-/// The row between `first` and `last` that is farthest, in any signal, from the straight line
-/// between these two rows.
+/// Of the rows between `first` and `last`, the one that deviates most, in any signal, from the
+/// straight line between these two rows.
 Farthest farthest_row(std::span<const double> t, std::span<const std::vector<double>> signals,
                       std::span<const double> ranges, std::size_t first, std::size_t last) {
   Farthest farthest;

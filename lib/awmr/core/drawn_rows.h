@@ -10,8 +10,8 @@ namespace awmr {
 
 /// Selects rows so that the straight lines between them deviate from each signal by at most
 /// `tolerance` times the signal's range (Douglas-Peucker algorithm over time, for all signals
-/// together). The first and the last row are always selected. If more than `most` >= 2 rows are
-/// needed, the tolerance is doubled until `most` suffice. `t`: times, ascending, one per row. Each
+/// together). The first and the last row are always selected. If this selects more than `most` >= 2
+/// rows, the tolerance is doubled until it does not. `t`: times, ascending, one per row. Each
 /// signal has one value per row.
 std::vector<std::size_t> drawn_rows(std::span<const double> t,
                                     std::span<const std::vector<double>> signals, double tolerance,

@@ -29,8 +29,8 @@ std::string file_and_keys(const std::string& place) {
   return text.substr(0, end == std::string::npos ? 0 : end + 1);
 }
 
-/// Text that is equal for faults with the same cause: the file, and the message without numbers and
-/// quoted values.
+/// Text that is the same for all faults with one cause: the file, and the message without its
+/// numbers and quoted values.
 std::string cause_of(const Fault& fault) {
   std::string cause = file_and_keys(fault.place) + '\n';
   bool is_quoted = false;
@@ -42,8 +42,8 @@ std::string cause_of(const Fault& fault) {
   return cause;
 }
 
-/// If more than kMaxAlike faults have the same cause, replaces them by the first, with the number
-/// of the others in its message.
+/// If more than kMaxAlike faults have the same cause, keeps only the first of them and adds the
+/// number of the others to its message.
 std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
   std::map<std::string, std::size_t> counts;
   for (const Fault& fault : faults) ++counts[cause_of(fault)];

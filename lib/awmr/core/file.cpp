@@ -64,7 +64,8 @@ Result<PathKind> kind_of(const fs::path& path) {
   return S_ISDIR(status.st_mode) ? PathKind::kDirectory : PathKind::kOther;
 }
 
-/// The umask of this process. It is read once, because reading it means to set it for a moment.
+/// The umask of this process. It is read only once, because umask() can only read it by changing it
+/// for a moment.
 mode_t creation_mask() {
   static const mode_t kMask = [] {
     const mode_t current = ::umask(077);

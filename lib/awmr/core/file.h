@@ -22,16 +22,16 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::size_t max_bytes = kMaxFileBytes);
 
-/// Check of an output before it is written: parses the bytes as the commands that read such a file
-/// do. `file`: name of the file in errors.
+/// Check of an output before it is written. It parses the bytes in the same way as the commands
+/// that later read the file. `file`: name of the file in errors.
 using ReadBack = std::function<Status(std::string_view bytes, const std::string& file)>;
 
 /// Writes a file. Writes a temporary file next to `path`, flushes it and renames it to `path`, so
-/// that another program reads either the old file or the new one. Pipes and terminals are written
-/// directly. A symbolic link is kept, and its target written, even if the target is missing. The
-/// directory must exist. Also removes temporary files (`.awmr-PID-XXXXXX`) that killed programs
-/// left in this directory. Errors: as check_output(); the disk is full; (fault) `read_back` rejects
-/// the bytes, and the old file is kept.
+/// that another program reads either the whole old file or the whole new one. Pipes and terminals
+/// are written directly. A symbolic link is kept, and its target written, even if the target is
+/// missing. The directory must exist. Also removes temporary files (`.awmr-PID-XXXXXX`) that killed
+/// programs left in this directory. Errors: as check_output(); the disk is full; (fault)
+/// `read_back` rejects the bytes, and the old file is kept.
 Status write_file(const std::filesystem::path& path, std::string_view bytes,
                   const ReadBack& read_back = {});
 
@@ -49,8 +49,8 @@ Status write_files(std::span<const OutputFile> files);
 
 /// Checks that the output `path` can be written and is none of the inputs. Call it before a long
 /// computation. Errors: `path` is one of `inputs`, by this or another name; it is a directory, a
-/// read-only file, or a file with a second hard link, which would keep the old bytes; its directory
-/// is missing or read-only; its symbolic links form a loop.
+/// read-only file, or a file with a second hard link, under which the old bytes would remain; its
+/// directory is missing or read-only; its symbolic links form a loop.
 Status check_output(const std::filesystem::path& path,
                     std::span<const std::filesystem::path> inputs = {});
 

@@ -1,4 +1,4 @@
-/// Conversions between the index types of standard containers (std::size_t) and of Eigen
+/// Converts between the index types of standard containers (std::size_t) and of Eigen
 /// (std::ptrdiff_t), so that formulas need no casts. Indices must not be negative.
 #pragma once
 
@@ -14,7 +14,7 @@ constexpr std::size_t at(Integer i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Converts a standard container's size or index to Eigen's type.
+/// Converts a size or an index of a standard container to Eigen's type.
 template <class Integer>
 constexpr std::ptrdiff_t eigen_index(Integer i) {
   static_assert(std::is_integral_v<Integer> || std::is_enum_v<Integer>);

@@ -10,8 +10,7 @@
 namespace awmr {
 namespace {
 
-/// For each file, by the path that the user gave, the hash of the bytes that were last read from
-/// it.
+/// Hash of the bytes that were last read from each file, by the path that the user gave.
 class Notes {
  public:
   void put(const std::string& path, std::string sha256) {

@@ -28,11 +28,12 @@ Result<Json> read_json_file(const std::filesystem::path& path);
 
 class JsonShape;
 
-/// A strict view of one JSON object. Each function that reads a key marks the key as known. A value
-/// of the wrong type or out of range, and a missing key (except in the optional_ functions), is a
-/// fault. On a fault the function adds to the shared list of faults and returns a neutral value:
-/// NaN, `min` of an integer, the first of several choices, false or empty. So reading continues and
-/// finds all faults. Call `reject_unknown_keys()` after all keys were read.
+/// A strict view of one JSON object. Each function that reads a key marks the key as known. These
+/// are faults: a value of the wrong type or out of range, and a missing key (except in the
+/// optional_ functions). On a fault, the function adds it to the shared list of faults and returns
+/// a neutral value: NaN, `min` of an integer, the first of several choices, false or empty. So
+/// reading continues, and all faults are found. Call `reject_unknown_keys()` after all keys were
+/// read.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
@@ -54,12 +55,14 @@ class JsonObject {
   std::optional<std::string> optional_string(std::string_view key);
   /// A whole number from 0 to 2^64 - 1; 0 on a fault.
   std::uint64_t seed(std::string_view key);
-  /// A number in the range of the rule, as text, or a string; empty if absent or on a fault.
-  std::optional<std::string> optional_number_or_string(std::string_view key, NumberRule rule);
-  /// A string that is one of `choices`; a fault suggests the nearest one. Returns its index, 0 on a
+  /// The value as text: a number in the range of the rule, or a string. Empty if absent or on a
   /// fault.
+  std::optional<std::string> optional_number_or_string(std::string_view key, NumberRule rule);
+  /// A string that is one of `choices`. Returns its index in `choices`. On a fault, returns 0, and
+  /// the fault suggests the nearest choice.
   std::size_t choice(std::string_view key, std::span<const std::string> choices);
-  /// A string that is a name in the table. Returns its value, the first value on a fault.
+  /// A string that is a name in the table. Returns the value of this name; on a fault, the first
+  /// value of the table.
   template <class T, std::size_t N>
   T choice(std::string_view key, const NameTable<T, N>& table) {
     return table[choice(key, std::span<const std::string>(names_in(table)))].value;
@@ -70,8 +73,8 @@ class JsonObject {
   std::optional<Interval> nullable_interval(std::string_view key);
   std::vector<double> numbers(std::string_view key, NumberRule rule = kAnyNumber);
   std::vector<std::string> strings(std::string_view key);
-  /// An array of arrays of numbers, unchecked: the caller must check it. Null if the key is
-  /// missing, which is a fault.
+  /// The array under the key, which should contain arrays of numbers; the caller must check this.
+  /// Null if the key is missing, which is a fault.
   const Json* rows(std::string_view key);
   /// The object under the key. If it is missing or not an object (a fault), returns an empty view
   /// that reports no further faults.
@@ -80,7 +83,7 @@ class JsonObject {
   /// The elements of an array of objects.
   std::vector<JsonObject> objects(std::string_view key);
   std::vector<JsonObject> optional_objects(std::string_view key);
-  /// The values of an object with arbitrary keys, whose values are all objects.
+  /// The values of this object, if its keys are arbitrary and its values are all objects.
   std::vector<JsonObject> values();
   /// Marks a key as known without reading its value; the key may be missing.
   void ignore(std::string_view key);
@@ -91,7 +94,7 @@ class JsonObject {
 
   /// Adds a fault at the key's place (FILE:POINTER).
   void fault(ErrorCode code, std::string_view key, std::string message);
-  /// Adds code and message of the first fault of `cause`, at the key's place.
+  /// Adds a fault at the key's place, with the code and the message of the first fault of `cause`.
   void fault(std::string_view key, const Error& cause);
   /// Adds a fault for each key of the object that was not read.
   void reject_unknown_keys();
@@ -111,7 +114,7 @@ class JsonObject {
 
 /// Returns a JSON Schema (draft 2020-12) that accepts every document that `read` accepts. The
 /// schema is derived by running `read` for every value of every choice(), with and without optional
-/// keys. The schema has no rules between keys, except for keys that depend on a choice. `format`:
+/// keys. It has rules between keys only where a key depends on the value of a choice. `format`:
 /// value of the key `$id`.
 std::string json_schema_text(std::string_view format, std::string_view title,
                              const std::function<void(JsonObject&)>& read);

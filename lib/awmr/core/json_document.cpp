@@ -21,7 +21,7 @@ std::string place_of(const std::string& file, std::string_view text, std::size_t
   std::string_view before = text.substr(0, std::min(offset, text.size()));
   const auto lines = std::count(before.begin(), before.end(), '\n');
   if (lines == 0 && before.starts_with("\xEF\xBB\xBF")) before.remove_prefix(3);
-  // Keeps the last line. Without a line end, rfind() returns npos, and npos + 1 is 0.
+  // Keeps the last line. If there is no line end, rfind() returns npos, and npos + 1 is 0.
   before.remove_prefix(before.rfind('\n') + 1);
   const auto characters =
       std::count_if(before.begin(), before.end(), [](char c) { return !continues_character(c); });

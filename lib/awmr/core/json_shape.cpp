@@ -9,7 +9,7 @@ namespace {
 /// Key that stands for all keys of an object with arbitrary keys.
 constexpr std::string_view kAnyKey = "*";
 
-/// True if in the run `way` the choices have the names `picks` (Way::picks).
+/// True if the run `way` selected the names `picks` of the choices (as in Way::picks).
 bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   return std::all_of(picks.begin(), picks.end(), [&](const auto& pick) {
     const auto taken = way.picks.find(pick.first);
@@ -17,8 +17,7 @@ bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   });
 }
 
-/// Schema that forbids those of `keys` that are not in `allowed`; an empty object if all are
-/// allowed.
+/// Schema that forbids each of `keys` that is not in `allowed`; an empty object if it forbids none.
 Json forbidding(const std::set<std::string>& keys, const std::set<std::string>& allowed) {
   Json rule = Json::object();
   for (const std::string& key : keys) {
@@ -132,7 +131,8 @@ Json JsonShape::property_schema(const Property& property) const {
   return kinds.size() == 1 ? kinds.front() : Json{{"anyOf", kinds}};
 }
 
-/// Keys of all runs that differ from each other only in the name of the choice under `key`.
+/// Keys requested in all runs that differ from each other only in the name of the choice under
+/// `key`.
 JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   const std::string place = place_ + "/" + key;
   Keys keys;
@@ -162,15 +162,15 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
   for (const RequestedKeys& one : ways_) {
     if (!takes(one.way, at_least)) continue;
     if (!one.way.present && one.optional.contains(key)) {
-      // The choice is absent in this run. Keys that are only requested without the optional keys
-      // are allowed with every name.
+      // The choice is absent in this run. Keys that the reader requests only if the optional keys
+      // are absent are allowed with every name.
       for (const std::string& other : one.keys) {
         if (!keys.present.contains(other)) allowed.insert(other);
       }
       continue;
     }
     allowed.insert(one.keys.begin(), one.keys.end());
-    // Requires the keys that every run of the reader with this name requires.
+    // Requires only the keys that the reader requires in every run with this name.
     if (std::exchange(first, false)) required = one.required;
     std::erase_if(required, [&](const std::string& k) { return !one.required.contains(k); });
   }
@@ -192,8 +192,8 @@ Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const 
   return rule;
 }
 
-/// Schema rule for a document without the optional choice under `key`: requires the keys of its
-/// default, and forbids keys that only other names have. Empty if the choice is not optional.
+/// Schema rule for a document that omits the optional choice under `key`: requires the keys of the
+/// default name, and forbids keys that only other names have. Empty if the choice is not optional.
 Json JsonShape::variant_without(const std::string& key) const {
   const auto& on = exploration_->met.at(place_ + "/" + key).on;
   const RequestedKeys* absent = nullptr;
@@ -207,8 +207,8 @@ Json JsonShape::variant_without(const std::string& key) const {
   const Keys keys = with_any_name(key);
   Json then = forbidding(keys.all, allowed);
   std::set<std::string> required = absent->required;
-  // Drops keys that are required only in runs without the optional keys: the choice does not decide
-  // about them.
+  // Drops keys that are required only in runs without the optional keys, because they do not depend
+  // on this choice.
   std::erase_if(required, [&](const std::string& k) { return !keys.required.contains(k); });
   then["required"] = required;
   Json where = names_of(on);

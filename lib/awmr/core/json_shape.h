@@ -1,8 +1,8 @@
 /// Derives the JSON Schema of a file from its reader, for json_schema_text(). The reader is run
 /// several times with JsonObjects that have no document. They record in a JsonShape each key that
 /// the reader requests, with the permitted values. A choice is a key whose value is one of several
-/// names (JsonObject::choice()); the names can decide which other keys exist, so each run of the
-/// reader uses other names. Private to this folder.
+/// names (JsonObject::choice()). The name can decide which other keys exist, so the runs of the
+/// reader try all names. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,8 @@ struct Way {
 /// A choice that the reader requested.
 struct MetChoice {
   std::size_t count = 0;                       ///< number of its names
-  std::map<std::string, std::size_t> on = {};  ///< Way::picks of the run that first met it
+  std::map<std::string, std::size_t> on = {};  ///< Way::picks of the run in which the reader first
+                                               ///< requested it
 };
 
 /// State of the exploration, shared by the JsonShapes of one schema.
@@ -60,7 +61,8 @@ class JsonShape {
     std::unique_ptr<JsonShape> object;
     std::unique_ptr<JsonShape> element;
   };
-  /// Keys requested in one run: all, those that must be present, and those that may be absent.
+  /// Keys requested in one run: all of them, those that must be present, and those that may be
+  /// absent.
   struct RequestedKeys {
     Way way;
     std::set<std::string> keys;

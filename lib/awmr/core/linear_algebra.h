@@ -49,13 +49,13 @@ class PivotedQr {
   Eigen::MatrixXd permutation() const;  ///< Pi: p x p
   /// (J^T J)^-1 = Pi R^-1 R^-T Pi^T. Precondition: rank() == p.
   Eigen::MatrixXd inverse_information() const;
-  /// As inverse_information(), from the pseudo-inverse J^+: J^+ J^+T. Needs an n x n matrix, so
-  /// only for matrices with few rows n.
+  /// The same matrix as inverse_information(), computed from the pseudo-inverse J^+ as J^+ J^+T.
+  /// Use it only for few rows n, because it needs an n x n matrix.
   Eigen::MatrixXd inverse_information_by_pseudo_inverse() const;
 
  private:
-  /// Number of rows n above which only the first p columns of Q are computed: a square Q needs n^2
-  /// values.
+  /// Largest number of rows n for which all of Q is computed. For more rows, only its first p
+  /// columns are computed, because a square Q has n^2 values.
   static constexpr Eigen::Index kMaxSquareQ = 200;
 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;

@@ -1,4 +1,4 @@
-/// Permitted range of a number from a file, the command line or a caller.
+/// Permitted range of a number that comes from a file, the command line or a caller.
 #pragma once
 
 #include <limits>

@@ -22,7 +22,7 @@ std::string option_text(std::string_view name);
 /// Replaces each marked name by `prefix` and the name. With the prefix "--", '_' becomes '-'.
 std::string spell_options(std::string_view message, std::string_view prefix);
 
-/// Replaces each marked option, its name and value, by `spelling` of it.
+/// Replaces each marked option, that is, its name and value, by the result of `spelling` for it.
 std::string replace_options(std::string_view message,
                             const std::function<std::string(std::string_view option)>& spelling);
 
@@ -31,8 +31,9 @@ std::string replace_options(std::string_view message,
 std::string plain_text(std::string_view message);
 
 /// The faults to show to a user. If more than three faults of a file have the same cause, only the
-/// first is kept, with the number of the others. Of the rest, the first 20 are returned; if there
-/// are more, a last fault (`more-faults`) gives the number of the others.
+/// first of them is kept, and its message gives the number of the others. Then only the first 20
+/// faults are returned; if there are more, a last fault (`more-faults`) gives the number of those
+/// left out.
 std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 
 /// One printable line, `PLACE: MESSAGE [CODE]`, with option names as by spell_options().

@@ -31,9 +31,9 @@ class FirstException {
   std::exception_ptr exception_;
 };
 
-/// Worker threads that are kept between loops: a search runs thousands of loops, each of which
-/// takes about as long as the start of a thread. A loop waits only for threads that work on it, so
-/// nested loops cannot block each other.
+/// Worker threads that are kept between loops, because a search runs thousands of loops and
+/// starting a thread takes about as long as one loop. A loop waits only for the threads that work
+/// on it, so nested loops cannot block each other.
 class Helpers {
  public:
   ~Helpers() {

@@ -12,8 +12,8 @@ std::size_t thread_count(int threads);
 
 /// Calls body(i) for i = 0 ... count - 1 on up to `threads` threads (0: one per core), including
 /// the caller's. If body(i) writes only to data of item i, the result does not depend on the number
-/// of threads. After an exception no further item is started. When all started items have ended,
-/// the exception of the smallest i that has thrown is rethrown.
+/// of threads. After an exception, no further item is started. When all started items have ended,
+/// the exception is rethrown; of several, that of the smallest i.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
 
 /// Cancellation and progress callbacks of a long loop.

@@ -49,9 +49,9 @@ struct Pipe {
   Pipe& operator=(const Pipe&) = delete;
 };
 
-/// Settings of a new process: working directory, stdin, stdout and stderr, no other open files, a
-/// process group of its own (so that it can be killed with its children), no signal blocked or
-/// ignored.
+/// Settings of a new process: working directory, stdin, stdout and stderr; no other open files; no
+/// signal blocked or ignored; a process group of its own, so that it can be killed together with
+/// its children.
 class SpawnSettings {
  public:
   SpawnSettings(const fs::path& directory, int output) {
@@ -121,7 +121,7 @@ bool read_on(int file, std::string& output) {
   return count > 0;
 }
 
-/// Reads the output until the process has ended or its time limit is reached. Then kills its
+/// Reads the output until the process has ended or its time limit is reached, and then kills its
 /// process group.
 ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
   ProgramEnd end;

@@ -35,13 +35,13 @@ std::optional<std::filesystem::path> find_program(std::string_view name);
 /// Variables that would change the compiler's behaviour, such as CPATH, are left out.
 std::vector<std::string> plain_environment(const std::filesystem::path& temporary);
 
-/// Runs a program to its end or its time limit. Its stdin is empty, and it inherits no open files
-/// of this process. Then kills processes that the program has started and left running. Errors
-/// (input): the program cannot be started.
+/// Runs a program until it ends or reaches its time limit, and then kills the processes that it has
+/// started and left running. Its stdin is empty, and it inherits no open files of this process.
+/// Errors (input): the program cannot be started.
 Result<ProgramEnd> run_program(const ProgramCall& call);
 
 /// Kills all programs that run_program() waits for, and their children. Later calls of
-/// run_program() fail. For use when this process was requested to end.
+/// run_program() fail. Call it when this process has to end.
 void end_running_programs();
 
 }  // namespace awmr

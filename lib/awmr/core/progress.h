@@ -6,8 +6,9 @@
 
 namespace awmr {
 
-/// Called with the number of finished steps, `done`, of `total` steps. If the work ends early,
-/// `done` never reaches `total`. Calls do not overlap. An empty function reports nothing.
+/// Called with `done`, the number of finished steps, and `total`, the number of all steps. If the
+/// work ends early, `done` never reaches `total`. Calls do not overlap. An empty function reports
+/// nothing.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
 }  // namespace awmr

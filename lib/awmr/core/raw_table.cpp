@@ -64,8 +64,8 @@ struct FaultList {
   }
 };
 
-/// Adds a fault if the value of a requested column in a row is infinite or NaN after scaling, or as
-/// the result of its formula. `inputs`: values of the file's columns from which it was computed.
+/// Adds a fault if `value`, the value of a requested column in a row, is infinite or NaN. `inputs`:
+/// the values of the file's columns from which it was computed by scaling or by a formula.
 void check_value(double value, const ColumnSource& source, std::span<const double> inputs,
                  std::size_t row, FaultList& faults) {
   if (std::isfinite(value)) return;
@@ -89,8 +89,8 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
                          std::isnan(value) ? "not a number" : "infinite", at));
 }
 
-/// Index, among the formula's columns, of the one with the most values. The formula has a value in
-/// the rows of this column. In these rows, its other columns keep their previous value.
+/// Index, among the formula's columns, of the column with the most values. The formula gets a value
+/// in each row in which this column has one. The other columns then contribute their latest values.
 std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   std::size_t best = 0;
   std::size_t most = 0;
@@ -121,8 +121,8 @@ double value_of(ColumnSource& source, std::span<const double> inputs) {
   return source.mapping == nullptr ? inputs.front() : inputs.front() * source.scale + source.offset;
 }
 
-/// Adds a fault if a time from seconds and nanoseconds has no whole seconds, or nanoseconds outside
-/// [0, 1e9).
+/// Checks a time that is given as seconds and nanoseconds. Adds a fault if the seconds are not
+/// whole, or if the nanoseconds are outside [0, 1e9).
 void check_pair(const ColumnSource& source, std::span<const double> inputs, std::size_t row,
                 FaultList& faults) {
   if (!source.time || !source.time->is_pair) return;
@@ -134,7 +134,7 @@ void check_pair(const ColumnSource& source, std::span<const double> inputs, std:
                          option_text("column t_s=EXPRESSION")));
 }
 
-/// Number of requested columns that are made from each column of the file.
+/// For each column of the file, the number of requested columns that are computed from it.
 std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
   std::vector<int> uses(raw.columns.size(), 0);
   for (const ColumnSource& source : sources.found) {
@@ -143,8 +143,8 @@ std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
   return uses;
 }
 
-/// Storage for the values of a requested column. To save memory, reuses the storage of one of the
-/// file's columns from which it is made, if no other requested column needs that one.
+/// Storage for the values of a requested column. To save memory, this is the storage of a file
+/// column from which the requested column is computed, if no other requested column still needs it.
 std::vector<double> storage_for(const ColumnSource& source, const std::vector<int>& uses,
                                 RawTable& raw) {
   for (const std::size_t index : source.indices) {
@@ -153,11 +153,11 @@ std::vector<double> storage_for(const ColumnSource& source, const std::vector<in
   return std::vector<double>(raw.lines.size());
 }
 
-/// Makes a requested column. `uses`: for each column of the file, the number of requested columns
-/// that are still to be made from it, without this one. `sparse`: the column may have empty cells.
+/// Computes a requested column. `uses`: for each column of the file, the number of other requested
+/// columns that are still to be computed from it. `sparse`: the column may have empty cells.
 CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
                            RawTable& raw, FaultList& faults) {
-  // In a table with one run per row, a formula uses only cells of its row.
+  // In a table with one row per run, a formula uses only the cells of its own row.
   const bool keeps_previous = sparse && source.column.empty != EmptyCells::kOptional;
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
@@ -195,8 +195,8 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
   return column;
 }
 
-/// For a time that find_time() found, or that was read from dates: subtracts the first time if it
-/// is a clock time (kClockTime_s) or a date, and adds the note `time-column`.
+/// Completes a time that find_time() found, or that was read from dates. If the first time is a
+/// clock time (kClockTime_s) or a date, subtracts it from all times. Adds the note `time-column`.
 void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
   if (!source.time) return;
   std::vector<double>& t_s = parts.columns.at(source.column.name).values;
@@ -259,7 +259,7 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     parts.columns.emplace(source.column.name,
                           column_of(source, uses, may_be_empty(source), raw, list));
   }
-  // Columns that are used unchanged are moved at the end, when no other column is made from them.
+  // Columns that are used unchanged are moved out last, when no other column is computed from them.
   for (const ColumnSource& source : sources.found) {
     if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
     RawColumn& column = raw.columns[source.indices.front()];

@@ -1,5 +1,5 @@
-/// The numbers of a file, as the readers of all file formats (CSV, bags, ...) return them, and
-/// their conversion to the table of requested columns. Private to the library.
+/// The numbers of a file in the form that the readers of all file formats (CSV, bags, ...) return.
+/// Also converts them to the table of requested columns. Private to the library.
 #pragma once
 
 #include <limits>
@@ -32,8 +32,8 @@ struct RawTable {
 };
 
 /// Converts the table to the requested columns, whose sources find_columns() has found with
-/// `mappings`. `faults`: faults found so far, which are reported with the others. Errors: as
-/// read_csv().
+/// `mappings`. `faults`: faults found so far; they are reported together with the new ones. Errors:
+/// as read_csv().
 Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
                           std::span<const ColumnMapping> mappings, std::vector<Fault> faults);
 

@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// A product p n within this distance above a whole number counts as that number: p n is rounded.
+/// p n is rounded: if it exceeds a whole number by at most this, it counts as that number.
 constexpr double kRounding = 1e-9;
 
 double between(double below, double above, double share) {

@@ -9,18 +9,18 @@ namespace awmr {
 /// The p quantile, linear between order statistics (type 7 of Hyndman and Fan). `sorted` is
 /// ascending and not empty, p in [0, 1].
 double quantile_of_sorted(std::span<const double> sorted, double p);
-/// The same of values in any order; not empty.
+/// The same for values in any order. `values` is not empty.
 double quantile(std::vector<double> values, double p);
 
-/// The smallest of the values that at least a fraction p of the values do not exceed (type 1 of
-/// Hyndman and Fan), for statements about a share of the values. `values` is not empty, p in
-/// [0, 1].
+/// The smallest of the values v for which at least the fraction p of the values is <= v (type 1 of
+/// Hyndman and Fan). It supports statements such as "95 % of the runs need at most 3 s". `values`
+/// is not empty, p in [0, 1].
 double rank_quantile(std::vector<double> values, double p);
 
-/// Median; for an even number of values the upper of the two middle ones, so that it is one of the
-/// values. Not empty.
+/// Median. If the number of values is even, it is the upper of the two middle ones, and so one of
+/// the values. `values` is not empty.
 double median(std::vector<double> values);
-/// Median of |value - middle|, where `middle` is the median of the values. Not empty.
+/// Median of |value - middle|, where `middle` is the median of the values. `values` is not empty.
 double median_absolute_deviation(std::span<const double> values, double middle);
 /// Ratio of the standard deviation to the median absolute deviation of a normal distribution.
 inline constexpr double kStdPerMad = 1.4826;

@@ -1,5 +1,5 @@
-/// Divides a job over many items (simulation runs, sampled vehicles) into shards, each of which can
-/// be processed on another machine.
+/// Divides a job with many items (simulation runs, sampled vehicles) into shards. Each shard can be
+/// processed on another machine.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace awmr {
 
-/// Shard `index` of `count`: those of the items i = 0, 1, ... of the job for which i mod count =
-/// index - 1.
+/// Shard `index` of `count`. It has the items i = 0, 1, ... of the job with
+/// i mod count = index - 1.
 struct Shard {
   int index = 1;  ///< 1 ... count
   int count = 1;
@@ -21,9 +21,9 @@ struct Shard {
   int item(int i) const { return index - 1 + i * count; }
 };
 
-/// Returns a fault if the shard is invalid for a job of `items` items: its index is not in 1 ...
-/// count, or there are more shards than items. None if it is valid. `kind` names the items in the
-/// message: "runs".
+/// Checks a shard of a job of `items` items. Returns a fault if its index is not in 1 ... count, or
+/// if there are more shards than items; none if it is valid. `kind` names the items in the message:
+/// "runs".
 std::optional<Fault> shard_fault(const Shard& shard, long items, std::string_view kind);
 
 }  // namespace awmr

@@ -93,9 +93,10 @@ std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& pro
   return inputs;
 }
 
-/// Text that says how the origin of a part (`found`) differs from that of the part called `name`
-/// (`expected`): by program version (`found_version`, compared with that of this program), options
-/// or inputs. Empty if they agree.
+/// Describes the first difference between two parts of a job. `found` is the origin of the first
+/// part, `expected` that of the second, which the text calls `name`. Compares their options and
+/// inputs. Also compares `found_version`, the program version that wrote the first part, with that
+/// of this program. Empty if there is no difference.
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name) {
   if (found_version != version()) {
@@ -117,7 +118,7 @@ std::string origin_difference(const Provenance& found, const std::string& found_
              : fmt::format("was made from other inputs ({}) than {}", fmt::join(files, ", "), name);
 }
 
-/// Text that says why `part` cannot be combined with the first part; empty if it can.
+/// Describes why `part` cannot be combined with the first part; empty if it can.
 std::string difference(const ShardKind& kind, const Part& first, const Part& part) {
   const std::string name = first.directory.string();
   const Shard& shard = part.origin.shard;
@@ -140,7 +141,8 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
         part.origin.arithmetic, name, first.origin.arithmetic, kind.arithmetic_advice);
   }
   if (shared_keys(kind, part.json) != shared_keys(kind, first.json)) {
-    return fmt::format("was made with other options than {}; make both with the same", name);
+    return fmt::format("was made with other options than {}; make both with the same options",
+                       name);
   }
   return {};
 }

@@ -45,8 +45,8 @@ struct Part {
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories);
 
-/// Applies `read(JsonObject&)` to a shard.json that was already checked, and returns its result.
-/// Faults are ignored.
+/// Applies `read(JsonObject&)` to a shard.json that was already checked, and returns what `read`
+/// returns. Faults are ignored.
 template <class Read>
 auto payload_of(const Json& shard_json, const Read& read) {
   std::vector<Fault> faults;
@@ -58,17 +58,18 @@ auto payload_of(const Json& shard_json, const Read& read) {
 /// the one in shard.json.
 Result<std::string> read_table(const ShardKind& kind, const Part& part);
 
-/// Checks that the `rows` rows of a part's table belong to the part's items: the items in order,
-/// once or several times over. `items`: number of items of the whole job. `item_of(i)`: item of row
-/// i. `name`: kind of item, "run". Errors (input): the shard does not fit a job of `items` items;
-/// the table has no rows; a row belongs to another item; rows are missing or repeated.
+/// Checks that the `rows` rows of a part's table are those of the part's items: all items in order,
+/// and this sequence once or several times. `items`: number of items of the whole job.
+/// `item_of(i)`: item of row i. `name`: kind of item, "run". Errors (input): the shard does not fit
+/// a job of `items` items; the table has no rows; a row belongs to another item; rows are missing
+/// or repeated.
 Status check_items(const ShardKind& kind, const Part& part, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 
 /// Merges the rows of all parts into the order that a job without shards has. `parts`: the rows of
-/// each part, by shard index. The rows of a part are one or more blocks; each block has all items
-/// of the part in order. `items`: number of items of the whole job. Errors (input): the parts have
-/// different numbers of blocks.
+/// each part, by shard index. The rows of a part consist of one or more blocks. Each block has one
+/// row for each item of the part, in order. `items`: number of items of the whole job. Errors
+/// (input): the parts have different numbers of blocks.
 template <class Row>
 Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items) {
   std::size_t rows = 0;

@@ -55,8 +55,9 @@ extern "C" void remove_and_end(int signal) {
   ::raise(signal);
 }
 
-/// Enters a path in `registered`. Returns its index, or -1 if all entries are in use. If a signal
-/// then ends the program, a later remove_stale_temporaries() removes the file.
+/// Enters a path in `registered`. Returns its index, or -1 if all entries are in use. A file
+/// without an entry stays if a signal ends the program; a later remove_stale_temporaries() removes
+/// it.
 int register_path(const fs::path& path) {
   char* text = ::strdup(path.c_str());
   for (int i = 0; text != nullptr && i < kSlots; ++i) {
@@ -71,8 +72,8 @@ std::string random_characters() {
   constexpr std::string_view kCharacters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
   unsigned char bytes[kRandomCharacters] = {};
-  // If there are no random bytes, the names collide, and TemporaryFile::in() fails after some
-  // attempts.
+  // If the system gives no random bytes, the names are equal, and TemporaryFile::in() fails after
+  // kAttempts attempts.
   [[maybe_unused]] const ssize_t count = ::getrandom(bytes, sizeof bytes, 0);
   std::string text;
   for (const unsigned char byte : bytes) text += kCharacters[byte % kCharacters.size()];
@@ -114,7 +115,8 @@ TemporaryFile::TemporaryFile(fs::path path)
     path_.clear();  // no file is removed: there is none, or it belongs to another process
     return;
   }
-  // On a file system without locks, only the process id shows that the file is in use.
+  // Failure is ignored: on a file system without locks, the process id in the name still shows that
+  // the file is in use.
   (void)::flock(file_.number(), LOCK_EX | LOCK_NB);
 }
 

@@ -46,7 +46,7 @@ void remove_temporaries_on_signals();
 
 /// Removes from `directory` the temporary files that programs left when they ended. A file is
 /// removed if no process has the id in its name and no process holds its lock. (The lock is needed
-/// for directories that several machines share, where ids mean different processes.)
+/// for directories that several machines share, because each machine has its own process ids.)
 void remove_stale_temporaries(const std::filesystem::path& directory);
 
 }  // namespace awmr

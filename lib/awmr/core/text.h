@@ -1,5 +1,5 @@
-/// Text from users' files in messages: escapes control characters, shortens long text, checks
-/// UTF-8.
+/// Prepares text from users' files for messages: escapes control characters, shortens long text,
+/// checks UTF-8.
 #pragma once
 
 #include <cstddef>

@@ -14,8 +14,8 @@ namespace awmr {
 /// Name of the time column, s.
 inline constexpr std::string_view kTimeName = "t_s";
 
-/// If the first time of a column that find_time() found has at least this magnitude, s, it is a
-/// clock time (such as seconds since 1970). The times are then counted from the first row.
+/// If the first time in a column that find_time() found has at least this magnitude, s, it counts
+/// as a clock time (such as seconds since 1970). The times are then counted from the first row.
 inline constexpr double kClockTime_s = 1e6;
 
 /// A column or a pair of columns with the time.
@@ -34,7 +34,7 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
 
 /// Converts a date such as `2026-01-31T12:34:56.789Z` to seconds since 1970; empty for other text.
 /// A space may replace the T, `+hh:mm` the Z. Seconds and their fraction are optional. Without a
-/// zone, UTC is assumed, because only differences matter.
+/// zone, UTC is assumed; this is harmless, because only differences of times matter.
 std::optional<double> seconds_of_date(std::string_view text);
 
 }  // namespace awmr

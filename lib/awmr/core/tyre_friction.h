@@ -14,8 +14,9 @@ inline constexpr double kTyreFriction = 0.8;
 /// load. Tyres of small robots are hardly ever measured.
 inline constexpr double kCorneringStiffness_per_rad = 10.0;
 
-/// v_0, m/s: a tyre's slip is its sideways speed divided by sqrt(w^2 + v_0^2), where w is its
-/// rolling speed. So a tyre at rest causes no division by 0. Far below the speeds of driving.
+/// v_0, m/s, far below driving speeds. The slip of a tyre is its sideways speed divided by
+/// sqrt(w^2 + v_0^2), where w is its rolling speed. Without v_0, this would divide by 0 for a tyre
+/// at rest.
 inline constexpr double kTyreRestSpeed_mps = 0.1;
 
 }  // namespace awmr

@@ -30,8 +30,8 @@ TableShape shape_of(const EmittedTable& table) {
 /// Returns the value rounded to float32, as on the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
-/// Range of F' that the allocation can request: the force limits, reduced by the dead zone of the
-/// motors as in make_controller().
+/// Range of F' that the allocation can request: that of the wheel forces, reduced by the dead zone
+/// of the motors as in make_controller().
 Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehicle) {
   const Controller<double> controller = make_controller(plant, vehicle, {});
   return {controller.limits.force_min, controller.limits.force_max};
@@ -68,8 +68,8 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>
   return rest;
 }
 
-/// Returns the controller in float. Values derived from it are also computed in float, as the
-/// compiler of the firmware does in awmr.cpp, because the check sum covers their bits.
+/// Returns the controller in float. Values derived from it are also computed in float, as awmr.cpp
+/// computes them in the firmware, because the check sum covers their bits.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
                                    const Gains<double>& gains) {
   Controller<float> controller{};
@@ -89,8 +89,8 @@ Controller<float> float_controller(const Plant<double>& plant, const Model& mode
   return controller;
 }
 
-/// Returns the parameter block. The shapes of the resistance tables and the largest speeds are
-/// missing in it: add_tables() computes the tables, on which they depend.
+/// Returns the parameter block without the shapes of the resistance tables and without the largest
+/// speeds, which depend on the tables. add_tables() adds both.
 ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Gains<double>& gains,
                         const EmitOptions& options) {
   const auto estimate = [&](ParameterId id) { return single(*model[id].value); };
@@ -153,12 +153,11 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
   return chip;
 }
 
-/// The largest float below `top`, the end of the table's last cell, which the cell does not
-/// include.
+/// The largest float below `top`. The last cell of the table ends at `top` but does not contain it.
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
-/// Adds the tables of g1 and g3 to the parameters. Errors (refused): no table of at most 1024 lines
-/// is within the bound.
+/// Adds the tables of g1 and g3 to the parameters. Errors (refused): `table_error` is given, and no
+/// table of at most 1024 lines meets it.
 Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double> table_error,
                   AutopilotParameters& parameters) {
   const auto table = [&](const ChipLaw& chip) {

@@ -7,10 +7,11 @@
 ///     skid steering s: F'L = throttle + s, F'R = throttle - s   4 d s = g3(r)
 ///     steered wheels:  d_r = steering times the stop            l_f g1(u) tan(d_r/2) = g3(r)
 ///
-/// The last two follow from (41) at constant speed, with turns counted positive. The autopilots'
-/// laws are in ArduPilot's libraries/APM_Control/AR_AttitudeControl.cpp (get_throttle_out_speed,
-/// get_steering_out_rate) and AR_Motors/AP_MotorsUGV.cpp, and in PX4's
-/// src/lib/rover_control/RoverControl.cpp (speedControl, rateControl) and rovercontrol_params.yaml.
+/// The equations for skid steering and for steered wheels follow from (41) at constant speed, for
+/// turns in the positive direction. The autopilots' laws are in ArduPilot's
+/// libraries/APM_Control/AR_AttitudeControl.cpp (get_throttle_out_speed, get_steering_out_rate) and
+/// AR_Motors/AP_MotorsUGV.cpp, and in PX4's src/lib/rover_control/RoverControl.cpp (speedControl,
+/// rateControl) and rovercontrol_params.yaml.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,9 +48,9 @@ struct Autopilot {
   const Vehicle& vehicle() const { return source.model.vehicle; }
   bool knows(ParameterId id) const { return source.model[id].value.has_value(); }
 
-  /// Adds a positive number computed from the plant, with an interval that is symmetric in its
-  /// logarithm. `usual` is the range in the autopilot's documentation; a value outside is kept and
-  /// reported.
+  /// Adds a positive number computed from the plant, with an interval that is symmetric in the
+  /// logarithm of the number. `usual`: range in the autopilot's documentation. A number outside of
+  /// it is kept and reported.
   void add(const char* name, const char* unit, std::string derivation, const OfPlant& f,
            std::optional<Interval> usual = {}) {
     const double value = f(source.model.plant_as_known());
@@ -147,8 +148,8 @@ Status check_surge(const Model& model) {
           back_emf));
 }
 
-/// Adds ATC_STR_RAT_FF: ArduPilot's steering output s divided by the yaw rate r that it causes, at
-/// half of the largest output.
+/// Adds ATC_STR_RAT_FF: the ratio of ArduPilot's steering output s to the yaw rate r that it
+/// causes, at half of the largest output.
 void add_steering_feed_forward(Autopilot& pilot, double throttle) {
   constexpr const char* kName = "ATC_STR_RAT_FF";
   constexpr Interval kUsual{0.0, 3.0};

@@ -1,4 +1,4 @@
-/// Makes names that come from files safe inside comments of emitted files. Private to emit/.
+/// Makes names that come from files safe for use in comments of emitted files. Private to emit/.
 #pragma once
 
 #include <string>

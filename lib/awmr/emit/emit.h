@@ -29,8 +29,8 @@ struct EmitInputs {
   std::optional<CertifiedGains> certificate = {};  ///< robustness certificate of the gains, if any
 };
 
-/// Returns the value of AWMR_PARAMS_SHA256: the SHA-256 of a text of 128 characters, which is the
-/// hexadecimal SHA-256 of the model file followed by that of the gains file.
+/// Returns the value of AWMR_PARAMS_SHA256: the SHA-256 of a text of 128 characters. The text is
+/// the hexadecimal SHA-256 of the model file followed by that of the gains file.
 std::string params_sha256(const EmitInputs& inputs);
 
 /// Text of awmr_params.h in ASCII, valid in C89, C++98 and later. Each value is rounded to float32
@@ -50,7 +50,7 @@ enum class ResistanceForm {
 inline constexpr NameTable<ResistanceForm, 2> kResistanceFormNames{
     {{"table", ResistanceForm::kTable}, {"powf", ResistanceForm::kPowf}}};
 
-/// Optional features of the firmware in addition to heading hold and waypoints.
+/// Optional features of the firmware. Heading hold and waypoints are always included.
 enum class FirmwarePart {
   kLine,       ///< follow a line or polyline
   kPath,       ///< follow a timed path
@@ -74,9 +74,9 @@ inline constexpr double kTableError = 5e-4;
 struct EmitOptions {
   /// kPowf saves flash but lengthens the control step, and supports only the power law.
   ResistanceForm resistance = ResistanceForm::kTable;
-  /// Bound on the relative error of a resistance table, > 0. The error is relative to the
-  /// resistance, or to a tenth of the largest force (surge: 4 F'max) or moment (yaw: 4 d F'max)
-  /// where the resistance is smaller than that. A larger bound gives a smaller table. Absent:
+  /// Bound on the relative error of a resistance table, > 0. The error is divided by the resistance
+  /// or, where the resistance is smaller than that, by a tenth of the largest force
+  /// (surge: 4 F'max) or moment (yaw: 4 d F'max). A larger bound gives a smaller table. Absent:
   /// kTableError or, if no table meets it, the smallest error possible.
   std::optional<double> table_error = {};
   /// Optional features to compile in. Each needs flash, RAM and, while in use, time in every step.
@@ -120,8 +120,8 @@ struct EmittedTable {
 inline constexpr double kUsualFixNoise_m = 1.5;
 inline constexpr double kUsualFixLatency_s = 0.2;
 
-/// Upper bound of AWMR_ON_COURSE_RAD, the heading error up to which the sketches count a vehicle as
-/// on course, rad.
+/// Upper bound of AWMR_ON_COURSE_RAD, rad. The sketches count a vehicle as on course if its heading
+/// error is at most AWMR_ON_COURSE_RAD.
 inline constexpr double kMaxOnCourse_rad = radians(45.0);
 
 /// Parameters of the firmware, in the types that the chip uses.

@@ -1,4 +1,4 @@
-/// The values that `awmr export` writes, before formatting. Private to emit/.
+/// The values that `awmr export` writes, as numbers before they are formatted. Private to emit/.
 #pragma once
 
 #include <optional>
@@ -36,8 +36,8 @@ struct AutopilotValues {
 Result<AutopilotValues> ardupilot_values(const ExportSource& source);
 Result<AutopilotValues> px4_values(const ExportSource& source);
 
-/// Standard error and interval as text: "std error 0.018, 95 % [1.275, 1.357]". An unknown one is
-/// left out.
+/// Standard error and interval as text: "std error 0.018, 95 % [1.275, 1.357]". Either is left out
+/// if it is unknown.
 std::string uncertainty_text(const ExportedValue& value);
 
 }  // namespace awmr

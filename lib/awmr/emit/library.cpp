@@ -19,8 +19,8 @@ architectures=*
 includes=awmr.h
 )";
 
-/// Metadata for PlatformIO. Without it PlatformIO would require an Arduino board, but the library
-/// runs on any chip.
+/// Metadata for PlatformIO. Without them, PlatformIO would accept the library only for Arduino
+/// boards, but it runs on any chip.
 constexpr std::string_view kLibraryJson = R"({{
   "name": "awmr",
   "version": "{}",

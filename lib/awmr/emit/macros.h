@@ -22,7 +22,7 @@ struct Macro {
 /// Name of the model's file without its directory, for comments of emitted files and for errors.
 std::string file_name(const Model& model);
 
-/// The macros in the order of the header. Precondition: the model has all their values.
+/// The macros, in the order of the header. Precondition: the model has a value for each of them.
 std::vector<Macro> macros_of(const Model& model, const Gains<double>& gains,
                              const EmitInputs& inputs);
 

@@ -1,6 +1,6 @@
 /// Manifest of an emitted directory: lists each file that `awmr emit` wrote, with its hash. A
-/// listed file that was edited later belongs to the user and is not replaced. Neither is a file
-/// that is not listed, unless it begins like a file that emit writes.
+/// listed file that was edited later belongs to the user and is not replaced. A file that is not
+/// listed is replaced only if it begins like a file that emit writes.
 #pragma once
 
 #include <filesystem>
@@ -31,8 +31,8 @@ std::string manifest_text(const std::filesystem::path& directory,
 Status check_replaceable(const std::filesystem::path& directory,
                          const std::vector<EmittedFile>& files);
 
-/// Returns the files of firmware_library(), empty where the content depends on the model. With
-/// them, check_replaceable() can check a directory before a model exists.
+/// Returns the files of firmware_library(). Files whose content depends on the model are empty.
+/// With them, check_replaceable() can check a directory before a model exists.
 std::vector<EmittedFile> library_outline();
 
 /// The JSON Schema of the manifest.

@@ -31,7 +31,7 @@ constexpr std::string_view kCheckMacro = R"(
 
 )";
 
-/// The constraint T2 < T1 of tune/ in a form for the compiler, without a division:
+/// The constraint T2 < T1 of tune/ in a form without a division, which a compiler can check:
 ///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
 constexpr std::string_view kRelations =
     R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than the
@@ -101,8 +101,8 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
                     params_sha256(inputs));
 }
 
-/// Checks F'min < F'max, d_max < 90 deg and T2 < T1. Compares the values as float32, as the header
-/// has them, because rounding to float32 can make two of them equal.
+/// Checks F'min < F'max, d_max < 90 deg and T2 < T1. Compares the values after rounding to float32,
+/// as the header has them, because rounding can make two of them equal.
 Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
@@ -120,7 +120,7 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
   }
   if (!faults.empty()) return input_errors(std::move(faults));
 
-  // The user's compiler can evaluate the product in float or exactly; T2 < T1 must hold in both
+  // The user's compiler may evaluate the product in float or exactly. T2 < T1 must hold in both
   // cases.
   const float epsilon = static_cast<float>(gains.heading.epsilon);
   const float lambda = static_cast<float>(gains.heading.lambda);
@@ -153,9 +153,9 @@ std::string comment_safe(std::string_view text) {
   return safe;
 }
 
-/// The float as %.9g and `f`: nine significant digits read back to the same float. `3f` is not a C
-/// literal, so a point is added to a text without point or exponent. A negative value is in
-/// parentheses, because a macro can stand behind an operator.
+/// The float as %.9g and `f`: nine significant digits read back to the same float. A point is added
+/// to a text without point or exponent, because `3f` is not a C literal. A negative value is in
+/// parentheses, because an operator can precede a macro.
 std::string float_literal(double value) {
   const float rounded = static_cast<float>(value) + 0.0F;  // adding 0 turns -0 into 0
   std::string text = fmt::format("{:.9g}", static_cast<double>(rounded));

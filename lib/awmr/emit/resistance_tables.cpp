@@ -46,14 +46,14 @@ EmittedTable table_between(const ResistanceLaw& law, int lowest_exponent, int to
   return table;
 }
 
-/// Largest errors of a table in a range of speeds, defined as in EmittedTable for the whole table.
+/// Largest errors of a table in a range of speeds. EmittedTable defines them for the whole table.
 struct TableErrors {
   double absolute = 0.0;
   double relative = 0.0;
 };
 
-/// Compares the table with the law at `samples` speeds of [lo, hi), except those below
-/// `rest_speed`. Raises `errors` to the largest differences found.
+/// Compares the table with the law at `samples` speeds in [lo, hi), except those below
+/// `rest_speed`. Where a difference is larger than `errors`, stores it there.
 void measure(const ResistanceLaw& law, double lo, double hi, int samples, double rest_speed,
              const EmittedTable& table, TableErrors& errors) {
   const ResistanceTable view = table.view();
@@ -70,8 +70,8 @@ void measure(const ResistanceLaw& law, double lo, double hi, int samples, double
   }
 }
 
-/// Returns the errors below the table's first cell. Samples each octave (factor of 2 in speed) with
-/// equal density, because the law can be steepest at rest.
+/// Returns the errors below the table's first cell. Takes the same number of samples in each octave
+/// (factor of 2 in speed), because the law can be steepest at rest.
 TableErrors measure_below(const ResistanceLaw& law, double rest_speed, const EmittedTable& table) {
   TableErrors errors;
   for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {

@@ -17,8 +17,8 @@ namespace awmr {
 using ResistanceLaw = std::function<double(double)>;
 
 /// Returns the top speed of a table of `law`: the smallest power of two, from 1 to 64 m/s or rad/s,
-/// at which the law is at least 1.5 times the largest force or moment (`full_scale`), so that the
-/// vehicle cannot reach this speed. 64 if the law is smaller even there.
+/// at which the law is at least 1.5 times the largest force or moment (`full_scale`). The vehicle
+/// cannot reach this speed. 64 if the law is too small even there.
 double table_top(const ResistanceLaw& law, double full_scale);
 
 /// Returns the smallest table of `law` up to the speed `top` (m/s or rad/s) whose error, in the

@@ -21,8 +21,9 @@ double route_speed_mps(const Plant<double>& plant, double full_force) {
   return std::min(kUsual_mps, kShare * top_mps);
 }
 
-/// Fastest steady yaw rate of the vehicle at a speed, rad/s: by steering if the vehicle has it,
-/// else by the wheel forces. Absent if the yaw moment does not exceed the resistance at rest.
+/// Fastest steady yaw rate of the vehicle at a speed, rad/s. Absent if the yaw moment does not
+/// exceed the resistance at rest. The moment is made by steering, or by the wheel forces if the
+/// vehicle has no steering:
 ///   tau_turn = l_f tau_speed tan(d_max/2)                                      [paper (41)]
 ///   tau_turn = d (4 F'max - tau_speed)                              by the wheel forces
 std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle& vehicle,
@@ -34,15 +35,15 @@ std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle&
   return steady_rate(plant.yaw, moment_m);
 }
 
-/// Yaw moment, m, if equal commands give forces left and right that differ by 16 % of their mean:
-/// 0.08 d tau_speed.
+/// Yaw moment, m, of motors that make unequal forces from equal commands: 0.08 d tau_speed, if left
+/// and right force differ by 16 % of their mean.
 double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
   return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
 }
 
 /// Fastest steady yaw rate that the heading law reaches at a speed, rad/s, if the resistance is 1.4
-/// times the model's and the motors differ by 16 %. Outside of the boundary layer (sat = 1) it is
-/// the solution r of
+/// times that of the model and the forces of the motors differ by 16 %. It is the solution r
+/// outside of the boundary layer (sat = 1) of
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
 std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
                                   double speed_mps) {
@@ -52,8 +53,8 @@ std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains
                      plant.inertia_norm * gains.lambda / kMore);
 }
 
-/// Steady heading error e with motors that differ by 16 %, rad. In the boundary layer of the
-/// heading law (heading_law.h), at r = 0:
+/// Steady heading error e, rad, if the forces of the motors differ by 16 %. In the boundary layer
+/// of the heading law (heading_law.h), at r = 0:
 ///   0.08 d tau_speed = I'z lambda (mu/epsilon) e
 double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
                         double route_mps) {

@@ -1,4 +1,5 @@
-/// Worst-case damping and delay margin of the closed heading loop, as stored in gains.json.
+/// Smallest damping ratio and delay margin of the closed heading loop over a set of plants, as
+/// stored in gains.json.
 #pragma once
 
 #include <limits>
@@ -7,9 +8,9 @@
 
 namespace awmr {
 
-/// Values of `/certificate/set`, the set of plants over which the worst case was computed:
-/// kCertifiedSet, the 95 % confidence region of the parameters, if the model has a covariance; else
-/// kUncertifiedSet, the identified plant only.
+/// Values of `/certificate/set`, which names the plants over which the worst case was computed.
+/// kCertifiedSet: the 95 % confidence region of the parameters, if the model has a covariance.
+/// kUncertifiedSet: the identified plant only.
 inline constexpr const char* kCertifiedSet = "95 %";
 inline constexpr const char* kUncertifiedSet = "the model's own values";
 
@@ -21,8 +22,8 @@ struct CertifiedMode {
                                 ///< the loop is unstable; infinity: none
 };
 
-/// The part of `/certificate` in gains.json that is read back: the worst cases, but not the
-/// parameters at which they occur.
+/// The part of `/certificate` that is read from gains.json: the worst cases. The parameters at
+/// which they occur, which the file also has, are not read.
 struct CertifiedGains {
   std::string set;         ///< kCertifiedSet or kUncertifiedSet
   double latency_s = 0.0;  ///< s: delay of the loop that all worst cases include

@@ -49,8 +49,8 @@ struct Plant {
   T yaw_scrub_m = T(0.0);
 };
 
-/// g3 plus the whole scrub moment: upper bound of the yaw resistance, from which the length of an
-/// integration step is chosen.
+/// Resistance g3 plus the whole scrub moment. This upper bound of the yaw resistance determines the
+/// length of an integration step.
 template <class T>
 Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   Resistance<T> law = p.yaw;
@@ -60,8 +60,8 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
 
 /// The moment N_c of tyre scrub that resists a yaw rate r, m; it has the sign of r. In a
 /// differential turn the straight wheels are dragged sideways; in a steered turn they roll. c =
-/// yaw_scrub_m is measured in differential turns, so it is scaled by q, the fraction of the yaw
-/// moment that the difference of left and right forces makes:
+/// yaw_scrub_m is the moment measured in differential turns. It is scaled by q, the fraction of the
+/// yaw moment that the difference of left and right forces makes:
 ///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
 /// Below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
 template <class T>
@@ -76,7 +76,7 @@ T scrub_moment_m(const Plant<T>& p, const T& yaw_rate_radps, const T& tau_steeri
          (yaw_rate_radps / larger(larger(T(abs(yaw_rate_radps)), p.yaw.rest_speed), tiny));
 }
 
-/// n, the number of driven wheels. Straight ahead, with the force F' at each, tau_speed = n F'.
+/// Number n of driven wheels. Straight ahead, with the force F' at each of them, tau_speed = n F'.
 template <class T>
 T driven_wheels(const Plant<T>& p) {
   return T(2.0) + T(2.0) * p.rear_driven;
@@ -127,8 +127,8 @@ inline double back_emf_rate(const Plant<double>& p) {
 
 namespace detail {
 
-/// Rates of the state from the resultant of the wheels: forces X = surge_force (forward) and
-/// Y = sway_force (left) over F_max, yaw moment N = yaw_moment_m over F_max in m.
+/// Rates of the state under the resultant of the wheel forces. X = surge_force (forward) and
+/// Y = sway_force (left) are forces over F_max; N = yaw_moment_m is the yaw moment over F_max, m.
 ///   x_dot   = u cos psi - v sin psi
 ///   y_dot   = u sin psi + v cos psi
 ///   psi_dot = r
@@ -142,7 +142,8 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   using math::sin;
   const T cos_psi = cos(s.psi_rad);
   const T sin_psi = sin(s.psi_rad);
-  // Products with reciprocals of constants: divisions would take most of the time of a batch.
+  // Multiplies by reciprocals of constants, because divisions would take most of the time of a
+  // batch.
   const T per_mass = T(1.0) / p.mass_norm;
   const T per_inertia = T(1.0) / p.inertia_norm;
   State<T> d{};
@@ -195,7 +196,8 @@ WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelFor
   return e;
 }
 
-/// The yaw moment of the wheel forces, m, in its terms: tau_steering, and tau_diff of each axle.
+/// The three terms of the yaw moment that the wheel forces make, m: tau_steering, and tau_diff of
+/// each axle.
 template <class T>
 struct YawMoments {
   T steering_m;    ///< l_f S_f sin d_r
@@ -301,8 +303,8 @@ T differential_moment_m(const T& half_track_m, const T& right_less_left) {
   return T(2.0) * half_track_m * right_less_left;
 }
 
-/// Left and right wheel forces that motors with the dead zone `zone` make of these commands, each
-/// by beyond_dead_zone() of resistance.h.
+/// The left and right wheel forces that these commands make in motors with the dead zone `zone`:
+/// each is beyond_dead_zone() of the command (resistance.h).
 template <class T>
 SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
   return {beyond_dead_zone(command.left, zone), beyond_dead_zone(command.right, zone)};
@@ -325,8 +327,8 @@ State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForce
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
 
-/// Each wheel's command if both wheels of a side have the same command; 0 for the rear wheels if
-/// they are not driven. Commands by wheel are returned unchanged.
+/// The command of each wheel if both wheels of a side have the same command; 0 for rear wheels that
+/// are not driven. The overload for WheelForces returns its argument unchanged.
 template <class T>
 WheelForces<T> by_wheel(const Plant<T>& p, const SideForces<T>& f) {
   return {f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right};
@@ -347,9 +349,9 @@ T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) 
   return detail::scrub_of(p, s, tau) * s.r_radps;
 }
 
-/// Rates of the state if both motors of a side have the same command, `f`. If front and rear forces
-/// differ nevertheless (back-EMF, undriven rear wheels), and with scrub, the equations for
-/// individual wheels are used.
+/// Rates of the state if both motors of a side have the same command, `f`. Uses the equations for
+/// individual wheels if the vehicle has scrub, or if front and rear forces differ in spite of equal
+/// commands (back-EMF, undriven rear wheels).
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {

@@ -1,5 +1,5 @@
-/// The families of resistance (friction models): each is a law for the force or moment that resists
-/// a speed w > 0, with some of the terms of the general law in resistance.h.
+/// The families of resistance (friction models). A family is a law for the force or moment that
+/// resists a speed w > 0. It has some of the terms of the general law in resistance.h.
 #pragma once
 
 #include <string_view>

@@ -18,14 +18,15 @@ enum class Effect {
   kNote,           ///< any other note
 };
 
-/// The effect of a finding, by its severity and code. An error is kRefusal. A warning has the
-/// effect of its code, or kDoubt if the code has none. A note is kNote, or kAssumption if its code
-/// has this effect.
+/// The effect of a finding, by its severity and code. Error: kRefusal. Warning: the effect of its
+/// code, or kDoubt if the code has none. Note: kAssumption if this is the effect of its code, else
+/// kNote.
 Effect effect_of(const Finding& finding);
 
-/// Returns the findings in this order: errors; the first finding of each other code, by effect;
-/// further findings of these codes, by effect; notes. Otherwise the order of the list is kept. The
-/// list must outlive the result.
+/// Returns the findings in display order: first the errors, then the first finding of each other
+/// code, then the further findings of these codes, then the notes. Within the second and the third
+/// group, they are sorted by effect. Otherwise the order of the list is kept. The list must outlive
+/// the result.
 std::vector<const Finding*> by_effect(const std::vector<Finding>& findings);
 
 }  // namespace awmr

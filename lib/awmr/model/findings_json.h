@@ -18,9 +18,9 @@ void describe_findings(JsonObject& json);
 /// Reads the key `findings` of a document; empty if there is none.
 std::vector<Finding> read_findings(JsonObject& json);
 
-/// The document with `findings` as its last key, replacing existing ones. Files are given by name,
-/// without directories, so that the bytes do not depend on their location. Precondition: `document`
-/// is a JSON object.
+/// The document with `findings` as its last key; existing findings are replaced. Findings give the
+/// names of files without directories, so that the bytes do not depend on where the files are.
+/// Precondition: `document` is a JSON object.
 std::string with_findings(const std::string& document, const std::vector<Finding>& findings);
 
 }  // namespace awmr

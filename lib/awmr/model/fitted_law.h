@@ -8,8 +8,9 @@
 
 namespace awmr {
 
-/// A resistance law g counts as extrapolated at speeds (or yaw rates) above the largest fitted one
-/// times this factor, and below the smallest fitted one divided by this factor.
+/// A resistance law g counts as extrapolated at speeds (or yaw rates) that are larger than this
+/// factor times the largest fitted one, or smaller than the smallest fitted one divided by this
+/// factor.
 inline constexpr double kLittleFurther = 1.2;
 
 /// The model parameters that are the coefficients of a resistance law:
@@ -28,10 +29,11 @@ std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind)
 /// or moment that a steady run at w needs:
 ///   h' C h,  h = sum_i weight_i (dg/dalpha, dg/dbeta, dg/dc, dg/dq, dg/dF'0)
 ///              = sum_i weight_i (w^beta, alpha w^beta ln w, 1, w^2, z)
-/// C is the model's covariance; parameters that it does not contain count as exact. z is the number
-/// of driven wheels, whose dead zones F'0 a straight run must overcome; z = 0 for turns, whose
-/// moments already exclude the dead zone. The result is >= 0, in the squared unit of g times that
-/// of a weight. Precondition: the law is fitted; as many weights as rates.
+/// C is the model's covariance; parameters that it does not contain count as exact. A straight run
+/// must overcome the dead zones F'0 of all driven wheels, so z is the number of driven wheels. For
+/// turns, z = 0, because their moments already exclude the dead zone. The result is >= 0, in the
+/// squared unit of g times that of a weight. Precondition: the law is fitted; as many weights as
+/// rates.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
                        std::span<const double> weights);
 

@@ -19,9 +19,9 @@ inline uint16_t mantissa16(uint32_t bits) {
   return static_cast<uint16_t>(bits >> 8U) | static_cast<uint16_t>(0x8000U);
 }
 
-/// small/large times 2^16, rounded to nearest, from the bits of two magnitudes, small <= large. The
-/// mantissas are divided by long division, with one bit less for each power of two between the
-/// exponents. At most 2^16 - 1; 0 if the exponents differ by more than 16.
+/// Returns 2^16 small/large, rounded to nearest and at most 2^16 - 1. The arguments are the bits of
+/// two magnitudes, small <= large. Divides the mantissas by long division. If the exponents differ
+/// by n, the quotient has 16 - n bits; for n > 16, it is 0.
 inline uint16_t ratio16(uint32_t small, uint32_t large) {
   const uint16_t divisor = mantissa16(large);
   uint16_t rest = mantissa16(small);
@@ -54,7 +54,7 @@ inline uint16_t product16(uint16_t a, uint16_t b) {
 
 /// atan t in units of 2^-17 rad, for t in [0, 1) given in units of 2^-16. The minimax polynomial
 ///   t - t (c0 + z (c1 - z (c2 - z (c3 - z c4)))),   z = t^2
-/// is within 1.2e-5 rad. The code has its coefficients times 2^17.
+/// is within 1.2e-5 rad of atan t. The code has its coefficients times 2^17.
 inline uint32_t atan17(uint16_t t) {
   const uint16_t z = product16(t, t);
   uint16_t p = static_cast<uint16_t>(11162U - product16(z, 2732U));
@@ -77,8 +77,8 @@ inline float by_two_to_17(int32_t whole) {
 
 }  // namespace detail
 
-/// The angle of (x, y) in (-pi, pi], like atan2 of this namespace, but only within 4.1e-5 rad.
-/// Precondition: not both are below 1e-30 in magnitude. NaN for non-finite input.
+/// The angle of (x, y) in (-pi, pi], like atan2 of this namespace, but with an error of up to
+/// 4.1e-5 rad. Precondition: |x| or |y| is at least 1e-30. NaN for non-finite input.
 inline float bearing(float y, float x) {
   uint32_t small = magnitude_bits(y);
   uint32_t large = magnitude_bits(x);

@@ -1,8 +1,8 @@
 /// sin, cos, atan, atan2 and the wrap of an angle for float. Freestanding C++14.
 ///
-/// Uses only operations that IEEE 754 rounds exactly (add, subtract, multiply, divide) and
-/// comparisons, so that the ATmega2560 and a host compiled with -ffp-contract=off give the same
-/// bits; the C libraries' functions differ in the last bit. Polynomials are minimax by the Remez
+/// Uses only comparisons and operations that IEEE 754 rounds correctly (add, subtract, multiply,
+/// divide). So the ATmega2560 and a host compiled with -ffp-contract=off give the same bits. The
+/// functions of the C libraries differ in the last bit. Polynomials are minimax by the Remez
 /// exchange on the reduced interval, in z = x^2. The worst errors given below are checked by
 /// tests/model/float_math_test, with AWMR_EXHAUSTIVE=1 for every float of the range.
 ///
@@ -74,7 +74,8 @@ inline int16_t leading_order_of(float x) {
   const int16_t magnitude = static_cast<int16_t>(leading_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? static_cast<int16_t>(-magnitude) : magnitude;
 }
-/// True if the leading 16 bits show lo < x < hi. False at the ends, near them, and for NaN.
+/// True if the leading 16 bits suffice to show that lo < x < hi. False at and near the ends, where
+/// the other bits would decide, and for NaN.
 inline bool is_inside(float x, float lo, float hi) {
   const int16_t order = leading_order_of(x);
   return order > leading_order_of(lo) && order < leading_order_of(hi);
@@ -94,8 +95,8 @@ inline int nearest(float x) { return static_cast<int>(x < 0.0F ? x - 0.5F : x + 
 
 namespace detail {
 
-/// x - k pi/2 by Cody and Waite: the first two parts have 11 bits, so that their products with k
-/// are exact.
+/// x - k pi/2 by the method of Cody and Waite: pi/2 is a sum of three parts. The first two parts
+/// have 11 bits, so that their products with k are exact.
 inline float reduced(float x, int k) {
   const float turns = static_cast<float>(k);
   return ((x - turns * 1.5703125F) - turns * 4.837512969970703125e-4F) - turns * 7.54978995e-8F;
@@ -158,8 +159,8 @@ inline float eighths_of_turn(uint8_t eighths) {
 /// The angle of (x, y) in (-pi, pi], 0 at the origin; the sign of a zero is ignored. Precondition:
 /// |x| and |y| are below 1.7e38. Worst error 5e-7 rad, and 9e-7 relative to the value.
 ///
-/// Computed as an octant's angle, a multiple of pi/4, plus or minus the arc tangent of a ratio
-/// below tan(pi/8).
+/// Computed as the angle of an octant's edge, a multiple of pi/4, plus or minus the arc tangent of
+/// a ratio below tan(pi/8).
 inline float atan2(float y, float x) {
   float small = ::fabsf(y);
   float large = ::fabsf(x);
@@ -187,8 +188,8 @@ inline float atan2(float y, float x) {
   const float part = detail::atan_poly(ratio);
   const float angle = detail::eighths_of_turn(eighths) + (backwards ? -part : part);
   if (bits_of(y) >> 31U == 0 || magnitude_bits(y) == 0) return angle;
-  // Slightly below the negative x axis the angle rounds to half a turn, which has only the positive
-  // sign.
+  // Slightly below the negative x axis, the angle rounds to half a turn, which is returned as +pi
+  // and never as -pi.
   return eighths == 4 && magnitude_bits(angle) == bits_of(kPi) ? angle : -angle;
 }
 

@@ -17,11 +17,12 @@ struct HeadingGains {
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
-  /// w0, rad/s, >= 0.02: friction width of the steering mode (Gains::friction_width_at(), which
-  /// also gives that of the other modes). No effect without Coulomb friction in yaw.
+  /// w0, rad/s, >= 0.02: friction width of the steering mode, that is, the yaw rate below which the
+  /// yaw resistance is fed forward smoothly (Gains::friction_width_at()). No effect without Coulomb
+  /// friction in yaw.
   T friction_width_radps = feed_forward_rest_speed<T>();
-  /// Friction width of the combined mode, rad/s, >= 0.02. 0: the larger of w0/2 and 0.02. Not used
-  /// with an observer.
+  /// Friction width of the combined mode, rad/s, >= 0.02. If it is 0, the larger of w0/2 and 0.02
+  /// is used. Has no effect with an observer.
   T combined_friction_width_radps = T(0.0);
 
   /// T1, s: on the surface S = 0 the error falls as exp(-t/T1).
@@ -30,7 +31,8 @@ struct HeadingGains {
 
   /// T2, s: in the boundary layer V = S^2/2 falls as exp(-t/T2), so S falls as exp(-t/(2 T2)).
   ///   T2 = epsilon/(2 mu)                                             [paper (92)-(95), corrected]
-  /// Corrected: the paper calls this phase sliding; the surface is still being reached.
+  /// Corrected: the paper calls this phase sliding, but during it the surface is still being
+  /// reached.
   T reaching_time_constant_s() const { return epsilon / (T(2.0) * mu); }
 };
 
@@ -62,11 +64,11 @@ struct Gains {
   SpeedGains<T> speed;
   ObserverGains<T> observer = {};
 
-  /// Friction width w, rad/s, of a mode in which the steering makes the share s of the yaw moment:
-  /// 0.02 for s = 0, that of the combined mode for s = 1/2, w0 for s = 1; with an observer, always
-  /// w0. At yaw rates below w, the resistance is fed forward as g3(w) sat((psi_d_dot + lambda e)/w)
-  /// (fed_forward()). Larger: less noise of the steering command, and a larger heading error at
-  /// rest, which an observer removes.
+  /// Friction width w, rad/s: at yaw rates below w, the resistance is fed forward as
+  /// g3(w) sat((psi_d_dot + lambda e)/w) (fed_forward()). It depends on the share s of the yaw
+  /// moment that the steering makes: 0.02 for s = 0, that of the combined mode for s = 1/2, w0 for
+  /// s = 1. With an observer, it is w0 in every mode. Larger: less noise of the steering command,
+  /// and a larger heading error at rest, which an observer removes.
   T friction_width_at(const T& steering_share) const {
     const T w0 = heading.friction_width_radps;
     if (observer.is_on() || steering_share > T(0.5)) return w0;

@@ -1,5 +1,5 @@
-/// Reads and writes the gains in gains.json (`awmr.gains/1`). The results of tuning, which
-/// gains.json also has, are written by tune/.
+/// Reads and writes the gains in gains.json (`awmr.gains/1`). gains.json also has the results of
+/// tuning; tune/ writes them.
 #pragma once
 
 #include <filesystem>
@@ -26,8 +26,9 @@ Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::pa
 /// Errors: as read_gains.
 Status check_gains_text(std::string_view text, const std::string& file);
 
-/// As read_gains(), for a controller with this sample time. Errors: as read_gains(); an observer
-/// whose bandwidth is too large for the sample time (check_observer_rate()).
+/// As read_gains(), but also checks that the gains suit a controller with this sample time. Errors:
+/// as read_gains(); the bandwidth of the observer is too large for the sample time
+/// (check_observer_rate()).
 Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s);
 
 /// Writes a file with gains only. Tuned gains are written by gains_text() in tune/tune.h.

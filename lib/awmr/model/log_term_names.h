@@ -1,7 +1,7 @@
-/// Names, in /estimates of model.json, of the effects that the model lacks and that a fit of logs
-/// can estimate: of the steering (trim, dead band, asymmetry, largest rate of the servo), of the
-/// motors (imbalance of left and right, nonlinear force), forces on the vehicle (Stribeck friction,
-/// slope of the ground, ...), and of the sensors (delay, filter, smoothing, wheel slip, mounting).
+/// Names, in /estimates of model.json, of effects that the model lacks and that a fit of logs can
+/// estimate. Steering: trim, dead band, asymmetry, largest rate of the servo. Motors: imbalance of
+/// left and right, nonlinear force. Forces on the vehicle: Stribeck friction, slope of the ground,
+/// ... Sensors: delay, filter, smoothing, wheel slip, mounting.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
 /// Further forces: Stribeck friction (larger friction at low speed) with its speed scale, in surge
 /// and in yaw; acceleration by a slope along x and y; additional surge resistance in turns, with
-/// its exponents; the fractions by which motor forces are larger when they brake, by which backward
-/// motor forces are larger, and by which the surge resistance is larger in backward motion.
+/// its exponents. The last three are relative increases: of motor forces that brake, of backward
+/// motor forces, and of the surge resistance in backward motion.
 inline constexpr std::array<std::string_view, 12> kExtraForceNames = {
     "surge.stribeck",
     "surge.stribeck_speed_mps",

@@ -9,7 +9,7 @@
 namespace awmr {
 namespace {
 
-/// Number that Model::plant_as_known() puts in place of a missing value.
+/// Number by which Model::plant_as_known() replaces a missing value.
 double none_of(ParameterId id) {
   switch (id) {
     case ParameterId::kSurgeBeta:
@@ -124,8 +124,8 @@ Plant<double> Model::plant_as_known() const {
         (*this)[parameter.id].value.value_or(none_of(parameter.id));
   }
   Plant<double> plant = plant_of(vehicle, values);
-  // A negative scrub moment is due to noise, because tyre scrub always resists a turn; it counts as
-  // 0.
+  // Tyre scrub always resists a turn, so a negative estimate of the scrub moment is due to noise.
+  // It counts as 0.
   if (yaw_scrub) plant.yaw_scrub_m = std::max(yaw_scrub->moment_m, 0.0);
   return plant;
 }

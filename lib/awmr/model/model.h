@@ -65,8 +65,8 @@ struct Covariance {
   std::vector<std::vector<double>> matrix;  ///< square, symmetric, over `parameters`
 };
 
-/// Tyre scrub: yaw moment in differential (skid) turns in addition to the resistance of steered
-/// turns. Taken as a Coulomb friction (the same at every yaw rate), over F_max:
+/// Tyre scrub: the yaw moment that resists differential (skid) turns in addition to the resistance
+/// of steered turns. It is modelled as a Coulomb friction, the same at every yaw rate, over F_max:
 ///   2 d (F'R - F'L) = g3(r) + moment
 struct YawScrub {
   double moment_m = 0.0;     ///< m; negative values are due to noise
@@ -74,8 +74,8 @@ struct YawScrub {
   Interval ci95_m;           ///< 95 % confidence interval
   int rows = 0;              ///< turns from which it was estimated, >= 3
   Interval yaw_rate_radps;   ///< range of the yaw rates of these turns, > 0
-  /// If the moment changes with the yaw rate: its range over these turns, widened by its
-  /// uncertainty. Absent if no change is detected.
+  /// Range of the moment over these turns, widened by its uncertainty, if the moment is found to
+  /// change with the yaw rate. Absent if no change is detected.
   std::optional<Interval> changing_m = {};
 };
 
@@ -84,8 +84,8 @@ bool has(const Vehicle& vehicle, ParameterId id);
 /// Description, for messages, of the trial that identifies a parameter of this vehicle.
 std::string_view trial_of(const Vehicle& vehicle, ParameterId id);
 
-/// Types of motion, distinguished by the parameters that their equations contain. Dead zone and
-/// back-EMF are in the equations of all of them.
+/// Types of motion. They differ in the parameters that their equations contain. The equations of
+/// all types contain dead zone and back-EMF.
 enum class Motion {
   kSteadySurge,  ///< straight ahead at constant speed: g1
   kSteadyTurn,   ///< turn at constant yaw rate: g3
@@ -109,15 +109,16 @@ struct Model {
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
   /// Smallest plausible m', s^2/m, > 0: g1(u)/(mu g) with mu = kTyreFriction and the acceleration
-  /// of gravity g, at the highest initial speed u of the coast-downs. With a smaller m', this
-  /// coast-down would decelerate more than tyres permit. Absent if the identified m' is plausible.
+  /// of gravity g, at the highest initial speed u of the coast-downs. With a smaller m', the
+  /// deceleration at the speed u would exceed what tyres permit. Absent if the identified m' is
+  /// plausible.
   std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
-  /// The largest yaw moment over F_max by the difference of left and right wheel forces, m, > 0, at
-  /// which the vehicle did not turn; absent: the vehicle turned in every trial.
+  /// The largest yaw moment over F_max, m, > 0, that the difference of left and right wheel forces
+  /// made without turning the vehicle. Absent: the vehicle turned in every trial.
   std::optional<double> yaw_held_m;
-  /// True: g3 was fitted only to differential turns of a vehicle that also steers, so it includes
-  /// the moment of tyre scrub.
+  /// True: g3 was fitted only to differential turns, although the vehicle also steers. It then
+  /// includes the moment of tyre scrub.
   bool yaw_by_sides_alone = false;
   IdentificationRecord record;
 
@@ -127,8 +128,8 @@ struct Model {
   }
 
   /// The plant from estimates and vehicle, for simulation and control in this motion. Errors
-  /// (input): parameters in the motion's equations have no value. The message names each with the
-  /// trial that identifies it.
+  /// (input): a parameter in the equations of the motion has no value. The message names each of
+  /// these parameters with the trial that identifies it.
   Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
 
   /// The plant for all motions that the trials in `record` have measured. Errors: as plant().
@@ -139,13 +140,13 @@ struct Model {
   /// contain these parameters.
   Plant<double> plant_as_known() const;
 
-  /// The most general motion for which the model can be simulated: kPlanar, or kStraight if one of
-  /// its parameters has no value.
+  /// The most general motion for which the model can be simulated: kPlanar, or kStraight if a
+  /// parameter of the equations of kPlanar has no value.
   Motion simulated_motion() const;
 };
 
-/// True for an optional term (ParameterInfo::term) that this model does not have: it was neither
-/// fitted nor given a value other than 0, and model.json does not contain it.
+/// True for an optional term (ParameterInfo::term) that this model does not have. It was not
+/// fitted, its given value is 0 or missing, and model.json does not contain it.
 bool is_absent_term(const Model& model, ParameterId id);
 
 /// The largest force of one motor, N:

@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::string_view kModelSchema = "awmr.model/1";
 
-/// Range of a parameter's quantiles. They must be positive if the parameter's coordinate is
-/// logarithmic (transform.h); those of an exponent or of an optional term can be below 0.
+/// Range of a parameter's quantiles. They must be positive if the coordinate of the parameter is
+/// logarithmic (transform.h). The quantiles of an exponent or of an optional term can be below 0.
 NumberRule rule_of_quantile(ParameterId id) {
   return scale_of(id) == Scale::kLogarithmic ? kPositive : kAnyNumber;
 }
@@ -74,8 +74,8 @@ Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
   return estimate;
 }
 
-/// Reads every estimate: "/surge/alpha" is the key "alpha" of the group "surge", "/mass_norm" a key
-/// of the file itself.
+/// Reads every estimate. "/surge/alpha" is the key "alpha" in the object "surge"; "/mass_norm" is a
+/// key at the root of the file.
 void estimates_from_json(JsonObject& root, Model& model) {
   std::map<std::string, JsonObject, std::less<>> groups;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -123,8 +123,8 @@ void put_estimates(Json& json, const Model& model) {
   if (model.yaw_family != Family::kPower) json["yaw"]["family"] = name_of(model.yaw_family);
 }
 
-/// Writes /si, the SI values for the user, which are computed from the rest of the file. The reader
-/// ignores them.
+/// Writes /si, the values in SI units. They are computed from the rest of the file for the user,
+/// and the reader ignores them.
 void put_si(Json& json, const Model& model) {
   for (const SiQuantity& quantity : si_quantities(model)) {
     json["si"][Json::json_pointer(quantity.pointer)] =
@@ -266,8 +266,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                     scrub.moment_m, most_m));
 }
 
-/// Contradictions between identified quantities and the vehicle: an I'z/m' that no distribution of
-/// the mass can have, a dead zone beyond the largest wheel force.
+/// Contradictions between identified quantities and the vehicle: a value of I'z/m' that is
+/// impossible for any distribution of the mass; a dead zone beyond the largest wheel force.
 void add_vehicle_contradictions(const Model& model, std::vector<Fault>& faults) {
   const Estimate& inertia = model[ParameterId::kInertiaNorm];
   const Estimate& mass = model[ParameterId::kMassNorm];

@@ -17,8 +17,8 @@
 namespace awmr {
 namespace {
 
-/// The kinds of trial that /trials of model.json has: those that are tables. Logs have no entries
-/// in /trials.
+/// The kinds of trial in /trials of model.json. These are the tables; logs have no entries in
+/// /trials.
 constexpr NameTable<TrialKind, 3> kTableNames{
     {kTrialKindNames[0], kTrialKindNames[1], kTrialKindNames[2]}};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -129,8 +129,7 @@ EstimatorParameter parameter_from_json(JsonObject json) {
   return parameter;
 }
 
-/// Writes those items of a report that only some estimators compute. An item that is missing in the
-/// report gets no key.
+/// Writes the items of a report that only some estimators compute. Missing items get no key.
 void put_details(Json& json, const EstimatorReport& report) {
   if (!report.family.empty()) json["family"] = report.family;
   if (report.weight) json["weight"] = *report.weight;
@@ -231,8 +230,8 @@ EstimatorReport report_from_json(JsonObject json) {
   for (JsonObject& parameter : json.objects("parameters")) {
     report.parameters.push_back(parameter_from_json(parameter));
   }
-  // residual_std and condition_number can be null: a fit without degrees of freedom has no residual
-  // spread, and a rank-deficient one has no finite condition number.
+  // residual_std is null for a fit without degrees of freedom, which has no spread of residuals.
+  // condition_number is null for a rank-deficient fit, because it is infinite.
   report.residual_std = json.nullable_number("residual_std", kNonNegative).value_or(kNaN);
   report.rows_used = count(json, "rows_used");
   report.degrees_of_freedom = count(json, "degrees_of_freedom");

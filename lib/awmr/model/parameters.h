@@ -46,8 +46,9 @@ inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";
 inline constexpr std::string_view kBiasPrefix = "bias.";  ///< followed by the channel's column name
-/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). A coast-down without a surge trial determines only
-/// this ratio and b1, and for other families the ratios of ratio_names.h.
+/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). Of the power law, a coast-down without a surge
+/// trial determines only this ratio and b1. For other families it determines the ratios of
+/// ratio_names.h.
 inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";
 
 /// The table, in the order of ParameterId.

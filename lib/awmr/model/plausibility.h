@@ -1,5 +1,5 @@
-/// Consistency checks of a vehicle's numbers before any trial: implausible sizes, masses and
-/// angles, and the unit in which they were probably given. The plausible ranges are:
+/// Checks a vehicle's numbers before any trial. Finds implausible sizes, masses and angles, and the
+/// unit in which they were probably given. The plausible ranges are:
 ///
 ///     mass over the footprint m/(length width)    1 to 5000 kg/m^2: from a toy to a mining truck
 ///     length over width                           1/5 to 10
@@ -28,7 +28,7 @@ inline constexpr Interval kInertiaOverBox{0.05, 3.0};
 /// Largest plausible time constant of a steering servo, s; a larger number is probably in ms.
 inline constexpr double kSlowestServo_s = 2.0;
 
-/// Identified I'z/m' over Iz/m of the vehicle. Precondition: mass_norm > 0.
+/// The ratio of the identified I'z/m' to Iz/m of the vehicle. Precondition: mass_norm > 0.
 double inertia_over_vehicle(const Vehicle& vehicle, double inertia_norm, double mass_norm);
 /// Range of this ratio from the 95 % intervals; without intervals, a factor of 2 around the value.
 /// Precondition: both estimates have a value.

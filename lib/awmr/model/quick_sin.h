@@ -16,7 +16,7 @@ namespace detail {
 
 /// sin(pi/2 t) in units of 2^-15, for t in [0, 1) given in units of 2^-16. The polynomial
 ///   t (pi/2 - z (c1 - z (c2 - z c3))),   z = t^2
-/// is within 6e-7. The code has its coefficients times 2^15.
+/// is within 6e-7 of the sine. The code has its coefficients times 2^15.
 AWMR_CALLED inline uint16_t sin15(uint16_t t) {
   const uint16_t z = product16(t, t);
   uint16_t p = static_cast<uint16_t>(2605U - product16(z, 143U));

@@ -1,6 +1,6 @@
 /// Valid ranges of the numbers in vehicle.json, model.json and gains.json, listed in VEHICLES.md of
-/// this folder. They are wider than for any vehicle, so that a wrong unit or a damaged file is
-/// detected when it is read.
+/// this folder. They are wider than any vehicle needs. Their purpose is to detect a wrong unit or a
+/// damaged file when it is read.
 #pragma once
 
 #include "awmr/core/number_rule.h"
@@ -22,8 +22,8 @@ inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
 /// Correlation time of a sensor's noise; 0: independent readings.
 inline constexpr NumberRule kCorrelation_s{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kStallPower_w{.min = 0.0, .max = 1e6, .min_excluded = true};
-/// The maximum of k_e corresponds to 1/k_e = 1 mm/s, the speed at which a motor under full voltage
-/// has no force left.
+/// The maximum of k_e corresponds to 1/k_e = 1 mm/s, where 1/k_e is the speed at which a motor
+/// under full voltage has no force left.
 inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, m' and I'z, each in its own unit.
@@ -33,8 +33,8 @@ inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};
 /// Dead zone of a wheel's command, relative to the largest command.
 inline constexpr NumberRule kCommandDeadZone{.min = 0.0, .max = 1.0, .max_excluded = true};
 inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
-/// Tyres: friction coefficient from ice to above rubber on dry asphalt; cornering stiffness over
-/// load from a soft tyre to a rigid wheel.
+/// Tyres. The friction coefficient ranges from that of ice to more than that of rubber on dry
+/// asphalt; cornering stiffness over load, from that of a soft tyre to that of a rigid wheel.
 inline constexpr NumberRule kTyreFrictionRule{.min = 0.01, .max = 5.0};
 inline constexpr NumberRule kCorneringStiffnessRule_per_rad{.min = 0.1, .max = 100.0};
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};

@@ -44,7 +44,7 @@ inline constexpr NameTable<FitSubject, 4> kFitSubjectNames{{{"surge", FitSubject
                                                             {"mass", FitSubject::kMass},
                                                             {"log", FitSubject::kLog}}};
 
-/// Estimation methods. Several are applied to the same trials, so that their results can be
+/// Estimation methods. Several methods are applied to the same trials, so that their results can be
 /// compared.
 enum class Estimator {
   kLogLinear,   ///< tables: a line through log force over log speed, as in the paper
@@ -69,8 +69,9 @@ struct EstimatorParameter {
   double value = 0.0;
   std::optional<double> std_error;  ///< > 0; absent if there are too few data
   std::optional<Interval> ci95;     ///< 95 % interval from the curvature of the cost at its minimum
-  /// 95 % interval from the profile likelihood: the cost, minimised over the other parameters. It
-  /// can be asymmetric; an end that the data do not determine is the parameter's bound.
+  /// 95 % interval from the profile likelihood, that is, the cost minimised over the other
+  /// parameters. It can be asymmetric. If the data do not determine an end, this end is the
+  /// parameter's bound.
   std::optional<Interval> profile95 = {};
 };
 
@@ -82,7 +83,7 @@ struct Diagnostic {
   std::string meaning;   ///< what a small p-value means for the fit, in one sentence
 };
 
-/// The estimates without one row of a table.
+/// The estimates of a fit without one row of its table.
 struct LeaveOneOut {
   std::string file;
   int line = 0;                ///< 0 in files of older versions: a log that was left out as a whole
@@ -111,8 +112,8 @@ struct EstimatorReport {
   double condition_number = 0.0;  ///< of the Jacobian, >= 1 or infinite; 0: not computed
   std::string stop_reason;        ///< reason why the solver stopped
   std::string family = {};        ///< family of resistance; empty: the paper's power law
-  /// Weight in the average over noise models, (0, 1]: the probability that the noisy quantity is
-  /// this `noise`; absent: the estimates were not averaged.
+  /// Weight of this report in the average over noise models, (0, 1]: the probability that the noisy
+  /// quantity is that of `noise`. Absent: the estimates were not averaged.
   std::optional<double> weight = {};
   /// Akaike information criterion, less is better: AICc of tables and coast-downs, AIC of logs
   /// under the noise model of the chosen fit. Compare only reports of the same subject and `noise`.

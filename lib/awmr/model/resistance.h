@@ -23,8 +23,9 @@ struct Resistance {
   T beta;
   /// Speed below which g(w) is replaced by its chord, the straight line from the origin to the
   /// curve at this speed. >= 0; surge: m/s, yaw: rad/s. 0 keeps the law exact, for fits and steady
-  /// states. A simulation needs a chord, because the curve jumps at rest for c > 0 and has an
-  /// infinite slope there for beta < 1: rest_speed() in steady.h computes the value for its steps.
+  /// states. A simulation needs a chord, because the curve at rest jumps for c > 0 and has an
+  /// infinite slope for beta < 1. rest_speed() in steady.h computes rest_speed from the length of
+  /// the steps.
   T rest_speed = T(0.0);
   /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);
@@ -45,8 +46,8 @@ struct Resistance {
     using math::select;
     const T magnitude = abs(speed);
     if (!MaskOf<T>::kOneLane) {
-      // A batch has one vehicle per lane and therefore no branches. The quotient 1/chord is the same
-      // in every step, so that the compiler can compute it once for several calls.
+      // A batch has one vehicle per lane and therefore no branches. The quotient 1/chord is the
+      // same in every step, so the compiler can compute it once for several calls.
       const T chord = larger(rest_speed, T(1e-30));
       const T sign = select(speed < T(0.0), T(-1.0), T(1.0));
       const T share = select(magnitude < chord, T(speed * (T(1.0) / chord)), sign);
@@ -60,21 +61,21 @@ struct Resistance {
 };
 
 /// Default speed (m/s) or yaw rate (rad/s) below which a controller feeds forward a resistance with
-/// Coulomb friction c in proportion to the speed (its chord). With the curve itself, which jumps at
-/// rest, the command would chatter between +c and -c.
+/// Coulomb friction c as a straight line through the origin (its chord). The curve itself jumps
+/// from -c to c at rest, so the command would chatter between these values.
 template <class T>
 constexpr T feed_forward_rest_speed() {
   return T(0.02);
 }
-/// The law that a controller feeds forward: `law`, with its chord below the speed `rest_speed` if
-/// it has Coulomb friction.
+/// The law that a controller feeds forward: `law` itself, or if it has Coulomb friction, `law` with
+/// a chord below the speed `rest_speed`.
 template <class T>
 Resistance<T> feed_forward(Resistance<T> law, const T& rest_speed = feed_forward_rest_speed<T>()) {
   if (law.coulomb > T(0.0)) law.rest_speed = rest_speed;
   return law;
 }
 
-/// The command with which a motor with a dead zone makes `force`; 0 for the force 0. Command and
+/// The command for which a motor with a dead zone makes `force`; 0 for the force 0. Command and
 /// force are over F_max; zone = F'0 >= 0. Inverse of beyond_dead_zone() for every force except 0.
 template <class T>
 T with_dead_zone(const T& force, const T& zone) {
@@ -82,8 +83,9 @@ T with_dead_zone(const T& force, const T& zone) {
   return select(force > T(0.0), T(force + zone), select(force < T(0.0), T(force - zone), force));
 }
 
-/// The force that a motor with a dead zone makes of `command`: 0 for |command| <= zone, and beyond
-/// that the command reduced by the zone. Command and force are over F_max; zone = F'0 >= 0.
+/// The force that a motor with a dead zone makes for `command`: 0 for |command| <= zone; otherwise
+/// the command with its magnitude reduced by the zone. Command and force are over F_max;
+/// zone = F'0 >= 0.
 template <class T>
 T beyond_dead_zone(const T& command, const T& zone) {
   using math::select;

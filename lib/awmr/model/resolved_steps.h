@@ -12,14 +12,15 @@ namespace awmr {
 /// product, deviations decay without a change of sign. The method is stable up to 2.78.
 inline constexpr double kMaxRateTimesStep = 1.0;
 
-/// Maximum number of successive halvings of one step, and of halved steps in a run.
+/// Maximum number of successive halvings of one step, and maximum number of halved steps in a run.
 inline constexpr int kMaxHalvings = 40;
 inline constexpr double kMaxHalves = 5e7;
 
 /// Rate at which a deviation from the speed w decays, 1/s: g'(w)/inertia with
 ///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
-/// Returns 0 on the chord (below law.rest_speed), and for beta < 1 with q = 0: rest_speed() in
-/// steady.h chooses the chord so that the rate is then at most 1/h for steps of h.
+/// Returns 0 where the rate needs no check: on the chord (below law.rest_speed), and for beta < 1
+/// with q = 0. There it is at most 1/h for steps of h, because rest_speed() in steady.h chooses the
+/// chord accordingly.
 template <class T>
 T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   using math::abs;
@@ -29,8 +30,8 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   const T w = abs(speed);
   const Mask<T> counts = (law.beta >= T(1.0) || law.quadratic > T(0.0)) && !(w < law.rest_speed);
   if (!any(counts)) return T(0.0);
-  // Lanes whose result is 0, or that are at rest, compute with the speed 1; select() replaces their
-  // result below.
+  // Lanes whose result is 0, and lanes at rest, compute with the speed 1 so that pow() is valid.
+  // The select() calls below replace their results.
   const Mask<T> moves = w > T(0.0);
   const T power = pow(select(counts && moves, w, T(1.0)), T(law.beta - T(1.0)));
   const T share = select(moves || !(law.beta > T(1.0)), power, T(0.0));
@@ -38,8 +39,8 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   return select(counts, T((slope + T(2.0) * law.quadratic * w) / inertia), T(0.0));
 }
 
-/// Largest rate of change at the state `at`, 1/s, of: the decay of u by g1, the decay of r by g3,
-/// and the rotation of the velocity in the vehicle's frame, at the rate |r| (m' r v and m' r u).
+/// The largest of three rates at the state `at`, 1/s: the decay of u by g1; the decay of r by g3;
+/// and |r|, at which the velocity rotates in the vehicle's frame (terms m' r v and m' r u).
 template <class T>
 T fastest_rate(const Plant<T>& plant, const State<T>& at) {
   using math::abs;
@@ -71,9 +72,9 @@ struct Resolution {
   Mask<T> resolved = Mask<T>(true);  ///< false: no step is short enough, or a number is not finite
 };
 
-/// Declared here because advance_by_halves() calls it; defined below. `body`, here and below: a
-/// Plant, or another type that has a fastest_rate(), such as FourWheels (tyres.h). `step(from, h)`:
-/// the state after one integration step, without step control.
+/// Declared here because advance_by_halves() calls it; defined below. In these functions, `body` is
+/// a Plant or another type that has a fastest_rate(), such as FourWheels (tyres.h). `step(from, h)`
+/// returns the state after one integration step, without step control.
 template <class Body, class T, class Step>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);

@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// The value of a scalar without its derivatives; types with derivatives (ceres::Jet) have their
-/// own overloads.
+/// The value of a scalar, without derivatives. Types with derivatives (ceres::Jet) have their own
+/// overloads.
 inline double value_of(double x) { return x; }
 
 /// The law with doubles as coefficients, without their derivatives.

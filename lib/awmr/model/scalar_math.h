@@ -1,8 +1,9 @@
 /// Elementary functions for any scalar. Freestanding C++14.
 ///
-/// Templates use `using math::sin; sin(x)`: float and double functions are defined here, those of
-/// ceres::Jet and other scalars in their own namespace (argument-dependent lookup). float's sin,
-/// cos, atan and atan2 are those of float_math.h, with the same bits on every machine.
+/// Templates call `using math::sin; sin(x)`. This finds the functions below for float and double.
+/// For ceres::Jet and other scalars, it finds those in the scalar's own namespace
+/// (argument-dependent lookup). float's sin, cos, atan and atan2 are those of float_math.h, with
+/// the same bits on every machine.
 #pragma once
 
 #include <math.h>
@@ -28,8 +29,8 @@ namespace awmr {
 ///
 /// A branch that can differ between lanes is written as
 ///   if (any(m)) { if (MaskOf<T>::kOneLane || all(m)) return a;  x = select(m, a, x); }
-/// For bool this is an ordinary branch. The condition uses the constant kOneLane, because a
-/// constant is known before the compiler decides on inlining, which affects the flash size on the
+/// For bool this is an ordinary branch. The condition contains the constant kOneLane because the
+/// compiler knows it before it decides on inlining, and inlining affects the flash size on the
 /// chip.
 template <class T>
 struct MaskOf {
@@ -92,8 +93,8 @@ T larger(const T& x, const T& y) {
   return select(x < y, y, x);
 }
 
-/// Returns x; for float, 0 if |x| < 2^-90. So if the result is divided by a force, the quotient is
-/// not a subnormal number, which an AVR rounds differently from a host.
+/// Returns x; for float, 0 if |x| < 2^-90. The result can be divided by a force without giving a
+/// subnormal number, which an AVR rounds differently from a host.
 template <class T>
 T flushed(const T& x) {
   return x;
@@ -131,8 +132,8 @@ AWMR_CALLED inline bool is_above(float x, float y) {
          !float_math::is_nan(y);
 }
 
-/// True if x and y differ; false for NaN. For float, only the bits are compared, so x must be a
-/// copy of y or the limit to which y was clamped.
+/// True if x and y differ; false for NaN. For float, this compares only the bits. It is valid if x
+/// is either a copy of y or the limit to which y was clamped.
 template <class T>
 Mask<T> is_different(const T& x, const T& y) {
   return x < y || x > y;
@@ -173,8 +174,8 @@ inline bool is_opposite(float x, float y) {
          float_math::magnitude_bits(y) != 0;
 }
 
-/// The angle of (x, y) in (-pi, pi], for directions to steer by: atan2, and for float an
-/// approximation with an error below 4.1e-5 rad, in a third of the chip's cycles.
+/// The angle of (x, y) in (-pi, pi], for directions to steer by: atan2. For float, an approximation
+/// with an error below 4.1e-5 rad, which takes a third of the cycles on the chip.
 template <class T>
 T bearing(const T& y, const T& x) {
   return atan2(y, x);

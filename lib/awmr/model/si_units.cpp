@@ -9,7 +9,7 @@ namespace awmr {
 namespace {
 
 /// If the variance of Q is below this fraction of its positive terms, it is only a rounding error
-/// and counts as 0: the terms cancel, because Q does not depend on m'.
+/// and counts as 0. This happens if Q does not depend on m', because the terms then cancel.
 constexpr double kRounding = 1e-14;
 
 /// True for parameters that are divided by F_max in the equations of motion: all except exponents

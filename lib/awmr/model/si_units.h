@@ -23,8 +23,8 @@ struct SiQuantity {
 /// The covariance of p and m' is propagated: with the gradient (m/m', -p m/m'^2),
 ///   Var Q = (m/m')^2 (C_pp - 2 (p/m') C_pm' + (p/m')^2 C_m'm')
 /// For p = I'z = m' Iz/m, the terms cancel and Iz is exact again. The interval uses the wider of
-/// the quantiles of p and m'. There is no standard error if p or m' was estimated but the model has
-/// no covariance of it.
+/// the quantiles of p and m'. Q has no standard error if p or m' was estimated and the covariance
+/// of the model does not contain it.
 ///
 /// F_max is the largest force of one driven wheel: if one motor drives both wheels of a side, the
 /// largest force of this motor is twice F_max.

@@ -6,9 +6,9 @@
 ///
 ///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
 ///
-/// A step in which u passes 0 is cut at the time at which u is 0. Then friction holds the vehicle,
-/// u_dot = 0, while the driving force |X + m' r v| is at most c. Yaw is treated likewise. With a
-/// chord (rest.h) instead of the jump, a vehicle that friction should hold would creep.
+/// A step in which u passes 0 is cut at the time at which u is 0. Then friction holds the vehicle
+/// (u_dot = 0) as long as the driving force |X + m' r v| is at most c. Yaw is treated in the same
+/// way. If a chord (rest.h) replaced the jump, a vehicle that friction should hold would creep.
 #pragma once
 
 #include "awmr/model/rest.h"
@@ -36,8 +36,8 @@ Plant<T> without_friction(Plant<T> plant) {
   return plant;
 }
 
-/// resolved_at_rest() for steps with exact friction: the chords are computed for the resistance
-/// without c.
+/// As resolved_at_rest(), for integration with exact friction: the chords are computed from the
+/// resistances without c.
 template <class T>
 Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   const Plant<T> resolved = resolved_at_rest(without_friction(plant), step_s);
@@ -62,7 +62,7 @@ inline double slides(double speed, double rate, double friction) {
   return rate > friction ? 1.0 : rate < -friction ? -1.0 : 0.0;
 }
 
-/// Directions of sliding in the state s. `rates`: the rates in this state without friction.
+/// Directions of sliding in the state s. `rates`: the rates of this state without friction.
 template <class T>
 Sliding sliding(const FrictionRates<T>& friction, const State<T>& s, const State<T>& rates) {
   return {slides(value_of(s.u_mps), value_of(rates.u_mps), value_of(friction.surge_mps2)),
@@ -86,14 +86,16 @@ State<T> with_friction(const FrictionRates<T>& friction, const Sliding& way, Sta
   return rates;
 }
 
-/// Fraction of a step after which a speed that changes linearly from `from` to `to` is 0. Returns 1
-/// if the speed does not pass 0, or starts at 0. `way`: direction of sliding in this step.
+/// Fraction of a step after which the speed is 0, if it changes linearly from `from` to `to`.
+/// Returns 1 if the speed does not pass 0, or starts at 0. `way`: direction of sliding in this
+/// step.
 inline double share_until_rest(double way, double from, double to) {
   if (!(way * from > 0.0) || !(way * to < 0.0)) return 1.0;
   return from / (from - to);
 }
 
-/// Maximum number of times a step is cut at a stop; after that, its remainder is not cut again.
+/// Maximum number of stops at which a step is cut. After them, the rest of the step is not cut
+/// again.
 inline constexpr int kMaxStopsInAStep = 4;
 
 /// rk4_step() with friction: the state h seconds after s. `rates(state)`: the rates without

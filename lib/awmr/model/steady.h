@@ -10,16 +10,16 @@ namespace awmr {
 /// The speed w > 0 at which the resistance equals a force: g(w) = force. With g1 and force =
 /// tau_speed, w is the steady speed in m/s; with g3 and force = tau_turn in m, the steady yaw rate
 /// in rad/s. With `viscous` > 0 (the unit of g over that of w), w is the solution of g(w) + viscous
-/// w = force: straight ahead with back-EMF in four motors, viscous = 4 k_e. None if the force does
-/// not exceed the Coulomb friction c, or if there is no finite solution, as for a power law with
-/// beta = 0.
+/// w = force. Back-EMF in four motors is such a term: straight ahead, viscous = 4 k_e. None if the
+/// force does not exceed the Coulomb friction c, or if there is no finite solution, as for a power
+/// law with beta = 0.
 std::optional<double> steady_rate(const Resistance<double>& law, double force,
                                   double viscous = 0.0);
 
 /// Time from motors off at speed_mps = u > 0 to rest, s:
 ///   t_a = m' int_0^u dw/g(w)
 ///       = m' u^(1-beta) / ((1-beta) alpha)   for a power law                     [paper (55)-(59)]
-/// None if the vehicle never stops: c = 0 and beta >= 1, where it approaches rest asymptotically.
+/// None if the vehicle never stops but approaches rest asymptotically (c = 0 and beta >= 1).
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,
                                   double speed_mps);
 

@@ -1,6 +1,6 @@
-/// Coordinates of the parameters, in which fits search and parameters are sampled. The error of a
-/// parameter is taken to be normally distributed in its coordinate, which is its value or its
-/// logarithm:
+/// Coordinates of the parameters. Fits search in these coordinates, and random plants are drawn in
+/// them. The coordinate of a parameter is its value or the logarithm of its value; its error is
+/// assumed to be normally distributed:
 ///
 ///     linear:       coordinate = value        d value / d coordinate = 1
 ///     logarithmic:  coordinate = ln value     d value / d coordinate = value

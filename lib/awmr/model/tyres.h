@@ -23,9 +23,9 @@ struct Tyres {
   /// c_a, 1/rad, > 0: cornering stiffness over the load on the wheel, the slope of the side force
   /// at a small slip angle.
   T cornering_per_rad = T(kCorneringStiffness_per_rad);
-  /// v_0, m/s, > 0: a wheel that rolls more slowly is treated as rolling at about this speed, so
-  /// that the slip of a wheel at rest is defined. Below it the tyres resist like a viscous fluid: a
-  /// vehicle that is pushed sideways at rest creeps.
+  /// v_0, m/s, > 0: makes the slip of a wheel at rest defined. A wheel that rolls more slowly is
+  /// treated as rolling at about this speed. Tyres below it resist like a viscous fluid: a vehicle
+  /// that is pushed sideways at rest creeps.
   T rest_speed_mps = T(kTyreRestSpeed_mps);
 };
 
@@ -94,8 +94,8 @@ T side_force(const Tyres<T>& tyres, const T& load, const T& along, const T& roll
 }
 
 /// Force of the ground on a wheel along its rolling direction, over F_max: the force F' of its
-/// motor (motor_force()) minus a quarter of g1, which is taken as a resistance in the drive.
-/// Limited by tyre friction:
+/// motor (motor_force()) minus a quarter of g1, limited by tyre friction. g1 is assumed to act in
+/// the drive, between motor and ground.
 ///   F'x = sat(F' - g1(w)/4, mu F'z)
 template <class T>
 T ground_force(const FourWheels<T>& p, const T& load, const T& command, const T& rolls_mps) {
@@ -180,9 +180,9 @@ State<T> state_rates(const FourWheels<T>& p, const State<T>& s, const Forces& f,
   return d;
 }
 
-/// Smallest effective mass m'_w at the wheels, over F_max, s^2/m: the inertia, in surge or yaw,
-/// that resistances along the four wheels slow down. The lever of a wheel is at most its distance
-/// from the centre of gravity:
+/// Smallest effective inertia m'_w, s^2/m, in surge or yaw, that a force along the rolling
+/// direction of a wheel acts on. The lever of the force is at most the distance of the wheel from
+/// the centre of gravity:
 ///   m'_w = min(m', I'z/(l_f^2 + d^2))
 template <class T>
 T rolling_inertia(const Plant<T>& p) {
@@ -222,8 +222,9 @@ T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
                                   T((wheel_m2 * front + axle_m2 * rear) / p.body.inertia_norm));
 }
 
-/// Largest rate of change at the state `at`, 1/s, of: the rotation of the velocity in the vehicle's
-/// frame (|r|), the damping by the tyres, and the decay by g1 at the speed of the fastest wheel.
+/// The largest of three rates at the state `at`, 1/s: |r|, at which the velocity rotates in the
+/// vehicle's frame; the damping by the tyres; and the decay by g1 at the speed of the fastest
+/// wheel.
 template <class T>
 T fastest_rate(const FourWheels<T>& vehicle, const State<T>& at) {
   using math::abs;

@@ -24,8 +24,8 @@ inline constexpr NameTable<Drive, 3> kDriveNames{{{"four_wheel", Drive::kFourWhe
 inline constexpr NameTable<AllocationForm, 2> kAllocationFormNames{
     {{"exact", AllocationForm::kExact}, {"paper", AllocationForm::kPaper}}};
 
-/// Errors of the vehicle's sensors: standard deviations of noise, latencies, and time constants of
-/// the noise's correlation (0: independent readings). Absent: not known.
+/// Errors of the vehicle's sensors: standard deviations of the noise, latencies, and correlation
+/// times of the noise (0: independent readings). Absent: not known.
 struct SensorQuality {
   std::optional<double> heading_deg = {};             ///< deg, >= 0
   std::optional<double> yaw_rate_degps = {};          ///< deg/s, >= 0
@@ -64,11 +64,12 @@ struct Vehicle {
   AllocationForm allocation = AllocationForm::kExact;
   SensorQuality sensors = {};  ///< sensor errors that are assumed when gains are tuned
                                ///< (tune/tune.h)
-  /// s, >= 0: first-order lag from the motors' command to their force. Gains are tuned for it, and
-  /// log fits filter the logged commands with it. Absent: none, unless a log identifies it.
+  /// s, >= 0: time constant of the first-order lag from the motors' command to their force. Gains
+  /// are tuned for it, and log fits filter the logged commands with it. Absent: no lag, unless a
+  /// log identifies one.
   std::optional<double> motor_time_constant_s;
   /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel, from its data
-  /// sheet; absent: none, unless a log identifies it.
+  /// sheet. Absent: no back-EMF, unless a log identifies it.
   std::optional<double> back_emf_s_per_m;
   /// P_s, W, > 0: power of one motor under full voltage at standstill, where all of it becomes
   /// heat; absent: electrical work is not reported in joules.

@@ -52,8 +52,8 @@ std::optional<double> known_number(JsonObject& json, std::string_view key, Numbe
   return json.has(key) ? json.nullable_number(key, rule) : std::nullopt;
 }
 
-/// Reads the column mappings and checks their form. They are stored as text; whether a file has
-/// their columns is checked when that file is read.
+/// Reads the column mappings and checks their form. They are stored as text. Whether a file has the
+/// columns that they name is checked when that file is read.
 void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
@@ -127,8 +127,8 @@ void control_to_json(const Vehicle& vehicle, Json& json) {
   if (vehicle.yaw_rate_max_degps) json["yaw_rate_max_degps"] = *vehicle.yaw_rate_max_degps;
 }
 
-/// The smaller unit `words` in which a number above its range `rule` was probably given; `factor`
-/// converts it.
+/// A smaller unit in which a number above its range `rule` was probably given. `words`: name of the
+/// unit; `factor` converts the number from it.
 struct SmallerUnit {
   std::string_view pointer;
   NumberRule rule;
@@ -141,8 +141,8 @@ constexpr SmallerUnit kSmallerUnits[] = {{"/length_m", kSize_m, 1e-3, "mm"},
                                          {"/half_track_m", kSize_m, 1e-3, "mm"},
                                          {"/sample_time_s", kSampleTime_s, 1e-3, "ms"}};
 
-/// Adds to each message about a number above its range: the unit in which the number was probably
-/// given, and the converted value.
+/// For each number above its range, adds to the message the unit in which the number was probably
+/// given, and the converted number.
 void name_units(const Json& document, const std::string& file, std::vector<Fault>& faults) {
   for (Fault& fault : faults) {
     for (const SmallerUnit& unit : kSmallerUnits) {

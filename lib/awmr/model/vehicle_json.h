@@ -11,8 +11,8 @@ namespace awmr {
 /// added to the faults of `json`.
 Vehicle vehicle_from_json(JsonObject& json);
 
-/// Writes the vehicle, with explicit default values. An optional quantity that is not known has no
-/// key.
+/// Writes the vehicle. Default values are written, too. An optional quantity that is not known gets
+/// no key.
 Json vehicle_to_json(const Vehicle& vehicle);
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Line following with a guidance law that is selected at run time, for the simulator. A firmware
-/// has one law compiled in.
+/// Line following for the simulator: the guidance law is selected at run time. In a firmware, one
+/// law is compiled in.
 #pragma once
 
 #include <variant>

@@ -36,9 +36,9 @@ const Kernel* kernel_of(const BatchArithmetic& arithmetic) {
   return nullptr;
 }
 
-/// Simulates the runs in blocks of up to kBatchRuns and calls take(i, metrics, run) for each run i,
-/// in order. `metrics` is empty if the run failed, or if there is no kernel and nothing was
-/// simulated. `run` has rows only if `keeps_rows`.
+/// Simulates the runs in blocks of up to kBatchRuns, and calls take(i, metrics, run) for each run
+/// i, in order. `metrics` is empty if the run failed. If there is no kernel, nothing is simulated,
+/// and `metrics` is always empty. `run` has rows only if `keeps_rows`.
 template <class Take>
 void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, double sample_time_s,
                      const BatchArithmetic& arithmetic, bool keeps_rows, const Take& take) {

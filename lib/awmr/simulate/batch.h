@@ -1,5 +1,5 @@
-/// Simulates any number of runs of a scenario, up to sixteen at once: one run per lane (element) of
-/// the processor's vector registers, in the closed loop of simulate() (closed_loop.h).
+/// Simulates any number of runs of a scenario, up to sixteen at once, in the closed loop of
+/// simulate() (closed_loop.h). Each run has one lane (element) of the processor's vector registers.
 ///
 /// The results of a run do not depend on the other runs or on its lane. They equal those of
 /// simulate() except for rounding, because powers and angles are computed by polynomials of this
@@ -18,14 +18,14 @@
 namespace awmr {
 
 /// Standard normal numbers for the sensor noise of a run, one per sample and sensor. Runs that
-/// differ only in plant, gains or mode can share these numbers, which saves a tenth of their
-/// computing time.
+/// differ only in plant, gains or mode can share these numbers instead of drawing them again, which
+/// saves a tenth of their computing time.
 struct DrawnNoise {
   std::vector<double> heading, yaw_rate, speed;  ///< empty: the sensor has no noise
 };
 
-/// Draws the numbers that the sensors of a run with this seed and `sample` (number of the draw)
-/// would draw. Memory: up to 24 bytes per sample time of the run.
+/// Draws the noise numbers of a run with this seed and `sample` (number of the draw): the same
+/// numbers that the run would draw itself. Memory: up to 24 bytes per sample time of the run.
 DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
                              std::uint64_t sample);
 
@@ -36,8 +36,8 @@ struct BatchRun {
   YawMode mode;
   std::uint64_t seed = 0;    ///< as in SimulateOptions
   std::uint64_t sample = 0;  ///< as in SimulateOptions
-  /// Null, or the result of draw_sensor_noise() for the run's scenario, seed and sample. The run is
-  /// the same in both cases, but faster with the drawn numbers.
+  /// Null, or the result of draw_sensor_noise() for the run's scenario, seed and sample. The result
+  /// of the run is the same in both cases; with the drawn numbers, it is computed faster.
   const DrawnNoise* noise = nullptr;
 };
 
@@ -57,9 +57,9 @@ inline constexpr std::size_t kBatchRuns = 16;
 /// AWMR_INSTRUCTIONS. Errors (input): the requested instruction set is not available.
 Result<BatchArithmetic> batch_arithmetic();
 
-/// Simulates the runs and returns the metrics of each, in order. Errors (input) of a run: those of
-/// failure_of(). Precondition: the controllers of all runs have the same driven wheels, combined
-/// split and form of the allocation.
+/// Simulates the runs and returns the metrics of each, in order. A run that fails has an error
+/// (input) of failure_of(). Precondition: the controllers of all runs have the same driven wheels,
+/// combined split and form of the allocation.
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);
@@ -69,8 +69,9 @@ struct DrivenRun {
   Run run;
   Metrics metrics;
 };
-/// Simulates the runs like simulate_batch(), and returns the rows of each run too. A run that fails
-/// in the batch is repeated with simulate(); its Run::end can still be kFailed.
+/// Simulates the runs like simulate_batch(), and also returns the rows of each run. A run that
+/// fails in the batch is simulated again with simulate(). If that fails too, its Run::end is
+/// kFailed.
 std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
                                    double sample_time_s, const BatchArithmetic& arithmetic);
 

@@ -66,8 +66,8 @@ class ClosedLoop {
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
     PathRow path = {};                              ///< guidance columns of the present sample
-    /// Reason why the run ends at the current sample, before its duration is over. kDuration: there
-    /// is no such reason.
+    /// Reason why the run ends at the current sample, before its duration is over. kDuration: the
+    /// run does not end early.
     RunEnd ending = RunEnd::kDuration;
     std::vector<RunRow> rows = {};
     std::optional<Ending> end = {};  ///< absent: the run continues, or it failed
@@ -144,9 +144,8 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
                        index, runs_->vehicles);
 }
 
-/// True if the guidance must be computed run by run. False in open loop. Also false for heading
-/// steps if there is no avoidance or shaping and no rows are kept: all runs then have the same
-/// reference.
+/// True if the guidance must be computed run by run. False in open loop, and for heading steps
+/// without avoidance, shaping and stored rows, because all runs then have the same reference.
 template <class Row>
 bool ClosedLoop<Row>::has_own_guidance() const {
   if (runs_->control.is_open_loop) return false;
@@ -258,8 +257,8 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
                                                         run_of<double>(v.plant.rear_driven, run))};
 }
 
-/// Appends the row of sample k to each active run. A row with a number that is not finite ends the
-/// run; such a row is kept only if it is the first, k = 0.
+/// Appends the row of sample k to each active run. A number in it that is not finite ends the run.
+/// The row is then removed, except the first one (k = 0).
 template <class Row>
 void ClosedLoop<Row>::keep_rows(std::size_t k, double t_s) {
   if (!options_.keeps_rows) return;

@@ -1,4 +1,4 @@
-/// Sensor noise, sensor latency and motor lag of the simulations for which gains are tuned. The
+/// Sensor noise, sensor latency and motor lag in the simulations by which gains are tuned. The
 /// model does not contain them.
 #pragma once
 
@@ -24,7 +24,7 @@ struct LoopConditions {
   double motor_time_constant_s = 0.02;
 };
 
-/// The conditions that vehicle.json gives, with the defaults above for missing ones.
+/// The conditions that vehicle.json gives. Missing ones have the defaults above.
 LoopConditions conditions_of(const Vehicle& vehicle);
 
 /// Adds sensors and actuators with these conditions to a scenario. Sensors or actuators that the

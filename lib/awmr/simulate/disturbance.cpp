@@ -7,8 +7,8 @@
 namespace awmr {
 namespace {
 
-/// Number of the first random stream (RunSeed::random) of each axis, with room for 200 terms in
-/// surge and in sway.
+/// Number of the first random stream (RunSeed::random) of each axis. Between two of them is room
+/// for the streams of 200 terms.
 constexpr std::uint64_t kSurgeUse = 100;
 constexpr std::uint64_t kSwayUse = 300;
 constexpr std::uint64_t kYawUse = 500;

@@ -9,21 +9,22 @@
 
 namespace awmr {
 
-/// Seed of a run, from which its random streams are made. Each use of random numbers (a sensor, a
-/// disturbance term) has its own stream.
+/// Seed of a run, from which its random streams are made: one stream for each use of random
+/// numbers, such as a sensor or a disturbance term.
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;  ///< number of the draw
-  /// Returns the random stream for the use with the number `use`, < 1024. The stream's number has
-  /// bit 62 set. The streams of compare/ have small numbers, or numbers with bit 63 set.
+  /// Returns the random stream for the use with the number `use`, < 1024. Bit 62 is set in the
+  /// number of this stream, which distinguishes it from the streams of compare/: these have small
+  /// numbers, or numbers in which bit 63 is set.
   Random random(std::uint64_t use) const {
     return {seed, (std::uint64_t{1} << 62U) | (sample << 10U) | use};
   }
 };
 
 /// The seed of a run from the scenario's seed, the seed of the simulation and the number `sample`
-/// of the draw. The constant is 2^64 over the golden ratio, so that adjacent seeds give distant
-/// results.
+/// of the draw. The constant is 2^64 over the golden ratio: with it, adjacent seeds of a simulation
+/// give distant seeds of a run.
 inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::uint64_t sample) {
   return {scenario_seed + seed * 0x9E3779B97F4A7C15U, sample};
 }
@@ -31,8 +32,8 @@ inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::ui
 /// Generates the sum of the disturbance terms of one axis, sample by sample.
 class DisturbanceSource {
  public:
-  /// `first_use`: number of the stream (RunSeed::random) of the first term. The other terms have
-  /// the following numbers.
+  /// `first_use`: number of the random stream (RunSeed::random) of the first term. The further
+  /// terms use the numbers after it.
   DisturbanceSource(const std::vector<DisturbanceTerm>& terms, double sample_time_s,
                     const RunSeed& seed, std::uint64_t first_use);
   /// The sum over the sample that begins at `t_s`, in the unit of the terms. Call it once per

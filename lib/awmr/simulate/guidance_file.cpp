@@ -110,7 +110,8 @@ void check_segments(JsonObject& json, const char* key,
   }
 }
 
-/// Reads a line-following law with its own keys. Keys of other laws are reported as unknown.
+/// Reads a line-following law with its keys. Keys that only other laws have are reported as
+/// unknown.
 void read_line_law(JsonObject& json, LinePath& path) {
   path.law = line_laws()[json.has("law") ? json.choice("law", line_law_names()) : 0];
   const auto read = [&json](const char* key, double& parameter, const LawParameter& rule) {

@@ -1,6 +1,7 @@
-/// Steps of a sample that compute controllers and metrics of runs that are simulated together, on
-/// rows (row_view.h). With vehicle_steps.h, these steps are the arithmetic of the closed loop, for
-/// a single run and for several runs in vector registers. Private to this folder.
+/// The steps of a sample that compute the controllers and the metrics of runs that are simulated
+/// together. They work on rows (row_view.h). Together with vehicle_steps.h, they are the arithmetic
+/// of the closed loop, for a single run and for several runs in vector registers. Private to this
+/// folder.
 #pragma once
 
 #include "awmr/simulate/meter.h"

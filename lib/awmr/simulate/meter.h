@@ -1,6 +1,6 @@
-/// Accumulates the metrics of a run while it is simulated: each row is processed once, so no row is
-/// stored. Templates on the scalar: a double for a single run, or lanes::Lanes with one run per
-/// lane. Private to this folder.
+/// Accumulates the metrics of a run while it is simulated. Each row is processed once, so rows need
+/// not be stored. Templates on the scalar: a double for a single run, or lanes::Lanes with one run
+/// per lane. Private to this folder.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -56,7 +56,8 @@ struct MetricsTime {
   double t_s = 0.0;
   double since_last_s = 0.0;  ///< time since the previous row; 0 in the first row
   bool is_first = false;
-  bool starts_step = false;        ///< the commanded heading differs from that of the previous row
+  bool starts_step = false;        ///< true in the first row, and if the commanded heading differs
+                                   ///< from that of the previous row
   bool is_in_second_half = false;  ///< in the second half of the run; false without a timed path
 };
 
@@ -168,8 +169,8 @@ T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
   return select(steers, T(steering_rad / select(steers, steering_max_rad, T(1.0))), T(0.0));
 }
 
-/// Ends the current heading step: adds its settling time to the results, or notes that the heading
-/// did not settle.
+/// Ends the current heading step: updates the longest settling time, or notes that the heading did
+/// not settle.
 template <class T>
 void close_step(MetricsAccumulator<T>& m) {
   using math::select;
@@ -205,7 +206,7 @@ void measure_heading(const MetricsRow<T>& row, const MetricsTime& time, MetricsA
   m.error_deg = error_deg;
 }
 
-/// Updates the smallest speed since the commanded speed was first reached within 0.1 %.
+/// Updates the smallest speed since the speed first reached 99.9 % of the commanded one.
 template <class T>
 void measure_speed(const T& u_mps, const MetricsTask& task, MetricsAccumulator<T>& m) {
   using math::select;

@@ -1,5 +1,5 @@
-/// Metrics of one run, which are the columns of comparison.csv and the cost of tuning. A metric
-/// that has no meaning for the guidance of the run is absent, never 0.
+/// Metrics of one run. They are the columns of comparison.csv, and tuning computes its cost from
+/// them. A metric that has no meaning for the guidance of the run is absent, never 0.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@ namespace awmr {
 
 /// The metrics of one run.
 struct Metrics {
-  /// The task was completed without touching an obstacle. Headings: settled after every step.
-  /// Waypoints: all reached. Line: end reached. Timed path: within the tolerance in the second half
-  /// of the run.
+  /// True if the task was completed without touching an obstacle. Headings: every step settled.
+  /// Waypoints: all were reached. Line: its end was reached. Timed path: the distance from its
+  /// point was within the tolerance in the second half of the run.
   bool completed = true;
-  /// Settling time, s, the longest of all heading steps: from the step until the heading error |e|
-  /// stays within 2 % of the step's size (at least 0.5 deg). Absent if a step did not settle.
+  /// Settling time, s: from a heading step until the heading error |e| stays within 2 % of the size
+  /// of the step (at least 0.5 deg). The longest of all steps; absent if a step did not settle.
   std::optional<double> settling_time_s;
   /// Overshoot: largest angle by which the heading exceeds a commanded heading in the direction of
   /// its step, deg, >= 0.
@@ -25,22 +25,23 @@ struct Metrics {
   std::optional<double> heading_itae_degs2;  ///< integral of t |e|, t since the step (for tuning)
   std::optional<double> cross_track_rms_m;   ///< RMS distance from the current leg, line or path
   double path_length_m = 0.0;                ///< length of the driven path
-  /// Commanded speed minus the smallest speed after the commanded one was first reached within
-  /// 0.1 %, m/s, >= 0. Absent if the commanded speed was never reached or is not constant
+  /// Speed drop, m/s, >= 0: commanded speed minus the smallest speed since the speed first reached
+  /// 99.9 % of it. Absent if the speed never did, or if the commanded speed is not constant
   /// (slow-down, avoidance, timed path).
   std::optional<double> speed_drop_mps;
   double speed_itae_m_s = 0.0;  ///< integral of t |u_d - u| (for tuning)
   /// Largest sideslip |atan2(v, |u|)|, deg, while driving forward or backward above 0.05 m/s.
   double sideslip_max_deg = 0.0;
   double yaw_rate_max_degps = 0.0;  ///< largest |r|, deg/s
-  /// Total variation of the commanded d_r/d_max, F'L/F'max and F'R/F'max, summed, per second.
+  /// Sum of the total variations of the commanded d_r/d_max, F'L/F'max and F'R/F'max, divided by
+  /// the duration of the run, 1/s.
   double control_variation = 0.0;
   double control_effort = 0.0;  ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
   /// Smallest distance from the vehicle's circle to an obstacle, m; < 0 if they overlapped. Absent
   /// without obstacles.
   std::optional<double> clearance_min_m;
-  /// Time, s, at which the last waypoint or the end of the line was reached; absent if it was not
-  /// reached, a waypoint was missed, or the vehicle overlapped an obstacle.
+  /// Time, s, at which the last waypoint or the end of the line was reached. Absent if it was not
+  /// reached, if a waypoint was missed, or if the vehicle overlapped an obstacle.
   std::optional<double> finish_time_s;
 
   /// Positive mechanical work of the motors, over F_max, m; braking recovers no energy:

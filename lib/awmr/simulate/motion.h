@@ -40,16 +40,16 @@ SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
   return {command.left + behind.left * mean_share, command.right + behind.right * mean_share};
 }
 
-/// Distributes left and right forces to the wheels. Both wheels of a side have the same force; rear
-/// wheels that are not driven (Plant::rear_driven) have none.
+/// Distributes left and right forces to the wheels: both wheels of a side get the same force. Rear
+/// wheels that are not driven (Plant::rear_driven) get none.
 template <class T>
 WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// Returns the motor commands `arriving`, which the lag has delayed, with 0 for each motor that is
-/// switched off. With back-EMF, the command 0 switches a motor off at once. If the lagging command
-/// were still applied, the back-EMF would brake the wheel (motor_force() in dynamics.h).
+/// Returns the lagging motor commands `arriving`, with 0 for each motor that is switched off. With
+/// back-EMF, the command 0 switches a motor off at once. If its lagging command were still applied,
+/// the back-EMF would brake the wheel (motor_force() in dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {

@@ -9,19 +9,19 @@
 
 namespace awmr {
 
-/// Speed |u|, m/s, below which a vehicle that obstacles leave no passage counts as stopped; its run
+/// If obstacles leave a vehicle no passage, it counts as stopped below this speed |u|, m/s. Its run
 /// then ends as RunEnd::kNoPassage.
 inline constexpr double kStopped_mps = 1e-3;
 
 /// The controller with the allocation form and the split that the scenario requests.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
-/// Properties common to the controllers of the runs of a scenario; `controller` is that of any run.
-/// is_observed, which depends on the gains of each run, is left false.
+/// Properties common to the controllers of all runs of a scenario. `controller`: that of any of the
+/// runs. is_observed depends on the gains of each run, so it is left false.
 ControllerSetup controller_setup(const Scenario& scenario, const Controller<double>& controller,
                                  double sample_time_s);
 
-/// The controller of a run in this mode. `controller` is the scenario's (controller_in()).
+/// The controller of a run in this mode. `controller`: the result of controller_in().
 RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
                                      YawMode mode);
 
@@ -35,7 +35,7 @@ double clearance_m(const Scenario& scenario, const State<double>& state);
 /// True if every number of the row is finite.
 bool is_finite(const RunRow& row);
 
-/// Index, from 0, of the last sample within the duration, allowing for rounding.
+/// Index, from 0, of the last sample within the duration. Tolerates rounding of the duration.
 std::size_t samples_in(double duration_s, double sample_time_s);
 
 }  // namespace awmr

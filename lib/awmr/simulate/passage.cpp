@@ -7,7 +7,8 @@
 namespace awmr {
 namespace {
 
-/// Radius of a shrunk disc, over the distance of its centre from the point that it must exclude.
+/// Radius of a shrunk disc divided by the distance from its centre to the point that must be
+/// outside.
 constexpr double kShrunk = 1.0 - 1e-9;
 
 /// Twice the signed area of the triangle a, b, c; >= 0 if c is left of the line from a to b or on
@@ -16,17 +17,17 @@ double turn(const Position<double>& a, const Position<double>& b, const Position
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }
 
-/// True if the segments a-b and c-d cross. A point on a line counts as left of the line, so that a
-/// chain whose vertex lies on the other segment crosses that segment once.
+/// True if the segments a-b and c-d cross. A point on a line counts as left of it. So a chain of
+/// segments with a vertex on the segment a-b crosses it once and not twice.
 bool cross(const Position<double>& a, const Position<double>& b, const Position<double>& c,
            const Position<double>& d) {
   const auto left = [](double area) { return area >= 0.0; };
   return left(turn(a, b, c)) != left(turn(a, b, d)) && left(turn(c, d, a)) != left(turn(c, d, b));
 }
 
-/// Groups of overlapping discs (union-find with parities). An edge joins the centres of two discs;
-/// it is odd if it crosses the segment from `from` to `to`. The parity of a disc says whether the
-/// path to the root of its group has an odd number of odd edges.
+/// Groups of overlapping discs (union-find with parities). An edge joins the centres of two discs.
+/// It is odd if it crosses the segment from `from` to `to`. The parity of a disc is odd if the path
+/// from it to the root of its group has an odd number of odd edges.
 class ParitySets {
  public:
   explicit ParitySets(std::size_t count) : parent_(count), odd_(count, false) {

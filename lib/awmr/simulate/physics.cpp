@@ -12,13 +12,13 @@ namespace awmr {
 namespace {
 
 /// RK4 steps per smallest time constant of the smooth part of the plant. For an eigenmode with the
-/// time constant T, the error of a step h is (h/T)^5/120 of the excursion, 1e-6 for h = T/6, and
-/// decays with T. tests/peers compares positions after a minute with an independent integrator: the
-/// difference is 1e-5 m.
+/// time constant T, a step h has the error (h/T)^5/120, relative to the excursion: 1e-6 for
+/// h = T/6. This error decays with T. tests/peers compares positions after a minute with an
+/// independent integrator: the difference is 1e-5 m.
 constexpr double kStepsPerTimeConstant = 6.0;
 
-/// Largest speed (m/s, rad/s) up to which a chord, a straight line through the origin, may replace
-/// a resistance.
+/// A chord, a straight line through the origin, may replace a resistance up to this speed (m/s or
+/// rad/s).
 constexpr double kChordSpeed = 1e-3;
 
 double step_for_chord(const Resistance<double>& law, double inertia) {
@@ -37,8 +37,8 @@ double slipping(const Plant<double>& plant, double command, double wheel_mps, do
   return with_dead_zone(math::saturate(force, most) + k * wheel_mps, plant.wheel_dead_zone);
 }
 
-/// Number of integration steps per sample. Allows for rounding, so that a sample of exactly n steps
-/// has n.
+/// Number of integration steps per sample. The tolerance 1e-9 prevents rounding from adding a step
+/// to a sample of exactly n steps.
 double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_time_s) {
   return std::max(1.0, std::ceil(sample_time_s / step_limit(plant, on_tyres).step_s - 1e-9));
 }

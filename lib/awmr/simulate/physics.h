@@ -44,8 +44,8 @@ class Physics {
 /// or slippery discs.
 bool forces_differ_by_wheel(const Scenario& scenario);
 
-/// Applied wheel forces at `t_s`: the motor commands `force` after motor faults and the limits of
-/// slippery discs. Assumes that both axles have the same distance from the centre of gravity.
+/// Applied wheel forces at `t_s`: the motor commands `force`, changed by motor faults and limited
+/// on slippery discs. Assumes that both axles have the same distance from the centre of gravity.
 WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force);
@@ -53,7 +53,8 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
 /// The lag of the scenario's motors over a sample; no lag without actuators.
 MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s);
 
-/// Largest motor command at `t_s`, over its value with a full battery, in [0, 1]; without the sag.
+/// Largest motor command at `t_s`, divided by its value with a full battery, in [0, 1]. Sag is not
+/// included.
 double battery_share(const Battery& battery, double t_s);
 
 /// Rounds the steering command to the nearest step of the servo, and the motor commands `force` to
@@ -66,14 +67,14 @@ void quantise(const Actuators& actuators, double force_max, SideForces<double>& 
 /// its chord is chosen for them (resolved_at_rest_on_tyres()).
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
-/// Longest RK4 step that resolves the time constants which do not depend on speed, and the
-/// parameter of the model that limits the step.
+/// Longest RK4 step that resolves the time constants that do not depend on speed. `parameter`: the
+/// parameter of the model that determines it.
 struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};
 };
-/// Computes the limit for a plant; with `on_tyres`, without sway resistance g2 and yaw resistance
-/// g3, which the tyres replace.
+/// Computes the limit for a plant. With `on_tyres`, the sway resistance g2 and the yaw resistance
+/// g3 are left out, because the tyres replace them.
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
 /// Number of RK4 steps of a run over the whole duration of the scenario, if no step is halved.

@@ -23,8 +23,8 @@ constexpr int kMaxTries = 1000;
 /// Number of the random stream of the scrub moment, separate from that of the other parameters.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 
-/// Relative tolerance for negative eigenvalues: a derived parameter (m' from a1, b1) makes the
-/// covariance singular, so rounding can make an eigenvalue negative.
+/// Relative tolerance for negative eigenvalues. A derived parameter (m' from a1, b1) makes the
+/// covariance singular, and rounding can then make an eigenvalue negative.
 constexpr double kSingularTolerance = 1e-9;
 
 /// False for a negative exponent or optional term of a resistance (Coulomb, quadratic, dead zone):
@@ -34,15 +34,15 @@ bool is_admissible(ParameterId id, double value) {
   return !(is_exponent || info(id).term) || value >= 0.0;
 }
 
-/// Smallest relative position of a draw in its stratum, in [0, 1): at position 0 of the first
+/// Smallest relative position of a draw in its stratum, in [0, 1). At the position 0 of the first
 /// stratum, the normal quantile would be infinite.
 constexpr double kInsideStratum = 1e-6;
 
 /// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
 double normal_quantile(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p); }
 
-/// Value at the normal score x of a quantity with the quantiles y: linear interpolation between the
-/// quantiles, and linear extrapolation beyond them.
+/// Value of a quantity with the quantiles y at the normal score x. It is linearly interpolated
+/// between the quantiles, and linearly extrapolated beyond them.
 double interpolate(const Quantiles& y, double x) {
   std::size_t right = 1;
   while (right + 1 < kQuantileCount && x > kQuantiles[right].normal_score) ++right;

@@ -19,8 +19,8 @@ inline constexpr double kGripShare = 0.25;
 /// the delta method, with dp/dz = p for a logarithmic and 1 for a linear coordinate,
 ///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q).
 ///
-/// For an estimate with quantiles, the same normal numbers are transformed (a Gaussian copula): z
-/// is piecewise linear in the normal score, through the coordinates of the quantiles, and
+/// For an estimate with quantiles, z is a piecewise linear function of the same normal number (a
+/// Gaussian copula). This function passes through the coordinates of the quantiles and is
 /// extrapolated beyond them. So the distribution of the parameter has the quantiles of model.json,
 /// and its rank correlations are those of C.
 ///
@@ -32,7 +32,8 @@ inline constexpr double kGripShare = 0.25;
 /// negative, because a resistance neither falls with speed nor drives the vehicle. All parameters
 /// are drawn again until this holds. So a term that was fitted as 0 has a half-normal distribution
 /// with a mean of 0.8 standard errors. surge_beta_range and yaw_beta_range of the vehicle do not
-/// limit draws, because an estimate near an end of its range is uncertain on both sides.
+/// limit draws, because the true value of an estimate near an end of its range can lie beyond that
+/// end.
 class PlantSampler {
  public:
   /// A sampler for the model. The scrub moment, if the model has one, is drawn with
@@ -46,10 +47,10 @@ class PlantSampler {
   /// Same as draw(), but returns the plant as a model, with the intervals of the identified model.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
-  /// Latin hypercube of `count` draws, which are evenly distributed even if they are few. Each
-  /// standard normal number has one value in each of `count` strata of equal probability. The seed
-  /// determines the order of the strata and the position within each. The i-th draw, if it has a
-  /// negative exponent or term, is replaced by draw(seed, i), i from 1.
+  /// Latin hypercube of `count` draws, which cover the distribution evenly even if they are few.
+  /// Each standard normal number has one value in each of `count` strata of equal probability. The
+  /// seed determines the order of the strata and the position within each. If the i-th draw, i from
+  /// 1, has a negative exponent or term, it is replaced by draw(seed, i).
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
   /// The plant for given standard normals n, one for each parameter of the covariance:
@@ -58,7 +59,7 @@ class PlantSampler {
   /// not raised to mass_norm_by_grip, and the scrub moment is that of the model.
   std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
   /// Degrees of freedom k of the draws: the number of independent directions of the normals n on
-  /// which the parameters depend. The part of n in these directions is at most r long with the
+  /// which the parameters depend. Let n' be the part of n in these directions. P(|n'| <= r) is the
   /// probability that a chi-squared variable with k degrees of freedom is below r^2. Derived
   /// parameters (m' from a1, b1) do not count.
   int rank() const;

@@ -11,13 +11,14 @@
 
 namespace awmr {
 
-/// Standard deviation of a fix per axis, m: noise and quantisation.
+/// Standard deviation of a fix per axis, m, by noise and quantisation together.
 inline double fix_noise_m(const Gps& gps) {
   return std::sqrt(gps.x.noise * gps.x.noise + gps.x.quantum * gps.x.quantum / 12.0);
 }
 
-/// Returns the firmware's position estimate if the scenario has a GPS and does not disable the
-/// estimate; else the measured position: the last fix of a GPS, or the true position without GPS.
+/// Computes the firmware's position estimate if the scenario has a GPS and does not disable the
+/// estimate. Otherwise passes on the measured position: the last fix of a GPS, or the true position
+/// without GPS.
 class Positioning {
  public:
   Positioning(const Scenario& scenario, double sample_time_s) {

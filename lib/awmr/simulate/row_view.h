@@ -11,14 +11,14 @@
 #include <cstddef>
 #include <cstring>
 
-/// Attribute of a step of the loop: all functions that it calls are inlined, because a call would
-/// move registers to memory.
+/// Attribute of a step of the loop: the compiler inlines all functions that the step calls, because
+/// a call would move registers to memory.
 #define AWMR_WHOLE __attribute__((flatten))
 
 namespace awmr {
 
-/// View for a single run (Row = T): gives access to the numbers themselves. T: double, or a scalar
-/// type of the same size, which tests/bench uses to count operations.
+/// View for a single run (Row = T): returns the numbers themselves. T: double, or the scalar type
+/// of the same size with which tests/bench counts operations.
 template <class T>
 struct OneRunOf {
   using Number = T;

@@ -1,6 +1,7 @@
-/// The simulated controller of a run: computes the commands of a sample from measurements and
-/// reference by control laws (or LQI, constant thrust, open loop), disturbance observer and
-/// allocation. Templates for a single run and for a batch of runs. Private to this folder.
+/// The simulated controller of a run. It computes the commands of a sample from measurements and
+/// reference. Its parts are the control laws (or LQI, constant thrust, open loop), the disturbance
+/// observer and the allocation. Templates for a single run and for a batch of runs. Private to this
+/// folder.
 #pragma once
 
 #include "awmr/control/control_step.h"
@@ -54,7 +55,7 @@ Observers<T> observers_of(const ControllerSetup& setup, const RunController<T>& 
   return {c.yaw_observer, c.surge_observer, setup.anti_windup};
 }
 
-/// yaw_split() of the run's yaw mode, which follows from steering_share: 0, 1/2 or 1.
+/// yaw_split() of the run's yaw mode. The mode is known from its steering_share: 0, 1/2 or 1.
 template <class T>
 YawSplit<T> yaw_split_of(const ControllerSetup& setup, const RunController<T>& c) {
   const Mask<T> may = Mask<T>(setup.split == CombinedSplit::kRedistribute);

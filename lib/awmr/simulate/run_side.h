@@ -17,8 +17,8 @@ namespace awmr {
 std::filesystem::path run_side_path(const std::filesystem::path& csv);
 
 /// Content of the side file: `provenance`, the SHA-256 of the text `csv`, the keys of the JSON
-/// object in the text `figures`, and the findings. Precondition: `figures` is empty, or has none of
-/// the other keys.
+/// object in the text `figures`, and the findings. Precondition: `figures` is empty, or its keys
+/// differ from the other keys of the file.
 std::string run_side_text(std::string_view csv, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 

@@ -14,7 +14,7 @@ namespace awmr {
 /// those of read_csv(); decreasing time.
 Result<CsvTable> read_run(const std::filesystem::path& path);
 
-/// Checks the text of a run.csv by parsing it, for the check after writing (core/file.h). Errors:
+/// Checks the text of a run.csv by parsing it: the ReadBack (core/file.h) of this format. Errors:
 /// those of read_run().
 Status check_run_text(std::string_view text, const std::string& file);
 

@@ -23,8 +23,8 @@
 
 namespace awmr {
 
-/// Open loop: constant generalised forces, which the allocation of the yaw mode limits and converts
-/// to commands.
+/// Open loop: constant generalised forces. The allocation of the yaw mode limits them and converts
+/// them to commands.
 struct OpenLoop {
   double tau_speed = 0.0;   ///< thrust over F_max, dimensionless, forward positive
   double tau_turn_m = 0.0;  ///< yaw moment over F_max, m, counter-clockwise positive
@@ -39,8 +39,8 @@ struct HeadingStep {
 /// A sequence of commanded headings; each holds until the next. The first is commanded at t = 0.
 struct HeadingSteps {
   std::vector<HeadingStep> steps;  ///< strictly increasing in time, not empty
-  /// Constant tau_speed in place of a speed, dimensionless, forward positive, as in the paper's
-  /// experiment: without speed law and surge observer. Absent: the speed law controls the
+  /// Constant thrust tau_speed, dimensionless, forward positive, as in the paper's experiment. It
+  /// replaces the speed law, and there is no surge observer. Absent: the speed law controls the
   /// scenario's speed_mps.
   std::optional<double> tau_speed = {};
 };
@@ -73,8 +73,8 @@ struct LinePath {
   std::optional<double> slow_down_m;  ///< see WaypointPath; distance along the last segment
 };
 
-/// A timed path: a point that moves along a curve. If the scenario's speed_mps is 0, the commanded
-/// speed is that of the path; else it is speed_mps (only without position feedback).
+/// A timed path: a point that moves along a curve. The commanded speed is that of the point if the
+/// scenario's speed_mps is 0, else speed_mps. The latter is allowed only without position feedback.
 struct LissajousPath {
   Lissajous<double> path{};
   bool closed_loop = false;          ///< with position feedback
@@ -152,8 +152,8 @@ struct TyreConflict {
   std::string key;
   std::string message;  ///< the reason and the remedy
 };
-/// The conflicts of the scenario with the key `tyres`. They are returned even if the scenario has
-/// no tyres, for callers that want to add tyres.
+/// The keys of the scenario that conflict with the key `tyres`. They are returned even if the
+/// scenario has no tyres, for callers that want to add tyres.
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 
 /// Errors (input): the scenario has tyres and one of tyre_conflicts().

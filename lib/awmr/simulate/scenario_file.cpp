@@ -22,7 +22,7 @@ State<double> read_initial(JsonObject json) {
 }
 
 /// Reads speed_mps, the commanded speed u_d. With constant thrust (`holds_thrust`), no speed is
-/// commanded: the key is then an error, and 0 is returned without it.
+/// commanded: the key is then an error if it is present, and the result is 0.
 double read_speed(JsonObject& json, bool holds_thrust) {
   if (!json.has("speed_mps")) {
     if (!holds_thrust) json.fault(ErrorCode::kMissing, "speed_mps", "this key is missing; add it");

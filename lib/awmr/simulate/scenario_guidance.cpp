@@ -92,9 +92,9 @@ GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
   return output;
 }
 
-/// True if obstacles leave a way from `from` to `to`, the target of the leg with the index `leg`.
-/// The check is made once per leg, from the vehicle's position at the start of the leg. Always true
-/// without avoidance.
+/// True if the obstacles leave a way from `from` to `to`, the target of the leg with the index
+/// `leg`. Checks this once per leg, with the vehicle's position at the start of the leg, and then
+/// returns the stored result. Always true without avoidance.
 bool ScenarioGuidance::way_is_free(const Position<double>& from, const Position<double>& to,
                                    int leg) {
   if (!scenario_->avoidance) return true;

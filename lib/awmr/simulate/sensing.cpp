@@ -114,9 +114,10 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   return sensed;
 }
 
-/// Sets the measured position to the last fix that has arrived. Before the first fix, this is the
-/// true initial position, as if a fix had been taken one GPS period before the start. A fix that is
-/// lost in a drop-out takes its random numbers too, so that the other fixes keep their noise.
+/// Sets the measured position to the last fix that has arrived. Before the first fix arrives, this
+/// is the true initial position, as if a fix had been taken one GPS period before the start. A fix
+/// that is lost in a drop-out also uses up its random numbers, so that drop-outs do not change the
+/// noise of the other fixes.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   if (k < kept_) true_m_.emplace_back();

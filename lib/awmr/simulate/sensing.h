@@ -52,15 +52,17 @@ class Sensing {
     Random random;
     const std::vector<double>* normals;  ///< one w_k per sample; null: drawn from `random`
   };
-  /// The true value of the quantity at the time of the k-th sample minus the latency of the sensor,
-  /// interpolated linearly between samples. Before the first sample, the value of the first sample.
+  /// The true value of the quantity, earlier than the k-th sample by the latency of the sensor. It
+  /// is interpolated linearly between samples. For times before the first sample, it is the value
+  /// of the first sample.
   double truth_at(std::size_t k, const Sensor& sensor, double Measurement<double>::*quantity) const;
 
   std::optional<Sensors> sensors_;
   double sample_time_s_;
   Sensor heading_, yaw_rate_, speed_;
   Random gps_;
-  std::vector<Measurement<double>> motion_;  ///< true motion of the samples within the latency
+  std::vector<Measurement<double>> motion_;  ///< true motion of the latest samples, as many as the
+                                             ///< sensors' latencies need
   std::size_t kept_;                         ///< number of samples within the latency of the GPS
   std::vector<Position<double>> true_m_;     ///< true position of sample k at k modulo kept_
   Position<double> fix_m_{};                 ///< the last fix

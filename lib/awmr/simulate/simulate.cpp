@@ -60,7 +60,7 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
 
 namespace {
 
-/// The observer of the scenario, else that of the gains; bandwidth 0 if there is none. With an LQI,
+/// The observer that the scenario gives, else that of the gains. Bandwidth 0: none. With an LQI,
 /// the observer of the gains is not used, because it was tuned for the sliding mode.
 ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>& gains) {
   ObserverGains<double> observer = scenario.control.lqi ? ObserverGains<double>{} : gains.observer;

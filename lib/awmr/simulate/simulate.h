@@ -1,5 +1,5 @@
-/// Simulation of one run in closed loop. The command of the controller is constant over each
-/// sample, during which the plant is integrated by RK4 steps.
+/// Simulation of one run in closed loop. Over each sample, the command of the controller is
+/// constant, and the plant is integrated by RK4 steps.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,8 @@ struct RunRow {
   /// Distance from the vehicle's circle (a point without avoidance) to the nearest obstacle, m; < 0
   /// if they overlap; 0 without obstacles.
   double clearance_m = 0.0;
-  /// Power dissipated by the lateral tyre forces, over F_max, m/s. In the 3-DOF model: by tyre
-  /// scrub only, without the yaw resistance g3.
+  /// Power dissipated by the lateral tyre forces, over F_max, m/s. In the 3-DOF model, it is the
+  /// power dissipated by tyre scrub; that of the yaw resistance g3 is not included.
   double tyre_power_mps = 0.0;
   /// Mean wheel forces over the sample that ends at this row, over F_max, after motor lag, battery,
   /// faults and slippery ground; dead zone and back-EMF are not subtracted. 0 in the first row.
@@ -92,21 +92,21 @@ inline constexpr double kMaxRows = 2e6;
 inline constexpr double kMaxSteps = 1e8;
 inline constexpr int kMaxSubsteps = 100'000'000;
 
-/// Number of RK4 steps per sample, in [1, kMaxSubsteps], that resolve the time constants of the
-/// plant which do not depend on speed (step_limit() in physics.h).
+/// Number of RK4 steps per sample, in [1, kMaxSubsteps]. They resolve those time constants of the
+/// plant that do not depend on speed (step_limit() in physics.h).
 int substeps_for(const Plant<double>& plant, double sample_time_s);
 /// substeps_for() in a scenario: its tyres, if any, replace the plant's sway and yaw resistance.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 /// A controller with the parameters of this plant, whose resistances it feeds forward, with these
-/// gains and the limits of the vehicle. Its yaw law has the friction width of the steering mode; a
-/// run replaces it by that of its mode.
+/// gains and the limits of the vehicle. Its friction width in yaw is that of the steering mode;
+/// each run sets that of its own mode.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
-/// A controller with the estimates of the model; a scenario's corner does not change them. If the
-/// model only has parameters for straight motion, so has the controller. Errors (input): those of
+/// A controller with the estimates of the model, whatever corner a scenario has. If the model only
+/// has parameters for straight motion, the same holds for the controller. Errors (input): those of
 /// Model::plant() and check_observer_rate().
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
@@ -118,8 +118,8 @@ Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scena
                      YawMode mode);
 
 /// Checks the length of a run before it is simulated. Errors (input): the run would have more than
-/// kMaxRows rows (the message names duration_s), or more than kMaxSteps RK4 steps (the message
-/// names the parameter whose time constant requires them). `model_file`: name for the message.
+/// kMaxRows rows, or more than kMaxSteps RK4 steps. The message names duration_s, or the parameter
+/// whose time constant requires so many steps. `model_file`: name for the message.
 Status check_work(const Plant<double>& plant, const std::string& model_file,
                   const Scenario& scenario, double sample_time_s);
 

@@ -63,7 +63,7 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
 }
 
 /// Magnitude of the yaw rate, deg/s, after 10 s in open loop with half of the largest thrust and
-/// the yaw moment tau_turn_m: of the 3-DOF model, or of the vehicle on `tyres` if given.
+/// the yaw moment tau_turn_m. The vehicle is the 3-DOF model, or is on `tyres` if they are given.
 double turned_degps(const Model& model, double tau_turn_m,
                     const std::optional<Tyres<double>>& tyres) {
   Scenario turn;

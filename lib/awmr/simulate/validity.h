@@ -16,9 +16,9 @@
 
 namespace awmr {
 
-/// Warning `tyres-differ`: with the yaw moment that makes the model turn at the highest measured
-/// yaw rate, the vehicle on the scenario's tyres turns more than 1.5 times as fast as the model, or
-/// less than 1/1.5 times as fast. Absent without tyres or without a measured yaw rate.
+/// Warning `tyres-differ`: the yaw rates of the model and of the vehicle on the scenario's tyres
+/// differ by more than a factor of 1.5. Both turn with the yaw moment that makes the model turn at
+/// the highest measured yaw rate. Absent without tyres or without a measured yaw rate.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
 /// Warning `no-interval`: some fitted parameters have neither standard error nor 95 % interval, so
@@ -38,13 +38,14 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const 
                                               const Gains<double>& gains, const std::string& file);
 
 /// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth
-/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). A filter that the scenario already
-/// has keeps its bandwidth and gets the smaller of the two rate limits. No effect in open loop.
+/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). If the scenario already has a
+/// filter, that filter keeps its bandwidth, and the smaller of its rate limit and `limit_degps` is
+/// used. No effect in open loop.
 void limit_heading_rate(double limit_degps, Scenario& scenario);
 inline constexpr double kShapingBandwidth_radps = 4.0;
 
-/// Value of the option --heading-rate-limit: deg/s from 0.1 to 3600, "measured" (the highest
-/// measured yaw rate, measured_yaw_rate_degps()) or "none"; empty: the option is not given.
+/// Value of the option --heading-rate-limit: a number from 0.1 to 3600 in deg/s, "measured" (the
+/// highest measured yaw rate, measured_yaw_rate_degps()) or "none". Empty: the option is not given.
 using HeadingRateChoice = std::string;
 inline constexpr Interval kHeadingRateLimits_degps{0.1, 3600.0};
 inline constexpr const char* kMeasuredRate = "measured";
@@ -55,9 +56,9 @@ inline constexpr const char* kRateName = "heading_rate_limit";
 /// The message for an invalid choice; empty if the choice is valid.
 std::string fault_of_rate(const HeadingRateChoice& choice);
 
-/// The choice that a comparison uses: `choice`, the value of the option, if it is not empty.
-/// Default: "measured" if the model has a highest measured yaw rate, because the yaw resistance is
-/// extrapolated in faster turns; else "none".
+/// The heading rate limit that a comparison uses: the value of the option, `choice`, if it is
+/// given. Default: "measured" if the model has a highest measured yaw rate, because the yaw
+/// resistance is extrapolated in faster turns; else "none".
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model);
 
 /// Applies the limit to every scenario; no effect if the choice is empty or "none". Errors (input):
@@ -71,9 +72,9 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
                                                 const Model& model);
 
-/// Warning `beyond-trials` if a turn of `fastest_degps`, >= 0, is more than kLittleFurther times as
-/// fast as `measured_degps` > 0, the highest rate at which the yaw resistance was measured. `file`:
-/// the file of the model. The other parameters: see note_extrapolation().
+/// Warning `beyond-trials`: a turn of `fastest_degps`, >= 0, is more than kLittleFurther times as
+/// fast as `measured_degps` > 0, the highest rate at which the yaw resistance was measured. Else
+/// absent. `file`: the file of the model. For the other parameters, see note_extrapolation().
 std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
                                              double fastest_degps, const std::string& where,
                                              bool is_rate_limited);
@@ -84,8 +85,8 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         std::vector<Finding>& findings, bool is_rate_limited = false);
 
-/// note_extrapolation() for the run with the highest yaw rate among `runs`, whose elements have
-/// `metrics`. `where(run)` returns the name of a run.
+/// Calls note_extrapolation() for that element of `runs` with the highest yaw rate, and returns the
+/// findings. The elements have a member `metrics`. `where(run)` returns the name of a run.
 template <class Runs, class Where>
 std::vector<Finding> extrapolation_in(const Model& model, const Runs& runs, const Where& where,
                                       bool is_rate_limited = false) {

@@ -1,6 +1,6 @@
-/// Steps of a sample that compute the vehicles of runs that are simulated together, on rows
-/// (row_view.h): from the commands through motors and battery to the motion. Private to this
-/// folder.
+/// The steps of a sample that compute the vehicles of runs that are simulated together: from the
+/// commands through motors and battery to the motion. They work on rows (row_view.h). Private to
+/// this folder.
 #pragma once
 
 #include "awmr/simulate/motion.h"
@@ -185,9 +185,10 @@ void move_alone(const View& view, Vehicles<Row>& v, const SideForces<typename Vi
       stepper);
 }
 
-/// Integrates the vehicles. The functions that compute the state's derivatives contain only the
-/// terms that at least one vehicle needs, because a branch inside them would stall the processor in
-/// every step.
+/// Integrates the vehicles. There are several functions that compute the state's derivatives. Of
+/// those that have all terms that these vehicles need, this uses the one with the fewest terms. The
+/// choice is made here, because a branch inside the function would stall the processor in every
+/// step.
 template <class View, class Row, class Stepper = RungeKutta4>
 void move(const View& view, Vehicles<Row>& v, const Stepper& stepper = {}) {
   using T = typename View::Number;

@@ -1,6 +1,6 @@
 /// Parts of a scenario that act on the vehicle or its controller: disturbances, motor faults,
 /// slippery ground, battery, sensors, actuators and options of the controller. All are off unless
-/// the scenario sets them. Random numbers come from seeds.
+/// the scenario sets them. Their random numbers are generated from seeds.
 #pragma once
 
 #include <cmath>
@@ -79,15 +79,15 @@ struct SlipperyPatch {
   double force_max = 0.0;  ///< largest force of a wheel on the disc, over F_max, >= 0
 };
 
-/// Battery discharge: the largest command that takes effect at a motor decreases linearly from
-/// `from_s` to `to_s`, to `share_end` of the largest command, and is then constant. In addition,
-/// the voltage sags under the motors' current. The controller measures neither.
+/// Battery. Discharge: the largest command that takes effect at a motor decreases linearly from
+/// `from_s` to `to_s`, to the fraction `share_end` of the largest command, and is then constant.
+/// Sag: the voltage falls under the motors' current. The controller measures neither.
 struct Battery {
   double from_s = 0.0;     ///< start of the decrease, >= 0
   double to_s = 1.0;       ///< end of the decrease, > from_s
   double share_end = 1.0;  ///< largest command at the end, over that at the start, [0, 1]
-  /// Ratio of the battery's internal resistance to that of one motor's winding, >= 0: approximately
-  /// the relative voltage drop with one stalled motor. 0: no sag.
+  /// Ratio of the internal resistance of the battery to that of the winding of one motor, >= 0. It
+  /// is approximately the relative voltage drop when one motor is stalled. 0: no sag.
   double sag = 0.0;
 };
 
@@ -116,7 +116,7 @@ struct Gps {
   std::vector<Window> dropouts;  ///< fixes that are taken in these windows are lost
 };
 
-/// Sensors of the controller. A quantity without a sensor has its true value. Exception: if
+/// Sensors of the controller. A quantity without a sensor is measured exactly. Exception: if
 /// `sway_measured` is false, the measured sway speed is 0, as on most real vehicles.
 struct Sensors {
   Channel heading;            ///< rad
@@ -148,8 +148,8 @@ struct ControlOptions {
     double bandwidth_radps = 0.0;  ///< L of DisturbanceObserver, > 0
     double yaw_max_m = 0.0;  ///< largest estimated disturbance in yaw: moment over F_max, m, > 0
     double surge_max = 0.0;  ///< largest estimated disturbance in surge: force over F_max, > 0
-    /// true: the observer uses the command after the limits. false: it uses the command before
-    /// them, so that a saturated actuator looks like a disturbance and the estimate winds up.
+    /// true: the observer uses the command after the limits. false: it uses the command before the
+    /// limits; a saturated actuator then looks like a disturbance, and the estimate winds up.
     bool anti_windup = true;
   };
   std::optional<Observer> observer;

@@ -31,8 +31,8 @@ struct Avoidance {
   T vehicle_radius_m;
   /// clearance, m, > 0: free distance between that circle and the obstacle.
   T clearance_m;
-  /// m, >= 0: while the heading is turned away from obstacles, an obstacle counts until D_obs
-  /// exceeds MMD by this. It prevents the avoidance from switching on and off at D_obs = MMD.
+  /// m, >= 0: once the heading is turned away from obstacles, an obstacle counts until its D_obs
+  /// exceeds MMD by this value. So the avoidance does not switch on and off at D_obs = MMD.
   T hysteresis_m;
   /// rad, >= 0: the side on which the vehicle passes changes only if the turn to the other side is
   /// smaller by more than this.
@@ -138,7 +138,7 @@ struct Surroundings {
       const T grown_m =
           obstacles[i].radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m / T(2.0);
       const T centre_m = distance_m(position_m, obstacles[i].centre_m);
-      // Farther than brake_m: no heading can reach the circle within brake_m.
+      // The circle is farther away than brake_m in every direction.
       if (centre_m - grown_m > avoidance.brake_m) continue;
       const T off = bearing_rad(position_m, obstacles[i].centre_m, psi_rad) - psi_rad;
       const T along_m = centre_m * cos(off);

@@ -30,7 +30,7 @@ void disable_guidance(GuidanceLaws<T, P>& g) {
   disable(part_of<typename P::Shaping>(g));
 }
 
-/// True if the guidance reads the position in the next step.
+/// True if the guidance will use the position in the next step.
 template <class T, class P>
 AWMR_INLINE bool guidance_needs_position(GuidanceLaws<T, P>& g) {
   return g.waypoints.count > 0 || needs_position(part_of<typename P::Line>(g)) ||
@@ -157,7 +157,8 @@ AWMR_CALLED void guide_by_path(Path& part, const VehiclePose<T, Time>& at, Refer
   if (!(ref.speed_mps > T(0.0))) ref.speed_mps = guided.speed_mps;
 }
 
-/// Follows waypoints, a line or a path; without them, the reference stays as it is.
+/// Writes the reference for following waypoints, a line or a path. If there are none of these, the
+/// reference stays as it is.
 template <class T, class P, class Time>
 AWMR_INLINE GuidanceTarget<T> guide_by_route(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
                                              Reference<T>& ref) {

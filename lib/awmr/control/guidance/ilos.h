@@ -1,8 +1,9 @@
 /// Integral line of sight (ILOS), a guidance law that follows a line. Freestanding C++14.
 ///
-/// With a side slope, an unmeasured sideslip or a steady heading error, a vehicle that aims at a
-/// point of the line ends up parallel to the line, at a constant offset. ILOS integrates the offset
-/// and shifts the aim to the other side of the line until the vehicle is on the line.
+/// A vehicle that aims at a point of the line is driven off the line by a side slope, an unmeasured
+/// sideslip or a steady heading error. It then drives parallel to the line at a constant offset.
+/// ILOS integrates the offset and shifts the aim to the other side of the line until the vehicle is
+/// on the line.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -36,7 +37,7 @@ struct IntegralLos {
 /// (Borhaug, Pavlov, Pettersen, Integral LOS control for path following of underactuated marine
 /// surface vessels in the presence of constant ocean currents, 2008, (7); Lekkas, Fossen, Integral
 /// LOS path following for curved paths based on a monotone cubic Hermite spline, 2014). Far from
-/// the line y_int hardly grows, so the law does not wind up. y_int restarts at 0 on each segment,
+/// the line, y_int hardly grows, so it does not wind up. y_int restarts at 0 on each segment,
 /// because the disturbance has another direction relative to the new segment.
 template <class T>
 T approach_rad(const IntegralLos<T>& law, const AlongSegment<T>& s, const LineMotion<T>& motion,

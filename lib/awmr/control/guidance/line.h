@@ -28,8 +28,8 @@ AWMR_CALLED T sideslip_rad(const T& u_mps, const T& v_mps) {
 /// t = (B - A)/|B - A|:
 ///   psi_AB = atan2(t_y, t_x)
 ///   e      = -(x - x_A) t_y + (y - y_A) t_x                         [paper (104)-(106), corrected]
-/// Corrected: (105) prints the direction from B to A. (104) and (106) print distance and direction
-/// by the line's slope, which a vertical line does not have and which is the same from B to A.
+/// Corrected: (105) prints the direction from B to A. (104) and (106) use the slope of the line,
+/// which is infinite for a vertical line and the same for both directions of the line.
 template <class T>
 struct AlongSegment {
   T length_m;       ///< |B - A|, m
@@ -89,15 +89,16 @@ constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 ///   kUsesCorner               whether the law uses Polyline::corner_m
 ///   name()                    its name in files
 ///   parameters(law, field)    calls field(key, parameter, LawParameter) for each parameter
-/// and the function approach_rad(law, segment, motion, memory), whose result guide() subtracts from
-/// the segment's direction. A law can also replace is_passed() and distance_off_m() below.
+/// and the function approach_rad(law, segment, motion, memory). guide() subtracts its result from
+/// the segment's direction. A law can also have its own overloads of is_passed() and
+/// distance_off_m() below.
 template <class T, class Law>
 struct Polyline {
   const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them
   int count;                    ///< >= 0; with fewer than two corners the line is finished at once
-  /// m, >= 0: the next segment starts this distance before the end of the current one, so that a
-  /// corner is rounded on its inside. The last segment is driven to its end. 0: corners are
-  /// overshot.
+  /// m, >= 0: the vehicle changes to the next segment at this distance before the end of the
+  /// current one, so that it rounds the corner on the inside. The last segment is driven to its
+  /// end. With 0, the vehicle overshoots corners.
   T corner_m;
   Law law;  ///< parameters of the law
 };
@@ -125,8 +126,8 @@ struct PolylineGuidance {
   bool finished;    ///< past the end of the last segment: psi_d holds its last value
 };
 
-/// True if the current segment is done and the next one is to be followed: the distance along the
-/// segment to its end is at most `corner_m`.
+/// True if the vehicle must change to the next segment: the distance along the current segment to
+/// its end is at most `corner_m`.
 template <class T, class Law>
 AWMR_INLINE bool is_passed(const Law&, const AlongSegment<T>& s, const T& corner_m) {
   return !(s.length_m - s.along_m > corner_m);

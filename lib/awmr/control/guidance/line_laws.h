@@ -12,8 +12,8 @@
 
 namespace awmr {
 
-/// The class template `List` with all laws as its arguments, such as std::variant. The first law is
-/// the default.
+/// The class template `List` (such as std::variant) with all laws as its arguments. The first law
+/// is the default.
 template <template <class...> class List, class T>
 using LineLaws = List<LineOfSight<T>, PurePursuit<T>, IntegralLos<T>, Stanley<T>>;
 

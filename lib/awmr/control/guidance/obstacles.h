@@ -18,13 +18,13 @@
 /// The chosen side is kept until the other is nearer by `side_hysteresis_rad`, or until the
 /// guidance heading is free again.
 ///
-/// Why this clears one obstacle: a vehicle with the turning radius rho that heads for the centre of
-/// a grown circle can turn past the circle if D^2 >= (R + rho)^2 - rho^2. For any R, this holds
-/// while D_obs >= rho. So an MMD of rho plus the distance travelled while the turn begins is
-/// sufficient. With several obstacles, or a start that is too close, this can fail. Therefore, the
-/// speed is also reduced.
-/// The permitted fraction of u_d is the distance along the heading to a circle grown by
-/// vehicle_radius + clearance/2, divided by `brake_m`. So the vehicle stops before that circle.
+/// Why this clears one obstacle: assume a vehicle with the turning radius rho that heads for the
+/// centre of a grown circle. It can turn past the circle if D^2 >= (R + rho)^2 - rho^2. This holds
+/// for any R while D_obs >= rho. So a sufficient MMD is rho plus the distance travelled while the
+/// turn begins. With several obstacles, or a start that is too close, this can fail. Therefore, the
+/// speed is also reduced. The permitted fraction of u_d is the distance along the heading to a
+/// circle grown by vehicle_radius + clearance/2, divided by `brake_m`. So the vehicle stops before
+/// that circle.
 ///
 /// Edge cases:
 ///   vehicle inside R_i        the sector is more than a half-plane, so psi_d leads out; a vehicle

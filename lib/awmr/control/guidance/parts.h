@@ -106,7 +106,7 @@ void reset(Shaper<T>& part) {
   part.is_started = false;
 }
 
-/// True if the part reads the position in the next step.
+/// True if the part will use the position in the next step.
 template <class Part>
 AWMR_INLINE bool needs_position(const Disabled<Part>&) {
   return false;

@@ -46,8 +46,8 @@ bool is_passed(const PurePursuit<T>& law, const AlongSegment<T>& s, const T& /*c
 }
 
 /// Signed distance, left positive, from the line of the current or of the previous segment,
-/// whichever is nearer: when the goal has passed the corner, the vehicle is still on the previous
-/// segment.
+/// whichever is nearer. The previous segment is needed because the goal passes a corner before the
+/// vehicle does.
 template <class T>
 T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
                  const Position<T>& position_m, const AlongSegment<T>& s) {

@@ -10,11 +10,12 @@ namespace awmr {
 /// Target of the guidance in one step.
 template <class T>
 struct GuidanceTarget {
-  const Position<T>* target_m;  ///< obstacles farther away than this point are ignored; 0: no point
+  const Position<T>* target_m;  ///< obstacles farther away than this point are ignored; 0: no
+                                ///< obstacle is ignored
   bool arrived;                 ///< the route is finished
 };
 
-/// Distance to the target that avoid() gets if there is no target, m: larger than the distance to
+/// Distance to the target, m, for avoid() if there is no target. It is larger than the distance to
 /// any obstacle, so that every obstacle counts.
 template <class T>
 constexpr T no_target_m() {

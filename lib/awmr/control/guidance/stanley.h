@@ -1,7 +1,7 @@
 /// Stanley, a guidance law that follows a line. Freestanding C++14.
 ///
-/// The approach angle depends on the distance from the line divided by the speed. So the distance
-/// falls with nearly the same time constant at every speed well above `softening_mps`.
+/// The approach angle depends on the ratio of the distance from the line to the speed. So the
+/// distance falls with nearly the same time constant at every speed well above `softening_mps`.
 #pragma once
 
 #include "awmr/control/guidance/line.h"

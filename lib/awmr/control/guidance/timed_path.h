@@ -46,8 +46,8 @@ struct PathGuidance {
   T speed_mps;       ///< u_d, m/s, >= 0
 };
 
-/// Below this speed of its point, m/s, a path has no direction (a cusp or reversal): the heading is
-/// held.
+/// If the point of a path moves more slowly than this, m/s, as at a cusp or reversal, it has no
+/// direction, and the heading is held.
 template <class T>
 constexpr T path_speed_min_mps() {
   return T(1e-4);

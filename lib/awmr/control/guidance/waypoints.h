@@ -13,10 +13,10 @@ struct Waypoints {
   const Position<T>* points_m;  ///< not owned; `count` of them
   int count;                    ///< >= 0
   T acceptance_m;               ///< m, > 0: a point is reached within this distance of it
-  /// Handling of a waypoint that the vehicle has passed without coming within `acceptance_m`, that
-  /// is, beyond the perpendicular to the leg through the point. true: it is counted as missed and
-  /// the next one follows, for a vehicle that cannot turn tightly enough to return. false, as in
-  /// the paper: the vehicle turns back to it.
+  /// Handling of a waypoint that the vehicle has passed at a larger distance than `acceptance_m`;
+  /// it has passed when it is beyond the perpendicular to the leg through the point. true: the
+  /// point counts as missed and the next one follows, for a vehicle that cannot turn tightly enough
+  /// to return. false, as in the paper: the vehicle turns back to the point.
   bool skip_passed;
 };
 
@@ -56,8 +56,8 @@ bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
 ///   psi_d = atan2(y_d - y, x_d - x)                                       [paper (103), corrected]
 /// Corrected: the printed differences point from the waypoint to the vehicle.
 ///
-/// Waypoints that coincide, or are within each other's acceptance radius, are reached in the same
-/// step. With no waypoints, guidance is finished at once and the heading is held. `acceptance_m2`
+/// Several waypoints are reached in the same step if the vehicle is within the acceptance radius of
+/// each. With no waypoints, guidance is finished at once and the heading is held. `acceptance_m2`
 /// is the square of Waypoints::acceptance_m.
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& acceptance_m2,
@@ -87,7 +87,7 @@ AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Posit
   return guide(waypoints, acceptance_m2, position_m, progress);
 }
 
-/// Fraction of the reference speed that remains at the end of the route: above 0, so that the
+/// Fraction of the reference speed that remains at the end of the route. It is above 0, so that the
 /// vehicle reaches the end.
 template <class T>
 constexpr T arrival_share_min() {

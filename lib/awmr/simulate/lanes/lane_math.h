@@ -16,7 +16,7 @@ namespace AWMR_LANES {
 using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
 
 /// Reinterprets the 64 bits of each lane. The template argument of the cast is the type of a lane
-/// in xsimd 9 and later, and the type of a register in earlier versions.
+/// in xsimd 9 and later; in earlier versions, it is the type of a register.
 AWMR_LANE_INLINE Bits to_bits(const Register& x) {
 #if XSIMD_VERSION_MAJOR < 9
   return xsimd::bitwise_cast<Bits>(x);
@@ -37,7 +37,8 @@ AWMR_LANE_INLINE Lanes only_where(const LaneMask& in_range, const Lanes& result)
   return select(in_range, result, Lanes(__builtin_nan("")));
 }
 
-/// c[0] + c[1] x + ..., by one Horner scheme for the even powers and one for the odd powers.
+/// The polynomial c[0] + c[1] x + ..., computed by two Horner schemes: one for the even powers of x
+/// and one for the odd powers.
 template <int N>
 AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
   const Lanes z = x * x;
@@ -52,7 +53,8 @@ AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
   return fma(last, x, before);
 }
 
-/// x + 1.5 2^52 has the integer nearest to x in its last bits, for |x| < 2^51.
+/// Adding this number, 1.5 times 2^52, rounds x, |x| < 2^51: the last bits of the sum are the
+/// integer nearest to x.
 constexpr double kRounder = 0x1.8p52;
 
 /// x = m 2^k with m in [sqrt(1/2), sqrt 2), for positive normal numbers x (not subnormal).
@@ -127,9 +129,10 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   const Lanes z = r * r;
   const Lanes s = fma(r * z, polynomial(kSin, z), r);
   const Lanes c = fma(z * z, polynomial(kCos, z), fma(z, Lanes(-0.5), Lanes(1.0)));
-  // Odd quadrants swap sine and cosine. To test this, the last bit of the quadrant is shifted to
-  // where it makes the number 2.0. The second bit of the quadrant is the sign of the sine, that of
-  // quadrant + 1 the sign of the cosine. To set the sign, this bit is shifted to the sign bit.
+  // Odd quadrants swap sine and cosine. To test for them, the last bit of the quadrant is shifted
+  // to a place where it alone makes the number 2.0. The second bit of the quadrant is the sign of
+  // the sine, that of quadrant + 1 the sign of the cosine. To set a sign, this bit is shifted to
+  // the place of the sign bit.
   const Bits whole = to_bits(rounded.value);
   const LaneMask swapped = to_register((whole & Bits(std::uint64_t{1})) << 62) > Register(1.0);
   const auto with_sign = [&whole](const Lanes& value, std::uint64_t quadrants_on) -> Lanes {

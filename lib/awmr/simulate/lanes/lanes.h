@@ -4,8 +4,8 @@
 ///
 /// A kernel file defines AWMR_LANES, the name of its instruction set, before it includes this file.
 /// The name is a namespace around every type here, and so part of the name of every template
-/// instantiated with such a type. Without it, the linker would merge functions of the same name
-/// from several kernels, and could select one that needs a newer processor.
+/// instantiated with such a type. Without this namespace, the linker would merge functions of the
+/// same name from several kernels, and could keep one that needs a newer processor.
 #pragma once
 
 #include <xsimd/xsimd.hpp>
