@@ -33,8 +33,8 @@ Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
   return tune(model, options);
 }
 
-/// Reads tune.json (`--config`) and applies the other options of the command line to it. Applies
-/// `--allocation` to `model`, too.
+/// Reads tune.json (`--config`) and applies the other command-line options, which override it.
+/// `--allocation` also changes `model`.
 Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
   TuneConfig config;
   if (command.config) {

@@ -48,8 +48,8 @@ std::string open_text(const UnmodelledVariation& open) {
   return text + '\n';
 }
 
-/// Text of the worst damping and delay margin of the heading loop over the confidence set of the
-/// model's parameters, by mode.
+/// Describes, by mode, the smallest damping ratio and delay margin of the heading loop over the
+/// confidence set of the model's parameters.
 std::string certificate_text(const Certificate& certificate) {
   std::string by_mode;
   for (const ModeCertificate& one : certificate.modes) {
@@ -63,8 +63,8 @@ std::string certificate_text(const Certificate& certificate) {
       certificate.latency_s, by_mode);
 }
 
-/// Metrics of the gains on fresh draws (newly drawn vehicles that were not used for tuning), also
-/// by scenario if there are several. Empty if no fresh draws were made.
+/// Table of the gains' metrics on fresh draws (newly drawn vehicles that were not used for tuning);
+/// if there are several scenarios, also by scenario. Empty if no fresh draws were made.
 std::string evaluation_table(const std::vector<EvaluatedGains>& all,
                              const std::vector<EvaluatedGains>& by_scenario) {
   if (all.empty()) return {};
@@ -91,7 +91,7 @@ std::string evaluation_table(const std::vector<EvaluatedGains>& all,
   return text;
 }
 
-/// Results of the goals with the tuned gains on the fresh draws; empty without goals.
+/// States for each goal how many fresh draws meet it with the tuned gains; empty without goals.
 std::string goals_text(const std::vector<EvaluatedGoal>& all) {
   std::string text;
   for (const EvaluatedGoal& evaluated : all) {

@@ -1,6 +1,6 @@
-/// Complete autopilot with any of its optional parts in use and arbitrary input bits, corners,
-/// obstacles and motors. Checks that every command is finite and within its limits, that a fault
-/// gives the safe command, and that every step terminates.
+/// Fuzz target: the complete autopilot with any of its optional features in use and with arbitrary
+/// input bits, corners and obstacles. Checks that every command is finite and within its limits,
+/// that a fault gives the safe command, and that every step terminates.
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -18,7 +18,8 @@ using namespace awmr;
 constexpr float kSampleTime_s = 0.01F;
 constexpr int kMaxPoints = 4;
 
-/// Parts in use, one bit each.
+/// Bits of the first input byte: optional features that the run uses, and whether time stamps and
+/// mode are made valid.
 enum Use : unsigned {
   kFresh = 1,
   kKnownMode = 2,
@@ -92,9 +93,12 @@ void check(const Whole& autopilot, const Robot& robot, const AutopilotOutput& ou
   const float most = with_dead_zone(limits.force_max, robot.rest.dead_zone);
   const float least = with_dead_zone(limits.force_min, robot.rest.dead_zone);
   const Allocation<float>& command = out.command;
-  require(command.force.left >= least && command.force.left <= most, "left force");
-  require(command.force.right >= least && command.force.right <= most, "right force");
-  require(std::fabs(command.steering_rad) <= limits.steering_max_rad, "steering angle");
+  require(command.force.left >= least && command.force.left <= most,
+          "left force within its limits");
+  require(command.force.right >= least && command.force.right <= most,
+          "right force within its limits");
+  require(std::fabs(command.steering_rad) <= limits.steering_max_rad,
+          "steering angle within its limits");
   if (out.fault == kFaultNone) return;
   require(command.force.left == 0.0F && command.force.right == 0.0F, "a fault stops the motors");
   require(command.steering_rad == 0.0F, "a fault puts the wheels straight");
@@ -102,7 +106,8 @@ void check(const Whole& autopilot, const Robot& robot, const AutopilotOutput& ou
 
 }  // namespace
 
-/// The input bytes are the parts in use, an autopilot input, then corners and obstacles.
+/// The input bytes are one byte with the bits of Use, an autopilot input, then corners and
+/// obstacles.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Robot kRobot;
   InputBytes bytes(data, size);
@@ -117,7 +122,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Whole autopilot{};
   require(
       start_autopilot(autopilot, &kRobot.block, nullptr, 0, nullptr, 0, kRobot.crc, &kRobot.rest),
-      "the parameters are good");
+      "the parameters are accepted");
   filter_position(autopilot, position_filter<float>(1.5, 0.2, kSampleTime_s));
   if ((use & kWaypoints) != 0) follow_waypoints(autopilot, {corners, kMaxPoints, 1.0F, true});
   if ((use & kLine) != 0)

@@ -1,5 +1,5 @@
-/// For arbitrary bytes on the line: only a complete line or frame gives a command, its value is
-/// finite, and the letters STOP always stop.
+/// Fuzz target: sends the bytes to the reader of serial commands. Only a complete line or frame
+/// gives a command, its value is finite, and the letters STOP always give the command to stop.
 #include "awmr/control/command_line.h"
 
 #include <cmath>
@@ -21,16 +21,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool stops = line.size() >= 4 && line.compare(line.size() - 4, 4, "STOP") == 0;
     if (stops) {
       require(verdict == awmr::CommandVerdict::kTaken && reader.word == awmr::CommandWord::kStop,
-              "STOP stops");
+              "the letters STOP give a stop command");
       is_stopped = true;
     }
     const bool ends = c == '\n' || c == '\r';
     if (verdict == awmr::CommandVerdict::kTaken && !stops) {
-      require(ends && !is_stopped, "a command is a whole line");
+      require(ends && !is_stopped, "a command ends with a line end");
       require(line.size() <= awmr::kCommandLength + 1U, "a command fits its buffer");
       require(reader.word != awmr::CommandWord::kStop && reader.word != awmr::CommandWord::kNone,
-              "its word");
-      require(std::isfinite(reader.value), "a value is a number");
+              "a command has a known word");
+      require(std::isfinite(reader.value), "a value is finite");
     }
     if (ends) {
       line.clear();

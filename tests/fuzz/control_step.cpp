@@ -1,5 +1,6 @@
-/// The emitted controller, compiled for this machine, with arbitrary input bits. Every command is
-/// finite and within its limits, and a fault gives the safe command.
+/// Fuzz target: runs the emitted controller, compiled for this machine, on arbitrary input bits.
+/// Checks that every command is finite and within its limits, and that a fault gives the safe
+/// command.
 #include <cmath>
 #include <cstring>
 
@@ -16,18 +17,20 @@ bool is_between(float value, float lo, float hi) { return value >= lo && value <
 /// makes the outputs of the laws NaN, which the last check of the step detects, so no command is
 /// NaN.
 void check(const awmr_output& out, bool is_following) {
-  require(is_between(out.force_left, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "left force");
-  require(is_between(out.force_right, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX), "right force");
-  require(std::fabs(out.steering_rad) <= AWMR_STEERING_MAX_RAD, "steering angle");
+  require(is_between(out.force_left, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX),
+          "left force within its limits");
+  require(is_between(out.force_right, AWMR_WHEEL_FORCE_MIN, AWMR_WHEEL_FORCE_MAX),
+          "right force within its limits");
+  require(std::fabs(out.steering_rad) <= AWMR_STEERING_MAX_RAD, "steering angle within its limits");
   if (out.fault != AWMR_FAULT_NONE) {
     require(out.force_left == 0.0F && out.force_right == 0.0F && out.steering_rad == 0.0F,
             "a fault gives the safe command");
   }
   if (is_following) return;
   require(std::isfinite(out.tau_speed) && std::isfinite(out.tau_turn_m),
-          "finite outputs of the laws");
-  require(std::isfinite(out.psi_ref_rad), "the heading");
-  require((out.fault & AWMR_FAULT_OUTPUT) == 0, "the last gate has nothing to do");
+          "the outputs of the laws are finite");
+  require(std::isfinite(out.psi_ref_rad), "the heading reference is finite");
+  require((out.fault & AWMR_FAULT_OUTPUT) == 0, "the output check finds no fault");
 }
 
 /// Makes all time stamps current, so that the result depends on the motion in the input bytes.
@@ -37,7 +40,7 @@ void renew(awmr_input& in) { in.now_ms = in.heading_ms = in.speed_ms = in.comman
 /// For each further input, a valid step without points to follow restores the same initial state.
 void start_at(uint32_t now_ms) {
   static const bool kIsGood = awmr_init() == AWMR_FAULT_NONE;
-  require(kIsGood, "the parameters are as they were emitted");
+  require(kIsGood, "the emitted parameters are accepted");
   awmr_input rest{};
   rest.now_ms = rest.heading_ms = rest.speed_ms = rest.command_ms = now_ms;
   awmr_output out;
@@ -47,8 +50,8 @@ void start_at(uint32_t now_ms) {
 
 }  // namespace
 
-/// The input bytes are one byte whose bits select the use of the rest, then an awmr_input as in
-/// memory, then points to follow.
+/// The input bytes are one byte whose bits select how the rest is used, then the memory image of an
+/// awmr_input, then points to follow.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const unsigned use = *data++;

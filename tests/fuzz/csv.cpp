@@ -1,4 +1,5 @@
-/// A CSV table is read with finite values or refused with a readable fault.
+/// Fuzz target: reads the bytes as a CSV table. The reader returns finite values or a readable
+/// error.
 #include <cmath>
 
 #include "awmr/core/csv_text.h"
@@ -12,20 +13,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto table =
       awmr::read_csv_text(awmr::fuzz::text_of(data, size), "a.csv", columns, mappings);
   if (!table) {
-    require(!table.error().faults.empty(), "an error names a fault");
-    require(awmr::to_text(table.error()).size() < 100'000, "an error can be read");
+    require(!table.error().faults.empty(), "an error has at least one fault");
+    require(awmr::to_text(table.error()).size() < 100'000, "the error text is short");
     return 0;
   }
   require(table->rows() > 0, "a table has rows");
   for (const awmr::CsvColumn& column : columns) {
     if (!table->has(column.name)) continue;
-    require(table->column(column.name).size() == table->rows(), "a column has a value by row");
+    require(table->column(column.name).size() == table->rows(), "a column has one value per row");
     for (const double value : table->column(column.name)) {
       require(std::isfinite(value), "a value is finite");
     }
   }
   for (std::size_t row = 1; row < table->rows(); ++row) {
-    require(table->line(row) > table->line(row - 1), "lines rise");
+    require(table->line(row) > table->line(row - 1), "line numbers increase");
   }
   return 0;
 }

@@ -1,4 +1,5 @@
-/// A DataFlash log is read according to its records, or refused. Memory is bounded.
+/// Fuzz target: reads the bytes as a DataFlash log. The reader returns consistent signals or an
+/// error. Memory is bounded.
 #include "awmr/trials/dataflash.h"
 
 #include "fuzz/signals.h"

@@ -1,4 +1,5 @@
-/// A DataFlash log as text is read according to its lines, or refused. Memory is bounded.
+/// Fuzz target: reads the bytes as a DataFlash log in text form. The reader returns consistent
+/// signals or an error. Memory is bounded.
 #include "awmr/trials/dataflash_text.h"
 
 #include "fuzz/signals.h"

@@ -20,7 +20,7 @@ inline const std::filesystem::path& file_of_bytes(const std::uint8_t* data, std:
   static const std::filesystem::path kPath = [] {
     const char* memory = ::access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
     std::string directory = std::string(memory) + "/awmr-fuzz-XXXXXX";
-    require(::mkdtemp(directory.data()) != nullptr, "a directory for the input is made");
+    require(::mkdtemp(directory.data()) != nullptr, "the directory for the input is created");
     static std::string kept = directory;
     (void)std::atexit([] { std::filesystem::remove_all(kept); });
     return std::filesystem::path(directory) / "input";
@@ -32,14 +32,14 @@ inline const std::filesystem::path& file_of_bytes(const std::uint8_t* data, std:
   return kPath;
 }
 
-/// True if a reader refused the file. If it did, aborts unless the refusal is an input error whose
-/// faults are readable.
+/// True if a reader refused the file. If it did, the error must be an input error with readable
+/// faults; otherwise this function aborts.
 template <class T>
 bool is_refused(const Result<T>& read) {
   if (read) return false;
-  require(!read.error().faults.empty(), "an error names a fault");
-  require(read.error().kind == ErrorKind::kInput, "a file is bad input, not a fault");
-  require(to_text(read.error()).size() < 100'000, "an error can be read");
+  require(!read.error().faults.empty(), "an error has at least one fault");
+  require(read.error().kind == ErrorKind::kInput, "the error is an input error");
+  require(to_text(read.error()).size() < 100'000, "the error text is short");
   return true;
 }
 

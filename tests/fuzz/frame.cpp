@@ -1,5 +1,5 @@
-/// For arbitrary bytes on the line: only complete frames with the right checksum are accepted, and
-/// a conversation with a chip that sends them ends.
+/// Fuzz target: uses the bytes as data on the serial line to the chip. Only complete frames with
+/// the right checksum are accepted, and an exchange with a chip that sends these bytes ends.
 #include "firmware/frame.h"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ using awmr::fuzz::require;
 
 namespace {
 
-/// A line to a chip that sends these bytes, independent of the requests, and then nothing.
+/// Line to a simulated chip that sends the given bytes, whatever the requests are, and then
+/// nothing.
 class Recording : public awmr::pil::Line {
  public:
   explicit Recording(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -43,7 +44,7 @@ void check_reader(std::span<const std::uint8_t> bytes) {
     const std::size_t covered = pil::kHeadBytes + reader.length();
     const std::uint16_t crc = awmr::crc16_of(reader.bytes, covered);
     require(reader.bytes[covered] == (crc & 0xFFU) && reader.bytes[covered + 1] == crc >> 8U,
-            "a frame has its own check sum");
+            "an accepted frame has the right checksum");
   }
 }
 
@@ -54,16 +55,17 @@ void check_written(std::span<const std::uint8_t> bytes) {
   reader.take(pil::kFrameStart);
   std::uint16_t crc = awmr::kCrc16Start;
   const auto take = [&](std::uint8_t byte) {
-    require(!reader.take(byte), "a frame ends with its sum");
+    require(!reader.take(byte), "no frame is complete before its checksum");
     crc = awmr::crc16_with(crc, byte);
   };
   take(pil::kStep);
   take(7);
   take(length);
   for (std::size_t i = 0; i < length; ++i) take(bytes[i]);
-  require(!reader.take(static_cast<std::uint8_t>(crc & 0xFFU)), "a frame has two bytes of sum");
-  require(reader.take(static_cast<std::uint8_t>(crc >> 8U)), "a whole frame is taken");
-  require(std::equal(reader.payload(), reader.payload() + length, bytes.begin()), "as it was sent");
+  require(!reader.take(static_cast<std::uint8_t>(crc & 0xFFU)), "a checksum has two bytes");
+  require(reader.take(static_cast<std::uint8_t>(crc >> 8U)), "a complete frame is accepted");
+  require(std::equal(reader.payload(), reader.payload() + length, bytes.begin()),
+          "the payload is as sent");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// For arbitrary bytes from the GPS: reading ends, and a fix is on the Earth and has a valid time
-/// of day.
+/// Fuzz target: reads the bytes as GPS sentences. Every fix has a valid position, speed and time of
+/// day.
 #include "awmr/control/gps_sentence.h"
 
 #include <cmath>
@@ -14,10 +14,10 @@ namespace {
 void take(awmr::RmcReader& reader, char c) {
   if (!reader.take(c) || reader.kind() != awmr::GpsSentence::kFix) return;
   const awmr::GpsFix fix = awmr::to_fix(reader.numbers());
-  require(fix.utc_ms < awmr::kDay_ms, "time of day");
-  require(fix.lat_e7 >= -900000000 && fix.lat_e7 <= 900000000, "latitude");
-  require(fix.lon_e7 >= -1800000000 && fix.lon_e7 <= 1800000000, "longitude");
-  require(std::isfinite(fix.speed_mps) && fix.speed_mps >= 0.0F, "speed");
+  require(fix.utc_ms < awmr::kDay_ms, "the time of day is valid");
+  require(fix.lat_e7 >= -900000000 && fix.lat_e7 <= 900000000, "the latitude is valid");
+  require(fix.lon_e7 >= -1800000000 && fix.lon_e7 <= 1800000000, "the longitude is valid");
+  require(std::isfinite(fix.speed_mps) && fix.speed_mps >= 0.0F, "the speed is finite and >= 0");
 }
 
 }  // namespace
@@ -25,7 +25,8 @@ void take(awmr::RmcReader& reader, char c) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   awmr::RmcReader reader;
   for (std::size_t i = 0; i < size; ++i) take(reader, static_cast<char>(data[i]));
-  // With a corrected checksum, mutations reach the fields.
+  // The same bytes as a sentence with a correct checksum, so that mutations reach the parsing of
+  // the fields.
   std::string line = "$";
   unsigned sum = 0;
   for (std::size_t i = 0; i < size && data[i] != '*' && data[i] != 0; ++i) {

@@ -1,5 +1,5 @@
-/// A number reads back with the same bits; a text reads back from its cell; displayed text has no
-/// control characters.
+/// Fuzz target for texts and numbers. A number that was written and read again has the same bits; a
+/// text read from its CSV cell is unchanged; displayed text has no control characters.
 #include <bit>
 #include <cmath>
 
@@ -16,14 +16,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(std::isfinite(*number), "a number is finite");
     const auto again = awmr::number_from_text(awmr::format_number(*number));
     require(again && std::bit_cast<std::uint64_t>(*again) == std::bit_cast<std::uint64_t>(*number),
-            "a number reads back the same bits");
+            "a number read again has the same bits");
   } else {
-    require(number.error().size() < 1000, "a message can be read");
+    require(number.error().size() < 1000, "the error text is short");
   }
   const std::string line = awmr::cell_of_text(text) + ",x\n";
   std::string_view rest = line;
   const auto cells = awmr::take_text_record(rest);
-  require(cells.size() == 2 && cells[0] == text && rest.empty(), "a text reads back from its cell");
+  require(cells.size() == 2 && cells[0] == text && rest.empty(), "a text is unchanged in its cell");
   for (const char c : awmr::printable(text)) {
     require(static_cast<unsigned char>(c) >= 0x20 && c != 0x7F, "no control character is shown");
   }

@@ -1,10 +1,9 @@
-/// Runs a fuzz target with any compiler: over the files of a directory, then over mutations of
-/// them.
+/// Runs a fuzz target without libFuzzer: on the files of a directory, then on mutations of them.
 ///
 ///   replay DIR MUTATIONS LAST_INPUT
 ///
-/// The mutations have a fixed seed, so that runs are reproducible. LAST_INPUT is the file with the
-/// current input; a crash leaves it behind.
+/// The mutations have a fixed seed, so that runs are reproducible. LAST_INPUT is a file with the
+/// current input; after a crash it contains the input that caused it.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -43,8 +42,8 @@ void put(Bytes& input, std::size_t place, const std::uint8_t* from, std::size_t 
   input.insert(input.begin() + static_cast<std::ptrdiff_t>(place), from, from + count);
 }
 
-/// One small change: a bit, a byte, a piece deleted, duplicated or taken from another file, a
-/// keyword.
+/// Makes one small random change: a bit, a byte, a piece deleted, duplicated or taken from another
+/// file, or an inserted keyword.
 void change(Bytes& input, const Bytes& other, Random& random) {
   const std::size_t place = below(input.size() + 1, random);
   const std::size_t length = 1 + below(16, random);
@@ -72,7 +71,7 @@ void change(Bytes& input, const Bytes& other, Random& random) {
   if (input.size() > kLongest) input.resize(kLongest);
 }
 
-/// File with the bytes of the current input, which remains after a crash.
+/// File with the bytes of the current input. After a crash, it still exists.
 class LastInput {
  public:
   explicit LastInput(const char* path) : path_{path} {
@@ -87,7 +86,7 @@ class LastInput {
   ~LastInput() { (void)std::remove(path_); }
 
   [[nodiscard]] bool open_for_writing() const { return bytes_ != nullptr; }
-  /// Stores the input; of a longer one only the beginning.
+  /// Stores the input, or its first kLongest bytes if it is longer.
   void hold(const Bytes& input) {
     const std::size_t count = std::min(input.size(), kLongest);
     std::memcpy(bytes_, input.data(), count);

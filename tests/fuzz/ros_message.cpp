@@ -1,4 +1,5 @@
-/// A CDR message gives as many numbers as its type has, or is refused.
+/// Fuzz target: reads the bytes as CDR-encoded ROS messages. The reader returns as many numbers as
+/// the message type has, or an error.
 #include "awmr/trials/ros_message.h"
 
 #include "fuzz/target.h"
@@ -12,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         "geometry_msgs/msg/TwistStamped", "ackermann_msgs/msg/AckermannDriveStamped",
         "sensor_msgs/msg/Imu", "nav_msgs/msg/Odometry"}) {
     const auto values = awmr::ros_values(type, bytes);
-    if (values) require(values->size() == awmr::ros_fields(type)->size(), "every number is there");
+    if (values) require(values->size() == awmr::ros_fields(type)->size(), "one value per field");
   }
   return 0;
 }

@@ -1,5 +1,5 @@
-/// Every scenario that is read is simulated, for a fifth of a second, with finite rows and commands
-/// within their limits, or refused.
+/// Fuzz target: reads the bytes as a scenario and simulates it for 0.2 s. The rows are finite and
+/// the commands within their limits, or reader or simulator return an error.
 #include "awmr/simulate/scenario_file.h"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check(run, plant);
     const std::string text = awmr::run_csv(run, *scenario);
     require(text.find("nan") == std::string::npos && text.find("inf") == std::string::npos,
-            "run.csv holds numbers");
+            "run.csv has only finite numbers");
   }
   return 0;
 }

@@ -1,5 +1,6 @@
-/// Arbitrary readings at arbitrary times: a fault lasts as long as its cause, an accepted fix is
-/// new, near and of the same day, and nothing overflows.
+/// Fuzz target: gives the sensor checks of the sketch arbitrary readings at arbitrary times. A
+/// repeated fix is rejected, each check reports only its own faults, and the vehicle is never armed
+/// while a fault lasts.
 #include "awmr/control/gps_check.h"
 #include "awmr/control/heading_check.h"
 
@@ -66,21 +67,22 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       require(!taken || fix.utc_ms != last_utc_ms, "a repeated sentence is rejected");
       last_utc_ms = fix.utc_ms;
       if (taken && gps.fault(now_ms) == awmr::kGpsSilent)
-        require(false, "an accepted fix is not silence");
+        require(false, "an accepted fix ends the silence");
     }
     if ((use & 32U) != 0) gps.take_unusable(awmr::GpsSentence::kDamaged, now_ms);
     const awmr::SensorFault a = heading.fault(now_ms);
     const awmr::SensorFault b = gps.fault(now_ms);
-    require(a <= awmr::kHeadingOutOfStep || a == awmr::kWrongTurn, "a fault of the heading");
+    require(a <= awmr::kHeadingOutOfStep || a == awmr::kWrongTurn,
+            "the heading check reports its own faults");
     require(b == awmr::kSensorGood || (b >= awmr::kGpsSilent && b <= awmr::kOffHeading) ||
                 b == awmr::kOffCourse,
-            "a fault of the GPS");
+            "the GPS check reports its own faults");
     require(!heading.calibration.is_done() || std::fabs(heading.calibration.bias_radps()) < 0.09F,
-            "an offset");
+            "the gyroscope bias is below 0.09 rad/s");
     const std::uint8_t cause = a != awmr::kSensorGood ? a : b;
     if ((use & 128U) != 0) arming.arm(0, cause);
     arming.observe(0, cause);
-    require(!arming.is_armed() || cause == awmr::kSensorGood, "nothing is armed with a fault");
+    require(!arming.is_armed() || cause == awmr::kSensorGood, "not armed while there is a fault");
   }
   return 0;
 }

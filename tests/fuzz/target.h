@@ -1,5 +1,5 @@
-/// Common to all fuzz targets: the entry point for libFuzzer and the replay, and a check that
-/// aborts if a property is violated.
+/// Declarations for all fuzz targets: the entry point that libFuzzer and replay.cpp call, and a
+/// check that aborts if a property is violated.
 #pragma once
 
 #include <cstddef>

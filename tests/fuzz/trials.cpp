@@ -1,4 +1,5 @@
-/// Trial tables and driving logs are read with plausible values, or refused by name.
+/// Fuzz target: reads the bytes as each kind of trial table and as a driving log. The reader
+/// returns plausible values or a readable input error.
 #include <cmath>
 #include <vector>
 
@@ -13,7 +14,7 @@ using awmr::fuzz::require;
 
 namespace {
 
-/// A vehicle like the paper's.
+/// A vehicle similar to the paper's.
 awmr::Vehicle vehicle() {
   awmr::Vehicle v;
   v.name = "fuzzed";
@@ -32,7 +33,8 @@ awmr::Vehicle vehicle() {
 
 void check(const std::vector<awmr::Finding>& findings) {
   for (const awmr::Finding& finding : findings) {
-    require(!finding.code.empty() && !finding.message.empty(), "a finding has a code and words");
+    require(!finding.code.empty() && !finding.message.empty(),
+            "a finding has a code and a message");
   }
 }
 
@@ -53,7 +55,7 @@ void check_tables(const std::filesystem::path& path, const awmr::TrialOptions& o
       }
     }
     for (const awmr::TurningRow& row : turning->by_sides) {
-      require(row.sides && row.sides->left < row.sides->right, "a turn by the sides has forces");
+      require(row.sides && row.sides->left < row.sides->right, "the right force is the larger one");
     }
   }
   (void)is_refused(awmr::read_coastdown(path, options, findings));
@@ -82,7 +84,7 @@ void check_log(const std::filesystem::path& path, const awmr::TrialOptions& opti
   if (is_refused(log)) return;
   require(log->rows() >= 10, "a log has rows");
   for (std::size_t i = 1; i < log->rows(); ++i) {
-    require(log->t_s[i] > log->t_s[i - 1], "time rises");
+    require(log->t_s[i] > log->t_s[i - 1], "time increases from row to row");
   }
   for (const auto& channel : log->measured) {
     if (!channel) continue;

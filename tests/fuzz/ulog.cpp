@@ -1,4 +1,5 @@
-/// A ULog is read according to its topics, or refused. Memory is bounded.
+/// Fuzz target: reads the bytes as a ULog file. The reader returns consistent signals or an error.
+/// Memory is bounded.
 #include "awmr/trials/ulog.h"
 
 #include "fuzz/signals.h"

@@ -1,5 +1,5 @@
-/// Boost.odeint as the reference of the closed loop: from each row's state with its held command
-/// and disturbance to the next row's state.
+/// Closed-loop simulation compared with Boost.odeint: from each row's state, odeint integrates to
+/// the next row with the row's command and disturbance held.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,9 +59,10 @@ TEST(ReferenceIntegrator, TheClosedLoopAgreesOverEverySampleInEveryMode) {
     for (std::size_t i = 0; i + 1 < run.rows.size(); ++i) {
       const State<double> expected = reference(resolved, run.rows[i], kSample_s);
       const State<double>& found = run.rows[i + 1].state;
-      // (h/T)^5/120 = 1e-6 of an excursion: d_r moves by at most 0.05 rad per sample, v follows it
-      // with 0.05 m/s. If the servo's rate limit or r = 0 is crossed inside a step, RK4 has first
-      // order there. r then errs by up to I'z's response to g3's chord.
+      // RK4's error in a step h is (h/T)^5/120 = 1e-6 of the change: d_r changes by at most 0.05
+      // rad per sample, and v by 0.05 m/s. If the servo's rate limit or r = 0 is crossed within a
+      // step, RK4 has only first order there. The error of r is then up to the response of I'z to
+      // the chord of g3.
       EXPECT_NEAR(found.x_m, expected.x_m, 1e-6) << name_of(mode) << " row " << i;
       EXPECT_NEAR(found.y_m, expected.y_m, 1e-6) << name_of(mode) << " row " << i;
       EXPECT_NEAR(found.psi_rad, expected.psi_rad, 1e-5) << name_of(mode) << " row " << i;

@@ -23,8 +23,9 @@ struct Problem {
   std::optional<Tyres<double>> tyres = {};
 };
 
-/// Independent four-wheel rates, wheel by wheel: velocity of each contact in world axes, its force
-/// by the cubic polynomial of the brush model (Pacejka's form), and moments as cross products.
+/// Independent computation of the state rates on four tyres, wheel by wheel: velocity of each
+/// contact in world axes, its force by the cubic polynomial of the brush model (Pacejka's form),
+/// and moments as cross products.
 State<double> rates_wheel_by_wheel(const Problem& problem, const State<double>& s) {
   const Plant<double>& p = problem.plant;
   const Tyres<double>& tyres = *problem.tyres;
@@ -118,8 +119,9 @@ TEST(ReferenceIntegrator, PositionsOnFourTyresAgreeAfterAMinuteInEveryMode) {
         const std::string where = std::string(name_of(mode)) + ", tau_turn " +
                                   std::to_string(tau_turn_m) + ", friction " +
                                   std::to_string(friction);
-        // A force has a kink where a wheel begins or ceases to spin or slide. The step across it
-        // errs by up to its length, 3.3 ms, times the speed, about 1 m/s.
+        // A tyre force has a kink when its wheel begins or stops spinning or sliding. The position
+        // error of a step across the kink is up to the step length, 3.3 ms, times the speed, about
+        // 1 m/s.
         EXPECT_NEAR(found.x_m, expected.x_m, 4e-3) << where;
         EXPECT_NEAR(found.y_m, expected.y_m, 4e-3) << where;
         EXPECT_NEAR(found.psi_rad, expected.psi_rad, 2e-5) << where;

@@ -107,8 +107,8 @@ TEST_P(CertificateOf, IsAttainedAtThePlaceThatItNames) {
 }
 
 /// Growth of the loop's free motion: the largest |psi| in the last tenth of the time, divided by
-/// that in the first tenth. Integrated by Euler steps of 1/200 of a sample; the held command is
-/// delayed by a queue of such steps.
+/// that in the first tenth. The motion is integrated by Euler steps of 1/200 of a sample. A queue
+/// with one command per step delays the held command.
 double growth(const SampledHeadingLoop& loop, double delay_s, double time_s) {
   constexpr int kSteps = 200;
   const double h = loop.sample_time_s / kSteps;
@@ -184,7 +184,8 @@ TEST(DampingRatio, TakesADelayOfWholeSamplesAsOneOfTheReadings) {
 
 TEST(DampingRatio, ChangesContinuouslyWithTheDelay) {
   // The fastest pole that samples show has |s| = pi/T_s = 157 1/s, and zeta changes by no more over
-  // a second of delay: by 1.6e-5 over 1e-7 s. A wrong split of the delay would jump by some 0.01.
+  // a second of delay: by 1.6e-5 over 1e-7 s. With a wrong split of the delay, zeta would jump by
+  // about 0.01.
   for (const double delay_s : {0.01, 0.02, 0.0333, 0.04}) {
     SampledHeadingLoop before = plain_loop();
     before.command_delay_s = delay_s - 5e-8;
@@ -225,7 +226,7 @@ TEST(DelayMargin, TendsToThatOfTheContinuousLoop) {
   const double c = 10.0;
   const double w = std::sqrt((b * b + std::sqrt(b * b * b * b + 4.0 * c * c)) / 2.0);
   const double margin_s = std::atan(b * w / c) / w - kSample_s / 2.0;
-  // Second order in w T_s = 7e-4.
+  // The remaining error is of second order in w T_s = 7e-4.
   EXPECT_NEAR(delay_margin_s(loop), margin_s, 1e-6);
 }
 

@@ -38,7 +38,8 @@ const ConstraintReport& named(const std::vector<ConstraintReport>& all, const st
   return all.front();
 }
 
-// A few operations on numbers below 50: relative rounding well under 1e-14.
+// The constraints take a few operations on numbers below 50, so their relative rounding error is
+// well below 1e-14.
 constexpr double kRounding = 1e-13;
 
 TEST(Constraints, GiveBothFormsOfT2BelowT1ForThePapersGains) {
@@ -164,8 +165,8 @@ TEST(Constraints, HoldForThePapersGains) {
   }
 }
 
-/// For linear resistance g3 = a I'z r the law gives w = (a - lambda - k) n - lambda k n_psi from
-/// noise.
+/// For the linear resistance g3 = a I'z r, the law turns the noise n (yaw rate) and n_psi (heading)
+/// into the yaw acceleration w = (a - lambda - k) n - lambda k n_psi.
 TEST(SteeringRate, IsThatOfIndependentReadingsThroughTheLaw) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.plant.yaw = {.alpha = 0.3, .beta = 1.0};
@@ -226,12 +227,13 @@ TEST(SteeringRate, OfCorrelatedReadingsIsThatOfDrawnPairs) {
            3.0 * k * 0.02 * heading;
   };
   const double drawn = drawn_rate_degps(context, law);
-  // The series neglects higher terms: the rate is a little too large, never too small.
+  // The series omits higher terms, so the rate is slightly too large and never too small.
   EXPECT_GT(correlated, 0.99 * drawn);
   EXPECT_LT(correlated, 1.05 * drawn);
 }
 
-/// Coulomb friction in yaw, with steering, as of an 18 kg rover and a 165 kg hauler.
+/// Context of a steered vehicle with Coulomb friction in yaw: a 165 kg hauler if `is_heavy`,
+/// otherwise an 18 kg rover.
 ConstraintContext coulomb_context(bool is_heavy) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   Plant<double>& plant = context.plant;
@@ -294,7 +296,8 @@ TEST(SteeringRate, WithCoulombFrictionOfCorrelatedReadingsIsThatOfDrawnPairs) {
     return fed_forward(g3, n, s) / context.plant.inertia_norm - n + 2.6 * s;
   };
   const double drawn = drawn_rate_degps(context, law);
-  // Above: higher terms of the series of the yaw rate's part are neglected.
+  // The computed rate is the larger one, because the series of the yaw-rate part omits higher
+  // terms.
   EXPECT_NEAR(steering_rate_rms_degps(gains, context), drawn, 0.03 * drawn);
 }
 
@@ -360,7 +363,8 @@ TEST(FrictionWidth, OfTheCombinedModeIsNotSearchedWithAnObserver) {
   EXPECT_LE(steering_rate_rms_degps(gains, context), *context.limits.steering_rate_rms_degps);
 }
 
-/// The largest yaw moments are made by the forces minus the dead zone, as in turning_moment().
+/// The largest yaw moments come from the forces after subtracting the dead zone, as in
+/// turning_moment().
 TEST(Authority, IsOfTheForcesBeyondTheDeadZone) {
   DrawnVehicle vehicle{paper_plant(), {-0.05, 1.0}};
   vehicle.plant.wheel_dead_zone = 0.1;
@@ -390,7 +394,7 @@ TEST(FrictionWidth, OfTheCombinedModeKeepsTheSteeringRateOfTheSteeringMode) {
   }
 }
 
-/// A wide w0, which the noise of the steering command requires, leaves no heading error in
+/// A wide w0, required by the noise of the steering command, must not leave a heading error in
 /// differential mode, which does not steer.
 TEST(FrictionWidth, OfTheDifferentialModeIsTheDefault) {
   const ConstraintContext context = coulomb_context(false);
@@ -425,7 +429,7 @@ TEST(FrictionWidth, IsTheSameInAllModesWithAnObserver) {
   EXPECT_EQ(gains.friction_width_at(0.5), 0.3);
 }
 
-/// No pole pair whose slower pole is faster by a twentieth meets every constraint.
+/// No pair of poles whose slower pole is 5 % faster meets every constraint.
 TEST(PolePlacement, IsTheFastestThatTheConstraintsAllow) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   context.latency_s = 0.02;
@@ -487,7 +491,8 @@ TEST(SampledLoop, IsTheDoubleIntegratorsWithoutResistanceAndServo) {
 }
 
 TEST(SampledLoop, IsUnstableExactlyBeyondTheJuryBound) {
-  // z = -1 in the polynomial above: 4 - 2 T (l + k) = 0, whatever l k: l + k = 2/T = 200.
+  // At the stability limit, z = -1 is a root of the polynomial above: 4 - 2 T (l + k) = 0 for every
+  // l k, so l + k = 2/T = 200.
   const auto damping_at = [](double k) {
     return damping_ratio({.lambda = 3.0,
                           .reaching_rate = k,
@@ -516,7 +521,8 @@ TEST(SampledLoop, ApproachesTheContinuousLoopForShortSamples) {
 
 TEST(SampledLoop, LosesDampingWithLambdaPlusKTimesTheLag) {
   // (lambda + k)(T + T_s/2) = 1/(4 0.49) is the first-order bound for zeta 0.7 at lambda -> 0; the
-  // hold's delay is T_s/2 to first order in T_s. At 0.510 against half and twice of it:
+  // hold's delay is T_s/2 to first order in T_s. The test compares this bound (0.510) with half and
+  // twice its value.
   const auto damping_at = [](double product) {
     return damping_ratio({.lambda = 1e-3,
                           .reaching_rate = product / 0.0201,
@@ -576,8 +582,8 @@ Eigen::Vector3d after_a_sample(const SampledHeadingLoop& loop, Eigen::Vector3d x
   return x;
 }
 
-/// Model of the plant (a = 25 1/s) on which the law is based: exact, with too small an inertia, and
-/// with too large a resistance.
+/// Model of the plant (a = 25 1/s) on which the law is based. The test uses an exact model, one
+/// with too small an inertia, and one with too large a resistance.
 struct Known {
   double fed_forward_rate;
   double input_gain;
@@ -788,8 +794,8 @@ TEST(Constraints, RequireDampingWithLatency) {
   const std::vector<ConstraintReport> late = constraints_of(kPaperGains, context);
   ASSERT_EQ(late.size(), without + 2);
   EXPECT_LT(named(late, "late damping").value, 0.7);
-  // "late damping" is the worst damping of all modes and rates with twice the latency plus a
-  // sample, 5 samples.
+  // "delay margin" is the smallest damping ratio over all modes and rates with twice the latency
+  // plus one sample, which is 5 samples.
   double worst = 1.0;
   for (const double rate_degps : {1.0, 5.0, 20.0, 60.0}) {
     const double rate = rate_degps * std::acos(-1.0) / 180.0;

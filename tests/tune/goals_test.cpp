@@ -80,7 +80,7 @@ TEST(Goal, IsMetMissedOrOpenByTheExactIntervalOfItsShare) {
   EXPECT_EQ(evaluate(400, 400).verdict, GoalVerdict::kMet);
   EXPECT_EQ(evaluate(300, 400).verdict, GoalVerdict::kMissed);
   EXPECT_EQ(evaluate(362, 400).verdict, GoalVerdict::kOpen);
-  EXPECT_EQ(evaluate(5, 5).verdict, GoalVerdict::kOpen);  // five runs cannot prove 90 %
+  EXPECT_EQ(evaluate(5, 5).verdict, GoalVerdict::kOpen);  // too few runs to confirm a share of 90 %
   const EvaluatedGoal some = evaluate(362, 400);
   EXPECT_EQ(some.held, 362);
   EXPECT_EQ(some.runs, 400);
@@ -143,7 +143,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
   without.goals.clear();
   const Result<Tuning> free = tune(model, without);
   ASSERT_TRUE(free) << to_text(free.error());
-  // The goal requires 10 % less activity than the search chooses without a goal.
+  // The goal requires 10 % less control variation than the gains found without a goal have.
   double activity = 0.0;
   for (const ModeScore& score : free->scores) {
     if (score.mode == YawMode::kDifferential) activity = score.metrics.control_variation;
@@ -169,7 +169,7 @@ TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
   EXPECT_THAT(to_text(tuning.error()), HasSubstr("reach the goal \"settling_time_s <= 0.05"));
-  // A soft goal that cannot be met refuses no gains; its verdict is "missed".
+  // A soft goal that cannot be met does not cause an error; its verdict is "missed".
   goal.is_soft = true;
   const Result<Tuning> tuned = tune(uncertain_model(), options_with(goal));
   ASSERT_TRUE(tuned) << to_text(tuned.error());

@@ -1,5 +1,5 @@
-/// For any robot, tuned gains meet their constraints or the robot is refused. Their effect does not
-/// depend on the step size or on the form of the equations.
+/// For random robots, tune() returns gains that meet their constraints, or an error. Simulated runs
+/// with these gains depend neither on the step size nor on the form of the equations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -79,7 +79,8 @@ TEST(TunedGains, DoTheSameAtTenTimesFinerStepsAndWithFourWheels) {
   const Plant<double> plant = model.plant().value();
   const auto controller = make_controller(plant, model.vehicle, tuning.gains);
   const Scenario scenario = short_scenario();
-  Scenario four_wheels = scenario;  // a motor without loss of force: selects the equations by wheel
+  Scenario four_wheels = scenario;  // a fault without loss of force, which selects the
+                                    // wheel-by-wheel equations
   four_wheels.faults = {{.wheels = {Wheel::kFrontLeft}, .window = {}, .share = 1.0}};
   const int steps = substeps_for(plant, 0.01);
   for (const YawMode mode : kYawModes) {

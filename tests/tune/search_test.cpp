@@ -224,7 +224,7 @@ TEST(Tune, ReportsProgressUpToItsEnd) {
 }
 
 /// At the optimum, mu and epsilon can be scaled together with nearly no effect on the objective.
-/// Without this rule, the seed would determine mu.
+/// Without the rule that selects the smallest mu, the seed would determine mu.
 TEST(Tune, TakesTheLeastMuThatScoresAsWell) {
   TuneOptions options = short_options();
   options.local_evaluations = 150;  // ends near the optimum, where no other mu is much better
@@ -253,13 +253,15 @@ TEST(Tune, NamesTheActiveConstraintAndItsCost) {
   TuneOptions options = short_options();
   options.local_evaluations = 200;
   options.weights.settling =
-      0.0;  // settling time jumps if an overshoot leaves the band, which hides small changes
+      0.0;  // the settling time jumps when an overshoot leaves the settling band, and this would
+            // hide small changes
   options.margin = 0.3;
   const Tuning tuning = tune(paper_model(), options).value();
   const auto held = std::ranges::find(tuning.active, "T2 < T1 (strict)", &ActiveConstraint::name);
   ASSERT_NE(held, tuning.active.end());
   EXPECT_GT(held->wider_gains, 0.0);
-  // Exceeding the constraint by a tenth of its larger side is the same as a margin of 0.3/0.9.
+  // Relaxing the constraint by a tenth of the larger of value and limit is the same as a margin of
+  // 0.3/0.9.
   options.margin = 0.3 / 0.9;
   const Tuning wider = tune(paper_model(), options).value();
   const double objective = mean_objective(options, wider.gains, tuning.baseline.gains);
@@ -280,7 +282,7 @@ TEST(Tune, ReportsBothMarginsOfT2BelowT1WhicheverIsRequired) {
 
 TEST(Tune, RefusesAMarginThatNoGainsWithinTheBoundsMeet) {
   // eps/mu <= 0.01/lambda with lambda >= 0.5: mu/eps >= 50/s. With the servo and the hold,
-  // (lambda + mu/eps)(T + T_s/2) >= 1.26 against 0.51 for damping 0.7.
+  // (lambda + mu/eps)(T + T_s/2) >= 1.26, but a damping ratio of 0.7 allows 0.51 at most.
   TuneOptions options = short_options();
   options.bounds.lambda = Interval{0.5, 15.0};
   options.margin = 0.01;
@@ -605,7 +607,7 @@ TEST(Search, ExaminesNoDrawIfNoGainsMeetTheConstraintsOnTheNominalVehicle) {
   const Candidate alone = feasible_start(options, context, kPaperGains);
   EXPECT_GT(alone.violation, 0.0);
   DrawnVehicle drawn = context.own();
-  drawn.plant.yaw.alpha *= 5.0;  // this vehicle would violate the constraint more
+  drawn.plant.yaw.alpha *= 5.0;  // gains violate the constraint of this vehicle by more
   context.draws = {drawn};
   EXPECT_EQ(feasible_start(options, context, kPaperGains).violation, alone.violation);
 }

@@ -295,8 +295,8 @@ inline Model model_of(const TestVehicle& v) {
   model.covariance.parameters = {ParameterId::kSurgeAlpha, ParameterId::kSurgeBeta,
                                  ParameterId::kYawAlpha,   ParameterId::kYawBeta,
                                  ParameterId::kMassNorm,   ParameterId::kInertiaNorm};
-  // Covariance of a power law: at a rate w0 of its trials, ln g = ln alpha + beta ln w0 and beta
-  // have independent standard errors of 0.02.
+  // Covariance of a power law: w0 is a rate within its trials; ln g(w0) = ln alpha + beta ln w0 and
+  // beta have independent standard errors of 0.02.
   constexpr double kError = 0.02 * 0.02;
   const auto of_law = [&](std::size_t at, double alpha, double w0) {
     auto& c = model.covariance.matrix;

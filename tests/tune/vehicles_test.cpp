@@ -1,4 +1,5 @@
-/// Gains for nine vehicles: found for each, within every constraint, better than pole placement.
+/// For each of nine vehicles, tune() finds gains that meet every constraint and are better than
+/// pole placement.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -29,7 +29,7 @@ void take_out(ParameterId id, std::string why, Model& model,
   reasons.emplace(id, std::move(why));
 }
 
-/// Reason why a model file cannot hold this value; empty if it can.
+/// Reason why a model file cannot contain this value; empty if it can.
 std::string refusal_reason(double value, const NumberRule& rule) {
   if (!std::isfinite(value)) return "the fitted value is not finite";
   if (allows(rule, value)) return {};
@@ -39,8 +39,8 @@ std::string refusal_reason(double value, const NumberRule& rule) {
 
 /// Reason why the tables do not determine m': the upper end of its 95 % interval is more than
 /// 10,000 times the lower end, so that samples from the interval cannot be simulated. Empty if the
-/// tables determine m', and for other parameters. Also empty for an m' from logs, whose interval is
-/// so wide only if several logs disagree.
+/// tables determine m', and for other parameters. Also empty for an m' from logs: its interval can
+/// be so wide only because several logs disagree.
 std::string why_open(ParameterId id, const Estimate& estimate) {
   constexpr double kMaxOpen = 1e4;  // ratio of the interval's upper end to its lower end
   const auto& ci = estimate.ci95;
@@ -53,7 +53,7 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
       ci->lo, ci->hi);
 }
 
-/// Removes the parameters that depend on a removed parameter, and adds the reasons.
+/// Removes the values of parameters that depend on a removed one, and adds the reasons.
 void remove_dependent_values(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;

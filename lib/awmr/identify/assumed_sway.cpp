@@ -15,7 +15,7 @@ namespace {
 
 /// 95 % interval of c, the lateral force of a tyre over its load, per radian of slip angle.
 constexpr Interval kTyreStiffness{0.5, 16.0};
-/// Half width of a normal 95 % interval, in standard deviations.
+/// Half of the width of a 95 % interval of the normal distribution, in standard deviations.
 constexpr double kNormal95 = 1.959964;
 /// Quantile that is used as a log's highest speed. The maximum itself could be a spike.
 constexpr double kFastestQuantile = 0.95;

@@ -68,7 +68,7 @@ inline std::optional<Eigen::MatrixXd> evaluated_jacobian(
   return matrix;
 }
 
-/// Stop reason of a search that converged to a point at which the model overflows.
+/// Stop reason of a search that converged to a point at which the model's values are not finite.
 inline constexpr const char* kNotFinite =
     "failed: the curve or its derivatives are not finite where the search ended";
 

@@ -122,7 +122,7 @@ FamilyChoice yaw_family(const IdentifyOptions& options) {
   return options.yaw_family;
 }
 
-/// Moves the reports and findings of a step into the model's record.
+/// Moves the reports and findings of one step of the identification into the model's record.
 template <class Step>
 void record(Step& step, Model& model) {
   std::move(step.reports.begin(), step.reports.end(), std::back_inserter(model.record.reports));

@@ -25,7 +25,8 @@ struct Identification {
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
 
-/// Identifies the model from trials that load_trials() has read. Errors: as the function above.
+/// Identifies the model from trials that load_trials() has read. Errors: those of the function
+/// above.
 Result<Identification> identify(const Trials& trials, const IdentifyOptions& options);
 
 /// Half width of the 95 % interval of the assumed sway resistance (`assumed-sway`), as a factor >

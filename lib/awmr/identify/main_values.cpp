@@ -93,8 +93,8 @@ void set_joint(const JointFit& joint, MainValues& values) {
                    Source::kFitted, "joint with the surge runs", values);
 }
 
-/// Sets the surge family of the log fit. Terms that this family lacks become 0, even if a table fit
-/// has set them.
+/// Sets the surge family of the log fit. Terms that this family does not have become 0, even if a
+/// table fit has set them.
 void set_surge_family_of_logs(Family surge, Model& model) {
   model.surge_family = surge;
   const Estimate none = given(0.0, "not in the family");
@@ -123,8 +123,8 @@ void set_given(const Vehicle& vehicle, Model& model) {
   if (vehicle.back_emf_s_per_m) {
     model[ParameterId::kBackEmf] = given(*vehicle.back_emf_s_per_m, "vehicle");
   }
-  // A vehicle without steering has no servo. With a fixed time constant, whatever its value, no fit
-  // estimates one.
+  // A vehicle without steering has no servo. Its time constant is set to an arbitrary value, so
+  // that no fit estimates it.
   constexpr double kAny_s = 1.0;
   model[ParameterId::kSteeringTimeConstant] =
       given(vehicle.has_steering() ? vehicle.steering_time_constant_s : kAny_s, "vehicle");

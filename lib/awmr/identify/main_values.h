@@ -13,7 +13,7 @@
 namespace awmr {
 
 /// A model under construction and the covariance of its fitted parameters. Each function below
-/// replaces parameters that earlier calls have set.
+/// overwrites parameters that earlier calls have set.
 struct MainValues {
   Model& model;
   JointCovariance covariance = {};

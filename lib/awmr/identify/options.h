@@ -19,7 +19,7 @@ namespace awmr {
 enum class Method {
   kLogLinear,   ///< tables: the paper's least squares of logarithms; power law, squared loss only
   kNonlinear,   ///< tables: least squares of force, speed or time; all families and losses
-  kTrajectory,  ///< driving logs; tables only set the parameters that the logs do not determine
+  kTrajectory,  ///< driving logs; tables set only the parameters that the logs do not determine
 };
 inline constexpr NameTable<Method, 3> kMethodNames{{{"log-linear", Method::kLogLinear},
                                                     {"nonlinear", Method::kNonlinear},
@@ -29,7 +29,7 @@ inline constexpr NameTable<Method, 3> kMethodNames{{{"log-linear", Method::kLogL
 enum class ErrorModel {
   kForce,     ///< error of the force, e.g. a motor whose thrust drifts
   kSpeed,     ///< error of the speed or yaw rate, e.g. of a sensor
-  kTime,      ///< error of the time for a known distance or angle
+  kTime,      ///< error of the time that a known distance or angle takes
   kLogForce,  ///< relative error of the force: the assumption of the log-linear method
 };
 /// Values of --noise.
@@ -88,8 +88,9 @@ struct IdentifyOptions {
   /// also improve a1 and b1.
   bool joint = false;
   std::vector<ParameterId> requested = {};  ///< empty: the parameters that the given trials measure
-  /// True if the user requested all parameters. Those that the vehicle lacks, such as the servo's
-  /// without steering, are then ignored; otherwise requesting them is an input error.
+  /// True if the user requested all parameters. Parameters that the vehicle does not have (such as
+  /// the servo's, without steering) are then ignored. If false, requesting such a parameter is an
+  /// input error.
   bool requested_all = false;
   bool fit_input_delay = false;         ///< logs: estimates one common delay of all commands, s
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
@@ -102,8 +103,8 @@ struct IdentifyOptions {
   /// refused. The amount of computation is always limited.
   double time_limit_s = 0.0;
   int threads = 0;  ///< 0: one per core; the result does not depend on the number of threads
-  /// Tables: false fits only with the requested estimator, without fits for comparison and without
-  /// residual tests.
+  /// Tables: if false, only the requested estimator is used, without fits for comparison and
+  /// without residual tests.
   bool side_by_side = true;
   bool keeps_outliers = false;  ///< tables: true keeps gross outliers (gross_outlier.h) in the fit
   /// Logs: called when a step of the fit begins, with a description of the step. For display only.

@@ -15,7 +15,7 @@ namespace awmr {
 std::vector<ParameterId> requested_parameters(const Vehicle& vehicle, const TrialData& data,
                                               const IdentifyOptions& options);
 
-/// Reasons why parameters have no value although their trials were recorded.
+/// Reasons why parameters have no value although trials that measure them were recorded.
 struct Reasons {
   std::string surge;    ///< why no fit of the surge rows is accepted; else empty
   std::string turning;  ///< why no fit of the turning rows is accepted; else empty
@@ -23,9 +23,10 @@ struct Reasons {
   /// True if coast-down curves were fitted without a surge trial. `mass` is then also the reason
   /// why a1 has no value.
   bool curve_alone = false;
-  /// By parameter: why its fitted value was removed (take_out_inadmissible()).
+  /// For each removed parameter: why its fitted value was removed (take_out_inadmissible()).
   std::map<ParameterId, std::string> inadmissible;
-  std::map<ParameterId, std::string> logs;  ///< parameters that the logs do not identify: reason
+  std::map<ParameterId, std::string> logs;  ///< for each parameter that the logs do not identify:
+                                            ///< the reason
 };
 
 /// Adds the finding `not-identifiable` for every parameter without a value: an error if it was

@@ -10,8 +10,9 @@
 namespace awmr {
 
 /// Lists the rows of the surge, turning and stop-time tables with the model's prediction of the
-/// steady speed, the steady yaw rate or the stop time. Rows get no prediction if a parameter that
-/// predicts them has no value. Omits turning rows whose wheel forces are within the dead zone.
+/// steady speed, the steady yaw rate or the stop time. A row gets no prediction if a parameter that
+/// the prediction needs has no value. Omits turning rows whose wheel forces are within the dead
+/// zone.
 std::vector<TrialPoint> trials_as_used(const TrialData& data, const Model& model);
 
 }  // namespace awmr

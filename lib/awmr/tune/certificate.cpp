@@ -23,7 +23,8 @@ constexpr ParameterId kLoopParameters[] = {ParameterId::kYawAlpha, ParameterId::
 /// limits, in [0, 1].
 using SetPoint = std::vector<double>;
 
-/// Moves a point that is outside to the surface of the ball and into the range of the yaw rate.
+/// Moves a point outside the ball to the surface of the ball, and clamps its yaw-rate coordinate to
+/// [0, 1].
 SetPoint inside(SetPoint point) {
   double square = 0.0;
   for (std::size_t i = 0; i + 1 < point.size(); ++i) square += point[i] * point[i];
@@ -180,7 +181,7 @@ Result<ConfidenceSet> ConfidenceSet::make(const Model& model) {
   ConfidenceSet set;
   AWMR_ASSIGN_OR_RETURN(set.own_, model.plant());
   if (model.covariance.parameters.empty()) return set;
-  Model bare = model;  // without the record: the sampler copies the model for each plant
+  Model bare = model;  // without the trials: the sampler copies the model for each plant
   bare.record = {};
   AWMR_ASSIGN_OR_RETURN(set.sampler_, PlantSampler::make(bare));
   set.parameters_ = static_cast<int>(model.covariance.parameters.size());

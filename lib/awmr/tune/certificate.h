@@ -29,7 +29,7 @@ namespace awmr {
 /// and 500 random points; then a pattern search from the best point of each orthant of the
 /// ellipsoid. This is not a proof. In a test with nine vehicles, none of 20,000 random points
 /// (5,000 for the delay margin) is worse by more than kCertificateTolerance
-/// (tests/tune/certificate_test.cpp). Errors (input): as PlantSampler::make.
+/// (tests/tune/certificate_test.cpp). Errors (input): those of PlantSampler::make().
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
                             const UnmodelledVariation& open, const Gains<double>& gains);
 
@@ -40,7 +40,7 @@ inline constexpr double kCertificateTolerance = 2e-3;
 /// 95 % confidence set of the plant parameters on which the heading loop depends.
 class ConfidenceSet {
  public:
-  /// Errors (input): as PlantSampler::make.
+  /// Errors (input): those of PlantSampler::make().
   static Result<ConfidenceSet> make(const Model& model);
 
   /// Dimension of the set, 0 ... 5.

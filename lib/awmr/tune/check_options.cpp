@@ -151,7 +151,7 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
   }
 }
 
-/// A nominal search has neither latency nor motor lag.
+/// Rejects limits on the damping with latency and motor lag in a nominal search, which has neither.
 void check_late_limits(const TuneOptions& options, std::vector<Fault>& faults) {
   const TuningLimits unchanged;
   for (const auto& [key, limit] : {std::pair("late_damping", &TuningLimits::late_damping),

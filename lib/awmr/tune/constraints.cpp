@@ -106,8 +106,8 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
 
 /// The speed loop of a vehicle with the nominal controller.
 struct SpeedLoop {
-  double gain_per_s;      ///< mu_s/eps_s + L, L the bandwidth of the observer, times m' nominal/m'
-  const char* gain_name;  ///< in messages
+  double gain_per_s;      ///< (mu_s/eps_s + L) m'_nominal/m', L: bandwidth of the observer
+  const char* gain_name;  ///< formula of the gain, for messages
   double lag_s;           ///< T + latency + T_s/2
 };
 SpeedLoop speed_loop(const Gains<double>& gains, const ConstraintContext& context,

@@ -38,9 +38,9 @@ struct ConstraintContext {
   double speed_mps = 1.0;                ///< largest u_d of the scenarios, >= 0
   double step_rad = radians(60.0);       ///< largest change of the commanded heading, >= 0
   double fastest_radps = radians(60.0);  ///< highest yaw rate of the runs, > 0
-  TuningLimits limits = {};              ///< if steering_rate_rms_degps is absent, the steering
-                                         ///< rate has no limit
-  Interval wheel_force{-1.0, 1.0};       ///< F' of one wheel over F_max
+  TuningLimits limits = {};              ///< absent steering_rate_rms_degps: no limit of the
+                                         ///< steering rate
+  Interval wheel_force{-1.0, 1.0};       ///< range of F', the force of one wheel divided by F_max
   double heading_noise_rad = radians(1.0);     ///< standard deviation of the noise, >= 0
   double yaw_rate_noise_radps = radians(0.5);  ///< standard deviation of the noise, >= 0
   double heading_correlation = 0.0;      ///< correlation of the heading noise between two samples
@@ -50,7 +50,8 @@ struct ConstraintContext {
   double latency_s = 0.0;                ///< latency of the readings of heading and yaw rate, s, >=
                                          ///< 0
   double motor_time_constant_s = 0.0;    ///< first-order lag of the motors, s, >= 0
-  std::vector<DrawnVehicle> draws = {};  ///< drawn vehicles, which must meet the constraints, too
+  std::vector<DrawnVehicle> draws = {};  ///< drawn vehicles, which must meet the constraints as
+                                         ///< well
 
   /// The nominal vehicle: the identified plant with the vehicle's own wheel forces.
   DrawnVehicle own() const { return {plant, wheel_force}; }
@@ -58,10 +59,12 @@ struct ConstraintContext {
   bool steers() const { return has_steering && mode != YawMode::kDifferential; }
 };
 
-/// Range of the force of one wheel over F_max: that of the commands without the motors' dead zone.
+/// Range of the force with which one wheel pushes, divided by F_max: the range of the commands,
+/// reduced at both ends by the motors' dead zone.
 Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle);
 
-/// Factor on the steering angle in the moment of the steering, tan(factor d_r).
+/// Factor k in the yaw moment of the steering, which is proportional to tan(k d_r): 1/2, or 1 with
+/// front-wheel drive.
 inline double steering_angle_factor(const Plant<double>& plant) {
   return plant.rear_driven > 0.0 ? 0.5 : 1.0;
 }
@@ -74,8 +77,9 @@ double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 /// rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
-/// F'max and F'min are without the dead zone. With front-wheel drive, tan(d_max) replaces
-/// tan(d_max/2), and 2 replaces each 4. With back-EMF, k_e u_d is added to g1/4.
+/// F'max and F'min are the limits after subtracting the dead zone. With front-wheel drive,
+/// tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF, k_e u_d is added to
+/// g1/4.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
                            std::optional<YawMode> mode = {});
 
@@ -139,8 +143,8 @@ SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintCont
 /// The lowest and the highest yaw rate at which the heading loop is examined.
 Interval examined_rates_radps(const ConstraintContext& context);
 
-/// Residual of a constraint, -margin/max(|value|, |limit|). It is <= 0 exactly if the constraint is
-/// met.
+/// Residual of a constraint, -margin/max(|value|, |limit|). It is <= 0 if and only if the
+/// constraint is met.
 double residual(const ConstraintReport& constraint);
 
 /// The residual of each required constraint.

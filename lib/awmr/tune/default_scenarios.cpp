@@ -25,7 +25,7 @@ constexpr double kLargestStep_deg = 30.0;
 constexpr double kSmallestStep_deg = 5.0;
 constexpr double kShortestHold_s = 5.0;
 constexpr double kLongestHold_s = 20.0;
-/// Ratio of the time that a heading is commanded to the time of the turn.
+/// Time for which each heading is commanded, divided by the time of the turn (turning_time_s()).
 constexpr double kHoldOverTurn = 1.6;
 /// Settling time after the turn, as a multiple of the lag of servo or motors plus the latency.
 constexpr double kSettlingOverLag = 10.0;

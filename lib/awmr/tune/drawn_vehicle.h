@@ -8,7 +8,8 @@ namespace awmr {
 
 struct DrawnVehicle {
   Plant<double> plant{};
-  Interval wheel_force{-1.0, 1.0};  ///< F' of one wheel over F_max, at which the allocation clips
+  Interval wheel_force{-1.0, 1.0};  ///< range of a wheel's force divided by F_max; the allocation
+                                    ///< clips to it
 };
 
 }  // namespace awmr

@@ -36,7 +36,8 @@ void describe_constraints(JsonObject& json) {
     constraint.string("name");
     constraint.boolean("required");
     for (const char* key : {"value", "limit", "margin"}) constraint.number(key);
-    // Older files have no `sense`; only `meaning` shows the side of the limit.
+    // Older files have no `sense`; in them, only the text `meaning` says whether the limit is an
+    // upper or a lower one.
     if (constraint.has("sense")) constraint.choice("sense", kSenseNames);
     constraint.string("meaning");
     constraint.reject_unknown_keys();

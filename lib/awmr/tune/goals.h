@@ -6,7 +6,7 @@
 /// over its scenarios. In the search, a goal with the required share p is met in a mode if the p
 /// quantile of e over all draws is at most 1. The p quantile of n draws is the ceil(p n)-th
 /// smallest value, so with few draws it is the largest. After the search, the verdict (GoalVerdict)
-/// is by the 95 % interval of the share of new draws that meet the goal.
+/// follows from the 95 % interval of the share of new draws that meet the goal.
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@ inline constexpr std::size_t kRunFigures = 6;  ///< number of names in run_figur
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
-/// Metrics of a run for goals and evaluation. The objective uses other ones (kObjectiveTerms).
+/// Metrics of a run for goals and evaluation. The metrics of the objective are others
+/// (kObjectiveTerms).
 struct RunOutcome {
   YawMode mode{};
   bool completed = false;  ///< true if the run settles after every heading step
@@ -34,7 +35,7 @@ struct RunOutcome {
   /// scenario's duration.
   std::array<double, kRunFigures> figures{};
 };
-/// The runs of one set of gains, by draw, then mode, then scenario.
+/// The runs of one set of gains, sorted by draw, then mode, then scenario.
 struct EvaluatedRuns {
   std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
   std::vector<RunOutcome> outcomes;
@@ -42,7 +43,7 @@ struct EvaluatedRuns {
 
 /// Returns the metrics of a run that goals and evaluation need.
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
-/// outcome_of() for many runs. `scores` are by draw, then mode, then scenario.
+/// outcome_of() for many runs. `scores` are sorted by draw, then mode, then scenario.
 std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
                                     std::span<const Scenario> scenarios);
 
@@ -58,11 +59,11 @@ struct GoalInMode {
   YawMode mode{};
   std::string name() const;  ///< name of the goal in constraints and messages
 };
-/// Each goal in each of its modes that is in `modes`: by goal, then mode.
+/// Pairs each goal with each of its modes that is in `modes`. Sorted by goal, then mode.
 std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);
 
-/// Returns the quantile of the excess over the draws in the mode of the goal, >= 0: the goal is met
-/// if it is at most 1. `outcomes` are by draw, then mode, then scenario.
+/// Returns the quantile, over the draws, of the excess in the goal's mode, >= 0. The goal is met if
+/// the quantile is at most 1. `outcomes` are sorted by draw, then mode, then scenario.
 double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                           std::size_t scenarios);
 

@@ -38,7 +38,7 @@ Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
       .metrics;
 }
 
-/// The runs of one scenario: by gains, then vehicle, then mode.
+/// The runs of one scenario, sorted by gains, then vehicle, then mode.
 std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
                               std::span<const Gains<double>> gains) {
   std::vector<BatchRun> runs;
@@ -200,7 +200,7 @@ Evaluation Objective::operator()(const Gains<double>& gains) const {
 }
 
 /// Adds the objective and the relative activity of one mode; returns ln J of the mode. The scores
-/// are by vehicle, then mode, then scenario.
+/// are sorted by vehicle, then mode, then scenario.
 double Objective::evaluate_mode(std::span<const ModeScore> scores, std::size_t mode,
                                 Evaluation& evaluation) const {
   const std::size_t scenarios = setting_.scenarios.size();

@@ -74,7 +74,8 @@ struct ObjectiveSetting {
   ObjectiveWeights weights;
   std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
   double tail_share = 1.0;          ///< share of the vehicles that counts as worst, (0, 1]
-  std::uint64_t seed = 0;           ///< with the index of a vehicle, it selects the random numbers
+  std::uint64_t seed = 0;           ///< selects the random numbers, together with the vehicle's
+                                    ///< index
   BatchArithmetic arithmetic = {};  ///< instruction set and rounding of the runs
   std::vector<TuningGoal> goals = {};
   std::optional<YawMode> mode = {};  ///< the only mode to score; absent: all modes of the vehicle
@@ -82,15 +83,17 @@ struct ObjectiveSetting {
   std::span<const YawMode> modes() const { return tuned_modes(vehicle, mode); }
 };
 
-/// Standard normal random numbers of the sensor noise of all runs, by scenario, then vehicle. Empty
-/// if they would exceed kMaxNoiseBytes; then each run draws the same numbers itself.
+/// Standard normal random numbers for the sensor noise of all runs, sorted by scenario, then
+/// vehicle. Empty if they would take more than kMaxNoiseBytes; each run then generates the same
+/// numbers itself.
 using RunNoise = std::vector<std::vector<DrawnNoise>>;
 inline constexpr double kMaxNoiseBytes = 64e6;
 RunNoise draw_noise(const ObjectiveSetting& setting);
 
 /// Objective and metrics of one set of gains.
 struct Evaluation {
-  std::vector<ModeScore> scores;       ///< scores of the first vehicle, by mode, then scenario
+  std::vector<ModeScore> scores;       ///< scores of the first vehicle, sorted by mode, then
+                                       ///< scenario
   std::vector<double> mode_objective;  ///< geometric mean over scenarios, in the order of modes()
   std::vector<double> mode_activity;   ///< by mode: sum of the control variation of all runs,
                                        ///< divided by the sum with the baseline gains
@@ -132,8 +135,8 @@ class Objective {
   mutable std::map<GainNumbers, Evaluation> known_;
 };
 
-/// Simulates all runs of each set of gains. Returns for each set its scores by vehicle, then mode,
-/// then scenario. `noise`: draw_noise() of the setting.
+/// Simulates all runs of each set of gains. Returns for each set its scores, sorted by vehicle,
+/// then mode, then scenario. `noise`: draw_noise() of the setting.
 std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, const RunNoise& noise,
                                             std::span<const Gains<double>> gains);
 

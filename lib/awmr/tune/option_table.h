@@ -56,14 +56,14 @@ void weight_options(Weights& weights, const Field& field) {
   }
 }
 
-/// True if at least one weight is above 0; all are required to be at least 0.
+/// True if at least one weight is above 0. (kWeight excludes negative weights.)
 inline bool has_weight(const ObjectiveWeights& weights) {
   bool has = false;
   weight_options(weights, [&](const char*, double weight, const auto&) { has |= weight > 0.0; });
   return has;
 }
 
-/// Keys of /bounds: both ends of each interval are in the range.
+/// Keys of /bounds. The range applies to both ends of each interval.
 template <class Bounds, class Field>
 void bound_options(Bounds& bounds, const Field& field) {
   field("lambda", bounds.lambda, kUpToAMillion);

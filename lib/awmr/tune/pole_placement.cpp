@@ -36,9 +36,10 @@ double least_mu(const ConstraintReport& dominates) {
   return std::max(dominates.limit / kInside, kMinMu);
 }
 
-/// Returns the speed gains with the fastest pole. `at_one`: the constraints for gains that are all
-/// 1, from which the largest permitted rate follows in proportion. This rate is the sum of the
-/// rates of law (mu_s/eps_s) and observer.
+/// Returns the speed gains with the fastest pole. `at_one`: the constraints, evaluated with all
+/// gains equal to 1. Their values are proportional to the rate, so the largest permitted rate
+/// follows by division. This rate is the sum of the rates of the law (mu_s/eps_s) and of the
+/// observer.
 SpeedGains<double> place_speed_pole(const std::vector<ConstraintReport>& at_one,
                                     double observer_radps) {
   constexpr double kMinRate = 1e-3;

@@ -16,7 +16,7 @@ namespace awmr {
 
 /// Number of searched values: lambda, mu, epsilon, mu_s, epsilon_s and the observer's bandwidth.
 inline constexpr unsigned kMaxDimensions = 6;
-/// Natural logarithms of these values; the last one is 0 if no observer is searched.
+/// Natural logarithms of the searched values; the last one is 0 if no observer is searched.
 using Point = std::array<double, kMaxDimensions>;
 
 /// Fills in each absent bound: from the smallest value of the gain among `gains`, divided by

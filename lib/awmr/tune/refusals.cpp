@@ -31,7 +31,8 @@ std::string in_words(const Gains<double>& g) {
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
-/// Refusal that names the goal that the nearest gains violate most. Empty if they meet all goals.
+/// Error that names the goal which the gains nearest to the limits miss most. Empty if these gains
+/// meet all goals.
 std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, const Evaluation& e,
                                                  const Objective& objective,
                                                  const TuneOptions& requested) {

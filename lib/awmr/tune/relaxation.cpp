@@ -74,9 +74,9 @@ const Limit* limit_of(std::string_view constraint) {
 }
 
 /// Returns the value of a limit in tune.json with which given gains just meet the constraints that
-/// this limit sets. `number`: present value of the limit; `all`: constraints of the gains under it.
-/// The bound on the speed lag is 1/(4 zeta^2), zeta the value in tune.json; all other bounds are
-/// proportional to their value.
+/// this limit sets. `number`: present value of the limit; `all`: constraints of the gains,
+/// evaluated with this value. The speed lag is bounded by 1/(4 zeta^2), with zeta the value in
+/// tune.json. Every other bound is proportional to its value in tune.json.
 double just_met(const Limit& limit, double number, const std::vector<ConstraintReport>& all) {
   double ratio = 1.0;
   for (const ConstraintReport& c : all) {
@@ -87,7 +87,7 @@ double just_met(const Limit& limit, double number, const std::vector<ConstraintR
   return number * ratio;
 }
 
-/// Rounds to two digits, to the less strict side.
+/// Rounds to two digits, so that the rounded limit is the less strict one.
 double in_two_digits(const Limit& limit, double number) {
   const double digit = std::pow(10.0, std::floor(std::log10(std::abs(number))) - 1.0);
   return digit * (limit.relaxed_by_less ? std::floor(number / digit) : std::ceil(number / digit));
@@ -154,8 +154,8 @@ std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& c
 
 namespace {
 
-/// Returns gains from which tune() could start its search under the limits of `context`: as
-/// feasible_start(), but with fewer initial guesses. Empty if none are found.
+/// Returns gains from which tune() could start its search under the limits of `context`. Searches
+/// like feasible_start(), but from fewer initial guesses. Empty if none are found.
 std::optional<Gains<double>> start_with(TuneOptions options, const ConstraintContext& context) {
   const std::array<Gains<double>, 2> poles = starting_poles(context);
   bound_around(poles, options.bounds);
@@ -176,9 +176,9 @@ std::optional<Gains<double>> start_without(const Limit& limit, TuneOptions optio
 }
 
 /// Returns a value for `limit`, less strict than that of `context`, with which the search for a
-/// start finds gains; empty if there is none. It begins with the value that some gains just meet
-/// and makes it less strict until the search succeeds, because the default bounds of the gains
-/// depend on the limit.
+/// start finds gains; empty if there is none. The first value tried is the one that some gains just
+/// meet. The search can fail with this value, because the default bounds of the gains depend on the
+/// limit. The value is then made less strict until the search succeeds.
 std::optional<double> number_that_permits(const Limit& limit, const ConstraintContext& context,
                                           const Gains<double>& nearest,
                                           const TuneOptions& requested) {

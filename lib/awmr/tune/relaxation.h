@@ -10,7 +10,8 @@
 
 namespace awmr {
 
-/// Advice for a constraint that no gains meet: the limit to relax, or the cause in the vehicle.
+/// Advice for a constraint that no gains meet: the limit to relax or, for a constraint without a
+/// limit in tune.json, another change.
 std::string advice_on(const std::string& constraint);
 
 /// Pointer in tune.json to the limit of a constraint; "/bounds" if it has none.
@@ -28,10 +29,11 @@ struct RelaxedLimit {
 ///   - the limit of the steering rate: up to 20 times the present one
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);
 
-/// Changes of one limit or one requested bound, each of which alone permits gains that meet the
-/// constraints that need no simulation: "`limits/late_damping` 0.55". Each is confirmed by a search
-/// for such gains, as tune() makes it for its start, but with fewer initial guesses. `nearest`:
-/// gains with the smallest violation, another initial guess.
+/// Changes of one limit, of one requested bound or of `form`, each of which alone permits gains
+/// that meet the constraints that need no simulation: "`limits/late_damping` 0.55". Each change is
+/// confirmed by a search for such gains. It is the search by which tune() finds its start, but with
+/// fewer initial guesses. `nearest`: gains with the smallest violation; they serve as a further
+/// initial guess.
 std::vector<std::string> single_changes(const Gains<double>& nearest,
                                         const ConstraintContext& context,
                                         const TuneOptions& requested);

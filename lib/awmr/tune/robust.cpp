@@ -55,9 +55,9 @@ EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::
   return of_one;
 }
 
-/// Applies the unmodelled variation (payload, battery voltage) of the drawn vehicle `number`, from
-/// 1. The mass factor changes with every vehicle, the wheel-force range after all mass factors were
-/// used.
+/// Applies the unmodelled variation (payload, battery voltage) of drawn vehicle `number` (1, 2,
+/// ...). The mass factor changes from each vehicle to the next, the wheel-force range each time all
+/// mass factors were used.
 void open_up(const UnmodelledVariation& open, std::size_t number, DrawnVehicle& vehicle) {
   const std::size_t turn = (number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
@@ -77,10 +77,10 @@ std::size_t UnmodelledVariation::combinations() const {
 
 namespace {
 
-/// Sampler of the model's covariance, without the mass that the grip limit requires
-/// (mass_norm_by_grip). For the paper's vehicle, that is three times the identified mass. Because
-/// the gains must meet the constraints on all draws, it would make all gains slower. Users can
-/// request it with `mass_factors`.
+/// Sampler of the model's covariance that ignores mass_norm_by_grip, the larger m' that the tyres'
+/// grip implies (three times the identified m' for the paper's vehicle). The gains must meet the
+/// constraints on all draws, so draws with this m' would make the gains slower for every mass.
+/// Users can request such draws with `mass_factors`.
 Result<PlantSampler> sampler_of(Model model) {
   model.mass_norm_by_grip.reset();
   return PlantSampler::make(model);

@@ -18,8 +18,8 @@ enum class Spread { kRandom, kEven };
 
 /// Returns the nominal vehicle, then the draws 1 to `draws`, each with its unmodelled variation.
 /// The parameters of a draw come from the model's covariance; without a covariance, they are
-/// nominal. Errors (input): as PlantSampler::make, PlantSampler::draw and
-/// PlantSampler::draw_evenly.
+/// nominal. Errors (input): those of PlantSampler::make(), PlantSampler::draw() and
+/// PlantSampler::draw_evenly().
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const UnmodelledVariation& open, Spread spread);
 

@@ -219,7 +219,7 @@ std::optional<double> next_crossing_s(const CompensatedLoop& open,
 }
 
 /// Fixed-point iteration of the delay, s, over its fraction f of a sample, as long as |P| crosses 1
-/// in each range. The ranges belong to the first f, so at least one step succeeds.
+/// in each range. The ranges were computed for the initial f, so at least one step succeeds.
 double settled_delay_s(const SampledHeadingLoop& loop, const std::vector<Interval>& ranges,
                        double part, double present_s) {
   constexpr int kSteps = 30;

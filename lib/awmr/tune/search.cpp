@@ -306,7 +306,8 @@ std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
 
 namespace {
 
-/// Stores in `result` the constraint that `problem.nearest` violates most, and its residual.
+/// Stores in `result` the name and the residual of the constraint that `problem.nearest` violates
+/// most.
 void note_broken(Problem& problem, SearchResult& result) {
   const Point nearest[] = {problem.space().point_of(problem.nearest.gains)};
   const Looked looked = problem.look_at(nearest).front();
@@ -323,7 +324,7 @@ Result<std::string> finish(Problem& problem, const Gains<double>& from,
     problem.look_at(std::span(&point, 1));
   };
   look_at(from);
-  // If `from` violates a limit on all draws, a start can be nearer to the limits.
+  // If `from` violates a limit when evaluated on all draws, one of the starts can violate it less.
   if (!problem.nearest.feasible()) std::ranges::for_each(starts, look_at);
   problem.simulate_all = true;
   const int budget = problem.nearest.feasible() ? std::min(kFinishEvaluations, most_evaluations)

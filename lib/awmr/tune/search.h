@@ -39,8 +39,8 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
 
-/// Returns gains within the bounds that meet all constraints that need no simulation but those
-/// named in `relaxed`, and that violate these as little as possible. Empty if none are found.
+/// Returns gains within the bounds that violate the constraints named in `relaxed` as little as
+/// possible, and meet all other constraints that need no simulation. Empty if none are found.
 /// Searches from `baseline`, then from other points.
 std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
                                            const ConstraintContext& context,

@@ -38,8 +38,8 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
                      "give another baseline, or slower scenarios");
 }
 
-/// Factors of slowed(), for starts with slower poles, which meet the noise limits if the noise is
-/// large.
+/// Factors of slowed() for starts with slower poles. With large noise, only slower poles meet the
+/// limits on noise.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
 /// Bandwidths of the observer at starts of the search, rad/s.
@@ -75,8 +75,8 @@ constexpr double kWorthIt = 0.05;
 
 /// Repeats the search with an observer. `gains`: the result without one, or the gains nearest to
 /// the limits if none meet them. Empty if no observer may be added (TuneOptions::adds_observer), if
-/// no run that `gains` leave unsettled settles with one (observer_settles_more()), or if the share
-/// of settled runs increases by less than kWorthIt.
+/// simulations do not show that an observer lets more runs settle (observer_settles_more()), or if
+/// the share of settled runs increases by less than kWorthIt.
 std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
                                            const ConstraintContext& context,
                                            const TuneOptions& requested, const Scenario& held_out,

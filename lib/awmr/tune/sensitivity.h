@@ -31,7 +31,7 @@ SettledGains settle(const TuneOptions& options, const ConstraintContext& context
                     const Objective& searched, const Objective& all, const Candidate& best);
 
 /// Returns the constraints that are active at `best` (residual within 1 % of the limit), each with
-/// the improvement of the objective in a local search that relaxes it by kWider. Errors: as
+/// the improvement of the objective in a local search that relaxes it by kWider. Errors: those of
 /// search().
 Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& options,
                                                          const ConstraintContext& context,

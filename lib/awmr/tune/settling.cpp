@@ -58,7 +58,8 @@ bool meets_constraints(const Gains<double>& gains, const ConstraintContext& cont
   return std::ranges::max(residuals(constraints_of(gains, context))) <= 0.0;
 }
 
-/// True if the runs settle with gains by pole placement that meet the constraints.
+/// True if at least `share` of the runs settle with gains by pole placement that meet the
+/// constraints.
 bool poles_settle(const ObjectiveSetting& setting, const ConstraintContext& context, double share,
                   const ObserverGains<double>& observer = {}) {
   return std::ranges::any_of(starting_poles(context, observer), [&](const Gains<double>& gains) {

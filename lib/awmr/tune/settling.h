@@ -1,5 +1,5 @@
-/// Shares of settled runs, and changes with which runs settle that do not settle with the tuned
-/// gains, each confirmed by simulated runs. Private to tune/.
+/// Share of the runs that settle with given gains, and changes with which further runs settle. Each
+/// change is confirmed by simulation. Private to tune/.
 #pragma once
 
 #include <string>
@@ -24,9 +24,9 @@ ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, 
 /// The same runs on the nominal vehicle and the first draws only.
 ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);
 
-/// True if an observer lets the runs of a scenario and mode settle that do not settle without it:
-/// fewer than kSettledShare of them settle with these gains, but on few vehicles at least this
-/// share with an observer and gains by pole placement.
+/// True if an observer lets the runs of some scenario and mode settle: fewer than kSettledShare of
+/// these runs settle with the given gains, but at least kSettledShare with an observer and gains by
+/// pole placement. The runs with the observer use only a few vehicles (on_few_vehicles()).
 bool observer_settles_more(const ObjectiveSetting& setting, const ConstraintContext& context,
                            const Gains<double>& gains);
 

@@ -6,19 +6,20 @@
 
 namespace awmr {
 
-/// RMS rate of the steering command, deg/s, due to sensor noise while a heading is held, in the
-/// mode with the most of it. Motion of the vehicle due to the noise is neglected. From the yaw-rate
-/// noise n and the heading noise n_psi, the heading law computes the yaw acceleration
+/// RMS rate of the steering command, deg/s, due to sensor noise while a heading is held; the
+/// largest value over the modes. Motion of the vehicle due to the noise is neglected. From the
+/// yaw-rate noise n and the heading noise n_psi, the heading law computes the yaw acceleration
 ///   w = G(n, n_psi)/I'z - (lambda + k + L) n - lambda k n_psi,   k = mu/eps,
 ///   G = g3(n);   with Coulomb friction, for |n| < w0: g3(w0) sat(-lambda n_psi/w0)
 /// (fed_forward()), w0 the friction width of the mode. The steering command is d = s c I'z w/(l_f
 /// g1(u_d)), s the share of the moment that the steering makes, c = 2 (front-wheel drive: 1). With
 /// independent readings, w changes by sqrt(2 E[w^2]) RMS from one sample to the next; correlated
-/// readings change it less. 0 without steering, or without thrust to steer with.
+/// readings change it less. The rate is 0 without steering, or if the steady speed needs no thrust.
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context);
 
-/// Returns the gains with the smallest friction width of each mode that steers
-/// (Gains::friction_width_at()) for which its steering rate is at most the limit times (1 + wider):
+/// Sets the friction width w of each mode that steers (Gains::friction_width_at()) and returns the
+/// gains. The width of a mode is the smallest in the following range with which the mode's
+/// steering rate is at most the limit times (1 + wider):
 ///   0.02 <= w <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
 /// c3 is the Coulomb friction in yaw. With the first upper bound, the fed-forward friction grows
 /// with S a tenth as fast as the corrective term. If no w in this range meets the limit, w is the

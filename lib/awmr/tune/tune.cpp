@@ -24,8 +24,8 @@
 namespace awmr {
 namespace {
 
-/// The runs of each scenario and mode with few settled runs, and the changes with which they settle
-/// on the nominal vehicle and the first draws of the setting.
+/// Each scenario and mode in which fewer than 95 % of the runs settle, with the changes that let
+/// them settle. The changes are tried on the nominal vehicle and the first draws only.
 std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
                                           const ConstraintContext& context) {
   std::vector<UnsettledRuns> all;

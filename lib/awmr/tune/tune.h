@@ -46,10 +46,10 @@ struct ObjectiveWeights {
                              ///< not determined
 };
 
-/// Bounds of each gain in the search. Symbols and units as in model/gains.h. An absent bound
-/// reaches from the smallest value by pole placement divided by kBoundFactor to the largest one
-/// times kBoundFactor. Pole placement gives two sets of gains: with the smallest mu, and with wide
-/// boundary layers (pole_placement.h).
+/// Bounds of each gain in the search. Symbols and units as in model/gains.h. Pole placement gives
+/// two sets of gains: with the smallest mu, and with wide boundary layers (pole_placement.h). An
+/// absent interval means: from the smaller of these two values, divided by kBoundFactor, to the
+/// larger one times kBoundFactor.
 struct GainBounds {
   std::optional<Interval> lambda = {};         ///< 1/s
   std::optional<Interval> mu = {};             ///< rad/s^2
@@ -99,14 +99,14 @@ struct ObserverSearch {
   Interval bandwidth_radps{0.2, 20.0};  ///< rad/s
   /// Largest moment (m) and force (dimensionless) that the observer compensates, > 0. Absent:
   /// kObserverShare of the largest yaw moment of the weaker mode (turning_authority_m()), and
-  /// kObserverShare of the wheel force that g1 leaves at the largest u_d.
+  /// kObserverShare of the wheel force that remains at the largest u_d after overcoming g1.
   std::optional<double> yaw_max_m, surge_max;
 };
 inline constexpr double kObserverShare = 0.5;
 
-/// Number of drawn plants in the search if three modes are tuned; with one mode 12, so that the
-/// number of runs is the same. It is at least UnmodelledVariation::combinations(). The last part of
-/// the search uses all draws.
+/// Number of drawn plants in the search, except in its last part, which uses all draws. It applies
+/// to three tuned modes; with one mode it is 12, so that the number of runs is the same. It is
+/// raised to UnmodelledVariation::combinations() if that is larger.
 inline constexpr int kSearchedDraws = 4;
 /// Relative difference of the objective below which gains are equally good. settle()
 /// (sensitivity.h) selects among equally good gains.
@@ -218,7 +218,7 @@ struct ActiveConstraint {
   double wider_gains = 0.0;
 };
 
-/// Side of its limit on which a value must be.
+/// Whether a limit is an upper (at most) or a lower (at least) one.
 enum class Sense { kAtMost, kAtLeast };
 inline constexpr NameTable<Sense, 2> kSenseNames{
     {{"at-most", Sense::kAtMost}, {"at-least", Sense::kAtLeast}}};
@@ -310,10 +310,10 @@ struct RobustTuning {
   /// false: the model has no covariance, so the draws differ by noise and unmodelled variation
   /// only.
   bool from_covariance = false;
-  /// Statistics over the new draws, by gains, then mode. Empty without new draws.
+  /// Statistics over the new draws, sorted by gains, then mode. Empty without new draws.
   std::vector<EvaluatedGains> evaluated;
-  /// `evaluated` for each scenario: by scenario, then gains, then mode; empty with a single
-  /// scenario.
+  /// The same statistics for each scenario alone, sorted by scenario, then gains, then mode; empty
+  /// with a single scenario.
   std::vector<EvaluatedGains> evaluated_by_scenario;
   std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode
 };
@@ -423,8 +423,8 @@ struct Tuning {
 ///   psi   30 deg; if the hold would exceed 20 s, less in steps of 5 deg, down to 5 deg
 ///   hold  time that each heading is commanded: 1.6 times the time that the weaker mode takes to
 ///         turn by 2 psi without exceeding the measured yaw rates; rounded to 5, 10, 15 or 20 s
-/// The paper's vehicle has 30 then -30 deg at 1 m/s, 10 s each. [paper 4.3] Errors (input): as
-/// Model::plant.
+/// The paper's vehicle has 30 then -30 deg at 1 m/s, 10 s each. [paper 4.3] Errors (input): those
+/// of Model::plant().
 Result<Scenario> default_tuning_scenario(const Model& model);
 /// Default tuning scenarios:
 ///   1. default_tuning_scenario(): heading steps. They favour fast gains, at yaw rates above the
@@ -432,11 +432,11 @@ Result<Scenario> default_tuning_scenario(const Model& model);
 ///   2. The same with the heading rate limited to the highest measured yaw rate. It favours gains
 ///      that are accurate where the model is valid. Left out if the model has no measured yaw rate,
 ///      or if `choice` (--heading-rate-limit) is not empty: then the caller applies `choice`.
-///   3. Only if TuneOptions::observer is present: the last of these with a constant disturbance,
-///      because without a disturbance an observer only adds noise. The moment is kPush times the
-///      largest moment of the weaker mode (turning_authority_m()). The force is kPush times
-///      g1(u_d), against the motion.
-/// Errors (input): as Model::plant.
+///   3. Only if TuneOptions::observer is present: the last scenario of this list with a constant
+///      disturbance added, because without a disturbance an observer only adds noise. The moment is
+///      kPush times the largest moment of the weaker mode (turning_authority_m()). The force is
+///      kPush times g1(u_d), against the motion.
+/// Errors (input): those of Model::plant().
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,
                                                        const HeadingRateChoice& choice = {});
@@ -444,8 +444,8 @@ inline constexpr double kPush = 0.1;  ///< size of the disturbance, see default_
 /// Suffix of the name of a default scenario with a heading-rate limit.
 inline constexpr std::string_view kLedSuffix = "_led";
 /// Scenario for the evaluation after the search: twice the first heading of
-/// default_tuning_scenario(), then the heading 0, at 0.7 of its speed. Errors (input): as
-/// Model::plant.
+/// default_tuning_scenario(), then the heading 0, at 0.7 of its speed. Errors (input): those of
+/// Model::plant().
 Result<Scenario> held_out_scenario(const Model& model);
 
 /// Tunes the gains by a global and then local searches (search.h). Deterministic: model, options

@@ -139,7 +139,7 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
     config.options.observer = read_observer(std::move(*observer));
     if (!config.options.adds_observer) {
       object.fault(ErrorCode::kConflict, "no_observer",
-                   "forbids an observer, but `observer` asks for one; remove one of the two");
+                   "forbids an observer, but `observer` requests one; remove one of the two");
     }
   }
   if (auto limits = object.optional_object("limits")) {

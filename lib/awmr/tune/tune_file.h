@@ -11,7 +11,8 @@
 
 namespace awmr {
 
-/// Content of tune.json, with the files that it names, for the provenance of the output.
+/// Content of tune.json, with the files that it names. The output lists these files as its
+/// provenance.
 struct TuneConfig {
   TuneOptions options;
   std::vector<std::filesystem::path> scenario_files;  ///< of `options.scenarios`
@@ -20,7 +21,7 @@ struct TuneConfig {
 };
 
 /// The baseline with this name: "pole-placement" (no gains, tune() computes them), "paper" or the
-/// path of a gains.json. Errors: as read_gains.
+/// path of a gains.json. Errors: those of read_gains().
 Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name);
 
 /// Reads tune.json (`awmr.tune/1`). Unknown keys are errors, and every key is optional:
@@ -37,7 +38,8 @@ Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name
 ///   judged_draws are rounded up to a multiple of the number of combinations,
 ///   goals [{at_most {FIGURE: limit, ...}, share (0.95), mode, soft (false)}, ...],
 ///   global_evaluations, local_evaluations, seed, scenarios [path relative to the file, ...].
-/// Errors (input): as read_json_file and read_scenario; unknown keys, values out of range.
+/// Errors (input): those of read_json_file() and read_scenario(); unknown keys; values out of
+/// range.
 Result<TuneConfig> read_tune_config(const std::filesystem::path& path);
 
 /// The JSON Schema of tune.json, generated from the code that reads tune.json.

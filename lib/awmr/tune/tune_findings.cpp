@@ -31,8 +31,8 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
                      : std::string("increase judged_draws"))});
 }
 
-/// End of a message about runs that do not settle: the cause or the changes with which they settle.
-/// Precondition: `unsettled` has these runs.
+/// End of a message about runs that do not settle: the cause, or the changes with which they
+/// settle. Precondition: `unsettled` contains this scenario and mode.
 std::string advice_for(const std::string& scenario, YawMode mode,
                        std::span<const UnsettledRuns> unsettled) {
   const auto found = std::ranges::find_if(unsettled, [&](const UnsettledRuns& runs) {

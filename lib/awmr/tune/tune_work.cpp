@@ -15,7 +15,7 @@ namespace {
 /// Largest number of RK4 steps of a search. They take some hours.
 constexpr double kMaxSearchSteps = 1e11;
 
-/// A search that is expected to take longer on two cores, s, is announced.
+/// Expected duration on two cores, s, above which a search is announced.
 constexpr double kLongSearch_s = 10.0;
 /// Time of an RK4 step on two cores, s.
 constexpr double kTimeOfStep_s = 2.5e-8;

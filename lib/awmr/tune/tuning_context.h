@@ -21,7 +21,8 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
 /// Sets the limit of the steering rate to its default, if it is absent (TuningLimits).
 void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context);
 
-/// Sets the default limits of an observer. Errors (input): no force remains to compensate with.
+/// Sets the default limits of an observer. Errors (input): at the speed of the scenarios, the
+/// wheels have no force left to compensate a disturbance.
 Status limit_observer(const ConstraintContext& context, std::optional<ObserverSearch>& observer);
 
 }  // namespace awmr

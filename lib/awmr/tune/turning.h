@@ -1,5 +1,5 @@
-/// Whether the motors can turn the vehicle at all: the largest yaw moment of a mode compared with
-/// the yaw resistance at a small yaw rate. Private to tune/.
+/// Check whether the motors can turn the vehicle at all. It compares the largest yaw moment of each
+/// mode with the yaw resistance at a small yaw rate. Private to tune/.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,8 @@ struct TurningMoment {
   YawMode mode{};
   double speed_mps = 0.0;    ///< u_d
   double available_m = 0.0;  ///< the largest moment
-  /// g3 at kSlowest_radps, plus scrub in proportion to the share of the wheel-force difference.
+  /// g3 at kSlowest_radps, plus the tyre scrub moment times the share of `available_m` that the
+  /// difference of left and right wheel forces makes.
   double needed_m = 0.0;
 
   bool turns() const { return available_m > needed_m; }
@@ -27,8 +28,8 @@ struct TurningMoment {
 ///   steering      l_f g1(u_d) tan(d_max/2), as the steady speed needs the thrust g1(u_d)
 ///   differential  n d (F'max - F'min)/2, n the number of driven wheels
 ///   combined      the sum of both
-/// F'max and F'min are without the dead zone; with front-wheel drive, tan(d_max) replaces
-/// tan(d_max/2).
+/// F'max and F'min are the limits after subtracting the dead zone; with front-wheel drive,
+/// tan(d_max) replaces tan(d_max/2).
 TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawMode mode);
 
 /// Describes the moments of a mode that cannot turn the vehicle, and each change of the vehicle or

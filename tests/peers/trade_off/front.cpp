@@ -94,8 +94,8 @@ LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const
   const auto look = [&](const Vector& x) -> Member {
     const Controls c{one.model, gains_at(x), fed_forward};
     const Means m = means_of(one, trials, c);
-    // Gains that exceed the activity or the overshoot rank behind all that do not, ordered by the
-    // excess.
+    // Gains that exceed the permitted control variation or overshoot rank behind all others,
+    // ordered by how much they exceed it.
     const double over =
         std::max(m.variation / most_variation, m.overshoot_deg / most_overshoot_deg);
     return {x, over > 1.0 ? 1e3 * over : m.settling_s};

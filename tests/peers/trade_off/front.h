@@ -1,4 +1,4 @@
-/// Trade-off front of settling time against command activity, by a simulator and a search that
+/// Trade-off front of settling time and control variation, found by a simulator and a search that
 /// share no code with lib/awmr.
 #pragma once
 
@@ -44,8 +44,8 @@ struct FrontOptions {
   std::uint64_t seed = 1;
 };
 
-/// Finds the gains with the shortest settling time that meet every limit, have at most the command
-/// activity `most_variation` and overshoot by at most `most_overshoot_deg` on the trials. Draws
+/// Finds the gains with the shortest settling time that meet every limit, have at most the control
+/// variation `most_variation` and overshoot by at most `most_overshoot_deg` on the trials. Draws
 /// gains within a factor of 30 of `near` (speed gains: 5), then refines the best few and `near` by
 /// an evolution strategy.
 LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const LawGains& near,

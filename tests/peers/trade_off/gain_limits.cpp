@@ -18,7 +18,7 @@ using Vector4 = Eigen::Vector4d;
 struct Loop {
   double own_rate = 0.0;    ///< g3'/I'z of the body, 1/s
   double known_rate = 0.0;  ///< g3'/I'z of the model, which the law feeds forward, 1/s
-  double gain = 1.0;        ///< I'z of the model over that of the body
+  double gain = 1.0;        ///< I'z of the model divided by that of the body
   double by_forces = 0.0;   ///< fraction of the moment that the wheel forces make
   double motor_s = 0.0;
   double latency_s = 0.0;
@@ -50,7 +50,8 @@ Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command, dou
 }
 
 /// Smallest damping ratio of the sampled loop, from the eigenvalues of its transition matrix over
-/// one sample. Modes that decay to less than a tenth within a sample do not count.
+/// one sample. Modes that decay to less than a tenth of their amplitude within a sample are
+/// ignored.
 double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
   const double k_s = k.mu / k.epsilon;
   // Delayed commands, the oldest first: the oldest acts in the first part of the sample, the next
@@ -118,8 +119,9 @@ double mean(const F& f, const G& g) {
   return sum / weights;
 }
 
-/// RMS rate of the steering command by noise while a heading is held, deg/s, in a mode with the
-/// friction width w0 in which the steering makes `steered` of the moment. The yaw acceleration is
+/// RMS rate of the steering command due to noise while a heading is held, deg/s. `width_radps`: the
+/// mode's friction width w0; `steered`: the share of the yaw moment that the steering makes. The
+/// yaw acceleration is
 ///   a(n) + 1{|n| < w0} b(m) + c(m),   n, m: noise of the yaw rate and of the heading
 /// with dry friction b of a vehicle at rest; a, b and c are odd.
 double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErrors& errors,
@@ -152,7 +154,7 @@ double steering_rate_degps(const Controls& c, const Geometry& g, const SensorErr
          std::numbers::pi;
 }
 
-/// Largest yaw moment over F_max of the weaker of differential forces and steering, m.
+/// Largest yaw moment, divided by F_max, m, of the weaker of the modes differential and steering.
 double authority(const Geometry& g, const Body& body, double speed_mps) {
   const double thrust = body.surge.of_magnitude(speed_mps);
   const double by_forces =

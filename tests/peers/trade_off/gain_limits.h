@@ -1,5 +1,5 @@
-/// Independent implementation of the limits that the README of tune states for gains: which gains
-/// are admissible, for the cross-check of `tune`.
+/// Independent implementation, for the cross-check of `tune`, of the limits on gains that the
+/// README of tune states.
 #pragma once
 
 #include <vector>

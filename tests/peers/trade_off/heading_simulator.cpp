@@ -20,8 +20,8 @@ constexpr double kDeg = 180.0 / std::numbers::pi;
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
-/// Returns the speed after `step` under the acceleration `push` and a friction. Dry friction is
-/// integrated exactly, up to rest, the smooth part implicitly by its chord.
+/// Returns the speed after the time `step` under the acceleration `push` and the friction. Dry
+/// friction is integrated exactly until the speed is 0, the smooth part implicitly with its chord.
 double after_step(const Friction& friction, double inertia, double w, double push, double step) {
   double next = w + step * push;
   const double dry = step * friction.coulomb / inertia;
@@ -37,8 +37,8 @@ double after_step(const Friction& friction, double inertia, double w, double pus
   return next / (1.0 + h);
 }
 
-/// Resistance that a law feeds forward at w. Below `rest`, dry friction is replaced by a chord and
-/// follows `intent`.
+/// Resistance that a control law feeds forward at the speed w. For |w| < `rest`, dry friction
+/// changes its sign linearly with w + `intent` instead of jumping.
 double fed_forward(const Friction& friction, double w, double intent, double rest = 0.02) {
   if (friction.coulomb > 0.0 && std::abs(w) < rest) {
     return friction.of_magnitude(rest) * std::clamp((w + intent) / rest, -1.0, 1.0);
@@ -51,14 +51,14 @@ struct Commands {
   double left = 0.0, right = 0.0, angle = 0.0;
 };
 
-/// Largest steering angle at a thrust: its half-angle tangent falls linearly to 0 below a thrust of
-/// 1/16.
+/// Largest steering angle at a thrust. Below a thrust of 1/16, the tangent of half the angle falls
+/// linearly to 0.
 double largest_angle(const Geometry& g, double thrust) {
   const double share = std::clamp(16.0 * thrust, 0.0, 1.0);
   return 2.0 * std::atan(share * std::tan(0.5 * g.steering_max_rad));
 }
 
-/// Wheel forces that make a thrust and a moment at an angle:
+/// Sets the wheel forces that make this thrust and yaw moment at the steering angle c.angle:
 ///   F = (thrust -+ moment/d)/(2 (1 + cos angle))
 void set_forces(const Geometry& g, double thrust, double moment, Commands& c) {
   const double share = 1.0 / (2.0 * (1.0 + std::cos(c.angle)));

@@ -52,8 +52,8 @@ inline double combined_width_radps(const LawGains& k) {
   return std::max(0.02, 0.5 * k.friction_width_radps);
 }
 
-/// Yaw rate at which the heading law feeds g3 forward: the measured one (as in the paper) or the
-/// reference.
+/// Yaw rate for which the heading law feeds the resistance g3 forward: the measured one (as in the
+/// paper) or the reference.
 enum class FedForward { kMeasured, kReference };
 
 struct Controls {

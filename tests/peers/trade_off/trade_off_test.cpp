@@ -40,8 +40,8 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
   const LawGains tuned = law_gains(tuning->gains);
   const LawGains baseline = law_gains(tuning->baseline.gains);
 
-  // `tune` checks the limits for the model's own vehicle, so they hold here, too; the two
-  // computations of the steering rate agree to 1e-4.
+  // `tune` checks the limits for the model's own vehicle, so the independent implementation must
+  // confirm them. The two computations of the steering rate agree to 1e-4.
   const Controls controls{one.model, tuned};
   const auto excess_over = [&](const std::vector<Body>& bodies) {
     return excess(controls, one.vehicle, one.errors, bodies, one.limits, one.examined);
@@ -76,8 +76,8 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
 
 INSTANTIATE_TEST_SUITE_P(FromToyToTractor, TradeOff, ::testing::ValuesIn(testing::test_vehicles()));
 
-/// For the paper's vehicle, settling time and activity by the library and by the independent
-/// simulator have to agree.
+/// For the paper's vehicle, the library and the independent simulator must give the same settling
+/// time and control variation.
 TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
   const Model model = testing::model_of(testing::test_vehicles()[4]);
   TuneOptions options;
@@ -94,10 +94,10 @@ TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
     const Controls controls{one.model, law_gains(gains)};
     const Means means = means_of(one, trials, controls);
     // Means over 5 and 24 draws whose settling times scatter by 5 %: 3 sqrt(1/5 + 1/24) 5 % = 7 %.
-    // Activity scatters by less than 1 %.
+    // The control variation scatters by less than 1 %.
     EXPECT_NEAR(means.settling_s / named.point.settling_time_s, 1.0, 0.07) << named.gains;
     EXPECT_NEAR(means.variation / named.point.control_variation, 1.0, 0.03) << named.gains;
-    // With half the integration step, the difference is the integrator's error.
+    // The difference from a run with half the integration step is the integrator's error.
     const Means finer = means_of(one, trials, controls, 1e-3);
     EXPECT_NEAR(finer.settling_s / means.settling_s, 1.0, 0.01);
     EXPECT_NEAR(finer.variation / means.variation, 1.0, 0.01);

@@ -26,7 +26,8 @@ inline Body body_of(const Model& model) {
           .sway = value(ParameterId::kSwayAlpha)};
 }
 
-/// Bodies from the covariance, independent draws: normal in the exponents, lognormal in the others.
+/// Bodies drawn independently from the covariance: exponents are normally distributed, other
+/// parameters lognormally.
 inline std::vector<Body> drawn_bodies(const Model& model, int count, std::uint64_t seed) {
   const std::vector<ParameterId>& ids = model.covariance.parameters;
   const auto n = static_cast<Eigen::Index>(ids.size());

@@ -51,7 +51,8 @@ EstimatorReport report_of_alone(const CoastFit& fit) {
 }
 
 /// Fits the curves under the requested family, or under all families if none or `auto` is
-/// requested. A requested dead zone counts as the power law.
+/// requested. A requested family `dead-zone` is fitted as the power law, because the motors are
+/// off.
 std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                               const FamilyChoice& choice) {
   std::vector<CoastFit> fits;

@@ -14,9 +14,9 @@ namespace awmr {
 /// stop reason and residual tests of a curve fit into its report.
 void add_curve_figures(EstimatorReport& report, const CoastFit& fit);
 
-/// Report entry of a positive number whose logarithm was fitted. `value`: the number itself.
-/// `error`: standard error of the logarithm. `half`: half width of the logarithm's 95 % interval in
-/// standard errors (quantile of Student's t).
+/// Entry in /estimates of model.json for a positive number whose logarithm was fitted. `value`: the
+/// number itself. `error`: standard error of the logarithm. `half`: half width of the logarithm's
+/// 95 % interval in standard errors (quantile of Student's t).
 EstimatorParameter by_logarithm(std::string name, double value, double error, double half);
 
 /// Estimates m'/a1 and, if the family has them, b1, c1/a1 and q1/a1 from coast-down curves alone.

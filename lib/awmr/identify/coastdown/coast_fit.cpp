@@ -52,7 +52,7 @@ CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   return fit;
 }
 
-/// The free parameters of the curve g1/a1 in a family: b1, c1/a1 and q1/a1, as far as it has them.
+/// The free parameters of the curve g1/a1: those of b1, c1/a1 and q1/a1 that the family has.
 std::vector<TransformedParameter> shapes_of(Family family) {
   const FamilyTerms terms = terms_of(family);
   std::vector<TransformedParameter> shapes;
@@ -81,9 +81,9 @@ bool is_inside(const Interval& range, double value) {
   return value > range.lo + kOnTheEdge && value < range.hi - kOnTheEdge;
 }
 
-/// Sets the ratios c1/a1 and q1/a1, and the variances of ln m', b1 and these ratios; 0 for a
-/// parameter at a bound. The covariance begins with ln m' and the parameters `inside`, which are
-/// not at a bound.
+/// Sets the ratios c1/a1 and q1/a1, and the variances of ln m', b1 and these ratios. The variance
+/// of a parameter at a bound is 0. The first rows of `covariance` are those of ln m' and of the
+/// parameters `inside`, which are not at a bound.
 void add_shapes(CoastProblem& problem, const std::vector<TransformedParameter>& free,
                 const std::vector<TransformedParameter>& inside, const Eigen::MatrixXd& covariance,
                 CoastFit& fit) {

@@ -27,7 +27,7 @@ struct TermOverAlpha {
 /// Time constant T of a low-pass filter that the speed of the curves has passed.
 struct FittedLag {
   double value_s = 0.0;
-  double variance = 0.0;     ///< variance of T, s^2, by the noise of the curves alone
+  double variance = 0.0;     ///< variance of T, s^2, due to the noise of the curves alone
   Eigen::VectorXd by_surge;  ///< d T / d theta, theta as in CoastFit::by_surge
 };
 
@@ -40,7 +40,7 @@ struct FittedLag {
 /// time of motors-off.
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
-  double variance = 0.0;       ///< variance of log_mass_norm by the noise of the curves alone
+  double variance = 0.0;       ///< variance of log_mass_norm due to the noise of the curves alone
   double dof = 0.0;            ///< degrees of freedom of `variance`; fewer if `autocorrelated`
   /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
@@ -68,8 +68,8 @@ CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge
 
 /// Checks the standard error of ln m' of a fit with a filter. Fixes ln m' at 3 standard errors
 /// below and above the optimum and fits the other parameters. On both sides the sum of squares must
-/// rise by at least half of what its curvature at the optimum predicts. Returns empty if it does,
-/// else ln m' and the filter on the side with the smaller rise.
+/// rise by at least half of what its curvature at the optimum predicts. Empty if it does on both
+/// sides; otherwise ln m' and the filter on the side with the smaller rise.
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit);
 

@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Models whose AICc differ by less than this are close. At this difference, the likelihoods differ
-/// by a factor of 150.
+/// Two models whose AICc differ by less than this describe the curves about equally well. At this
+/// difference, their likelihoods differ by a factor of 150.
 constexpr double kClose = 10.0;
 
 /// The data of all candidates.
@@ -42,8 +42,9 @@ double pooled_noise(const std::vector<CoastCurve>& curves) {
   return std::sqrt(squares / rows);
 }
 
-/// Frees the coordinates of the surge law that act in a coast-down, with the covariance of the
-/// surge fit as prior. Does nothing without a covariance, or if `prior_mps` is 0 (fit_once()).
+/// Makes the coordinates of the surge law (except the dead zone, which has no effect in a
+/// coast-down) free parameters, with the covariance of the surge fit as prior. Does nothing without
+/// a covariance, or if `prior_mps` is 0 (fit_once()).
 void free_within_errors(const CoastData& data, double prior_mps, CoastProblem& problem) {
   if (!data.surge.has_covariance() || !(prior_mps > 0.0)) return;
   std::vector<TransformedParameter> free;
@@ -76,8 +77,9 @@ CoastCandidate fit_once(const CoastData& data, const CoastStart& start, double p
   return fit;
 }
 
-/// Fits one model and varies the surge law within its covariance. The noise of the curves weighs
-/// them against the surge rows: at first that of the readings, then that of the residuals.
+/// Fits one model and varies the surge law within its covariance. The weight of the curves relative
+/// to the surge rows follows from the noise of the curves: in the first round that of the readings,
+/// then that of the residuals.
 CoastCandidate fit_candidate(const CoastData& data, const CoastStart& start) {
   constexpr int kRounds = 4;
   constexpr double kSame = 0.3;
@@ -119,8 +121,8 @@ bool is_slow(const CoastStart& at, const CoastData& data) {
 
 /// Another m' and filter that describe the curves nearly as well as the reported fit `fixed`; empty
 /// if there is none. `fixed` started at the optimum `best` and has the given surge law. Candidates:
-///   - `other`, the optimum from the other start, if its AICc is close, its m' differs, and tyres
-///     can give its deceleration;
+///   - `other`, the optimum from the other start, if its AICc is within kClose, its m' differs, and
+///     its deceleration is possible for tyres;
 ///   - `plain`, without a filter, if the filter of `best` is slower than the motion and the
 ///     residuals are correlated;
 ///   - `best`, if `fixed` ended at another m' with the time constants of filter and motion
@@ -146,8 +148,8 @@ std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCan
   return flat_direction(data.curves, data.surge, fixed);
 }
 
-/// Limit of the correlation time, above which a drift is a model error: that of logs, or the time
-/// constant of the motion if that is shorter.
+/// A drift with a longer correlation time than this is a model error. The limit is that of log
+/// fits, or the time constant of the motion if that is shorter.
 double longest_drift_s(const CoastData& data, const CoastStart& at) {
   constexpr double kLongest_s = 0.5;
   return std::min(kLongest_s, fall_time_s(data.curves, data.surge.law(), at.log_mass));
@@ -172,7 +174,7 @@ void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& 
   model.other = competitor(plain, filters[1], best, fit, data);
 }
 
-/// True if the residuals of the fit `given` under the given surge law are white, and a filter does
+/// True if the residuals of `given`, a fit with the surge law fixed, are white, and a filter does
 /// not lower its AICc.
 bool is_described(const CoastData& data, const CoastCandidate& given) {
   return !(given.noise.drift_std > 0.0) &&
@@ -182,7 +184,7 @@ bool is_described(const CoastData& data, const CoastCandidate& given) {
 }  // namespace
 
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge) {
-  constexpr double kExact = 1e-4;  // of the speed: smaller errors are those of the integration
+  constexpr double kExact = 1e-4;  // of the speed: smaller errors come from the integration
   const std::vector<CoastCurve>& curves = readings.curves;
   const double exact_mps = kExact * highest_speed_mps(curves);
   const CoastData data{curves, surge,

@@ -18,7 +18,8 @@ struct CoastModel {
   /// Another m' and time constant that describe the curves nearly as well. (With a resistance in
   /// proportion to the speed, a filter and m'/a1 can be exchanged.)
   std::optional<CoastStart> other;
-  ChannelNoise noise;      ///< of the residuals of a fit that varies the law within its covariance
+  ChannelNoise noise;      ///< noise of the residuals, with the surge law varied within its
+                           ///< covariance
   double longest_s = 0.5;  ///< drifts with a longer correlation time are model errors
 
   bool is_inadequate() const { return noise.of_the_model(longest_s); }
@@ -27,9 +28,9 @@ struct CoastModel {
 
 /// Fits the curves without and with a filter of the speed. The filter is kept if its time constant
 /// is above 2 standard errors, and if it lowers AICc by more than 4 (10 if the filter is slower
-/// than the motion). In simulated trials without a filter, it is kept in about 2 of 100. For AICc,
-/// the noise may have a drift, and the surge law may deviate from `surge` within its covariance. So
-/// neither a disturbance nor an error of the law counts as a filter.
+/// than the motion). In simulated trials without a filter, it is kept in about 2 of 100. In both
+/// fits, the noise may have a drift, and the surge law may deviate from `surge` within its
+/// covariance. Therefore neither a disturbance nor an error of the law is mistaken for a filter.
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge);
 
 /// The finding `model-inadequate`, if there is a model error.

@@ -19,8 +19,8 @@ std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e,
 ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
                                 int free, double sensor_mps);
 
-/// Standard deviation of white noise under which the mean of all errors would have the same
-/// variance as under `noise`; at least noise.std().
+/// Standard deviation of the white noise that gives the mean of all errors the same variance as
+/// `noise` does; at least noise.std().
 double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& curves);
 
 /// Sets the residuals, their standard deviation and autocorrelation, the rank, the condition number

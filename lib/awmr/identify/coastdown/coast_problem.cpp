@@ -42,8 +42,8 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   return next > T(0.0) ? next : T(0.0);
 }
 
-/// Largest number of steps between two samples: half an hour in steps of 2 ms. A point of the
-/// search that needs more steps, because its t0 diverges, is rejected.
+/// Largest number of steps between two samples: half an hour in steps of 2 ms. Points of the search
+/// that need more steps are rejected; their t0 diverges.
 constexpr double kMaximumSteps = 1e6;
 
 /// Speed after the filter T y' = u - y over the time h, in which u changes linearly from u to next.
@@ -58,7 +58,7 @@ T filtered(const T& y, const T& u, const T& next, const T& h, const T& lag_s) {
 struct CoastResidual {
   const CoastCurve* curve;
   double longest_step_s;
-  /// True: derivatives by c or q are needed, which the closed form does not have.
+  /// True: derivatives with respect to c or q are needed, so the closed form is not used.
   bool derivative_wanted = false;
   bool has_filter = false;
 
@@ -100,7 +100,8 @@ struct CoastResidual {
 
 using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 1, 1, 1, 1, 1, 2>;
 
-/// Prior about the surge law: residuals root (theta - given), theta the coordinates `free`.
+/// Prior of the surge law. Its residuals are root (theta - given), with theta the coordinates
+/// `free`.
 struct LawPrior {
   Eigen::MatrixXd root;
   std::vector<TransformedParameter> free;

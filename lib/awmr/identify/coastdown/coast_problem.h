@@ -49,8 +49,8 @@ class CoastProblem {
   const TransformedParameters& theta() const { return theta_; }
 
   /// Frees the coordinates `free` of the surge law, with a normal prior about the given law.
-  /// `covariance`: that of the prior. `noise_mps`: standard deviation of the curves' noise, by
-  /// which the residuals of the prior are multiplied, because those of the curves are in m/s.
+  /// `covariance`: that of the prior. `noise_mps`: standard deviation of the curves' noise. The
+  /// residuals of the prior are multiplied by it, because the residuals of the curves are in m/s.
   void free_law(const std::vector<TransformedParameter>& free, const Eigen::MatrixXd& covariance,
                 double noise_mps);
   /// Squared Mahalanobis distance of the law from the given one, by the covariance of free_law(); 0

@@ -10,14 +10,15 @@
 
 namespace awmr {
 
-/// m' from stop times, with its dependence on the surge law and its own variance.
+/// m' from stop times, with its derivatives with respect to the surge law and the variance due to
+/// the times.
 struct MassFromStopTime {
   double log_mass_norm = 0.0;  ///< ln m'
   /// d ln m' / d theta for the free coordinates theta of the surge fit (SteadyFit::free). For a
   /// power law d/d ln a1 = 1 and d/d b1 = -1/(1 - b1) + mean ln u_max.
   Eigen::VectorXd by_surge;
-  /// Variance of ln m' from the times: by the scatter of the runs, or by the timing error if there
-  /// is a single run.
+  /// Variance of ln m' due to the times: from the scatter of the runs or, for a single run, from
+  /// the timing error.
   double timing_variance = 0.0;
 };
 
@@ -29,7 +30,7 @@ std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
 
 /// Adds the findings about m' from stop times, where they apply: `implausible-deceleration` (above
 /// g), `fragile-mass` (standard error above 10 %), `single-stop-time`. `relative_std_error`:
-/// standard error of m' over m'; if absent, `fragile-mass` is not checked.
+/// standard error of m' divided by m'; if absent, `fragile-mass` is not checked.
 void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& coastdown,
                 double mass_kg, double mass_norm, std::optional<double> relative_std_error,
                 std::vector<Finding>& findings);

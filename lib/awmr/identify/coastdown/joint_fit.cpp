@@ -24,8 +24,9 @@ struct BySet {
   double coast = 0.0;
 };
 
-/// Columns of the curves' Jacobian for the parameters in common with the surge rows (the surge law
-/// without the dead zone, which does not act in a coast-down), then for CoastProblem::own_blocks().
+/// Columns of the curves' Jacobian: first those of the parameters that the surge rows share (the
+/// surge law without the dead zone, which has no effect in a coast-down), then those of
+/// CoastProblem::own_blocks().
 struct SharedColumns {
   std::vector<double*> blocks;         ///< parameter blocks of CoastProblem
   std::vector<Eigen::Index> of_surge;  ///< column of each block of the law in the surge Jacobian
@@ -38,8 +39,8 @@ struct Rows {
   Eigen::MatrixXd coast_jacobian;  ///< over SharedColumns, then the initial states
 };
 
-/// Jacobians of the surge rows and of the curves, both by (surge law, ln m', initial states), and
-/// the covariance of these parameters.
+/// Jacobians of the surge rows and of the curves with respect to the same parameters (surge law,
+/// ln m', initial states), and the covariance of these parameters.
 struct Stacked {
   Eigen::MatrixXd surge;
   Eigen::MatrixXd coast;

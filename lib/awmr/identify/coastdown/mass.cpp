@@ -18,7 +18,8 @@
 namespace awmr {
 namespace {
 
-/// Smallest decrease of the mean speed that counts as a deceleration, in standard deviations.
+/// Smallest decrease of the mean speed that counts as a deceleration, in standard deviations of
+/// such a mean.
 constexpr double kMinimumFall = 5.0;
 
 /// True if the speed falls significantly: the mean of the curve's last fifth is below the mean of
@@ -210,8 +211,8 @@ Posterior::Alternative with_mass(const NoiseAlternative& law, const MassEstimate
   return joint;
 }
 
-/// Estimates m' under each alternative surge law, and sets `result.posterior`. The estimate under
-/// the chosen law is already in `result`.
+/// Estimates m' under each alternative surge law, and sets `result.posterior`. `result` already
+/// contains the estimate under the chosen law.
 void add_alternatives(const std::vector<NoiseAlternative>& laws,
                       const std::optional<TrialSet<StopTimeRow>>& stops,
                       const std::vector<CoastCurve>& curves, const std::optional<CoastModel>& model,

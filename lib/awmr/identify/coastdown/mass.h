@@ -22,7 +22,7 @@ struct MassResult {
   std::optional<double> by_grip;
   std::optional<JointFit> joint;  ///< present if requested and usable
   std::optional<CoastFit> alone;  ///< fit of the curves, if there is no surge law
-  /// Reason why stop times or curves give no estimate. It may be present although the other kind of
+  /// Reason why stop times or curves give no estimate. It can be set even if the other kind of
   /// trial gives an estimate.
   std::string reason;
   std::vector<EstimatorReport> reports;

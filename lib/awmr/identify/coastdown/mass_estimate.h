@@ -19,7 +19,7 @@ struct MassEstimate {
   double log_mass_norm = 0.0;
   Eigen::VectorXd by_surge;   ///< d ln m' / d theta, theta: SteadyFit::free of the surge fit
   double own_variance = 0.0;  ///< variance of ln m' from the coast-down itself, >= 0
-  double own_dof = 1e9;       ///< degrees of freedom of own_variance; 1e9: variance is known
+  double own_dof = 1e9;       ///< degrees of freedom of own_variance; 1e9: variance known exactly
   std::string method;         ///< "stop time", "coast-down curve", "stop time and coast-down curve"
 
   /// Total variance of ln m'; empty if the surge fit has no covariance.
@@ -32,8 +32,9 @@ struct MassEstimate {
 MassEstimate from_stop_time(const MassFromStopTime& mass, std::size_t runs);
 MassEstimate from_curve(const CoastFit& fit);
 
-/// Weighted mean w a + (1 - w) b of two estimates of ln m', with the w of the smallest variance.
-/// The error of the surge fit is common to a and b. Precondition: the surge fit has a covariance.
+/// Weighted mean w a + (1 - w) b of two estimates of ln m'; w minimises its variance. The errors of
+/// a and b due to the surge fit are correlated, because both use the same fit. Precondition: the
+/// surge fit has a covariance.
 MassEstimate combined(const MassEstimate& a, const MassEstimate& b, const SteadyFit& surge);
 
 /// The warning `estimates-disagree` if the estimates a and b differ significantly (p < 0.01 by a

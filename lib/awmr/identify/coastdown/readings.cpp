@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Row of the first speed of 0 after which at least half of the rows are 0; the number of rows if
-/// there is none.
+/// Index of the first row with speed 0 such that at least half of the rows from it on have speed 0;
+/// the number of rows if there is none.
 std::size_t first_zero(const std::vector<double>& speed_mps) {
   std::size_t first = speed_mps.size();
   std::size_t zeros = 0;
@@ -25,7 +25,8 @@ std::size_t first_zero(const std::vector<double>& speed_mps) {
 }
 
 /// Speed at row `end` by the least-squares line through the five rows before it, or 0 if the curve
-/// has no five rows before. A coast-down is steeper at higher speed, so the true speed is higher.
+/// has no five rows before. A coast-down flattens at low speed, so the true speed at row `end` is
+/// higher.
 double extrapolated_mps(const CoastCurve& curve, std::size_t end) {
   constexpr std::size_t kRows = 5;
   if (end < kRows) return 0.0;

@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-inline constexpr std::size_t kFewestRows = 3;  ///< of a curve that is used
+inline constexpr std::size_t kFewestRows = 3;  ///< smallest number of rows of a curve that is used
 
 /// Curves reduced to the rows that are measurements.
 struct CoastReadings {
@@ -17,10 +17,10 @@ struct CoastReadings {
 };
 
 /// Removes rows that are not measurements:
-///   - rows from the first speed of exactly 0 on, if half of them or more are 0. An encoder reads 0
-///     at rest and also below its lowest speed, so these rows do not show when the vehicle stopped.
-///     If the rows before extrapolate to a speed significantly above 0, adds the finding
-///     `speed-cut-off`;
+///   - all rows from the first speed of exactly 0 on, if at least half of these rows are 0. An
+///     encoder reads 0 at rest and also below its lowest speed, so these rows do not show when the
+///     vehicle stopped. If the rows before extrapolate to a speed significantly above 0, adds the
+///     finding `speed-cut-off`;
 ///   - repeated values of a sensor that is slower than the rows (find_repeats(); `held-samples`).
 /// Speed bins stay as they are.
 CoastReadings measured_rows(const std::vector<CoastCurve>& curves, std::vector<Finding>& findings);

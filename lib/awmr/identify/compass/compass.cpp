@@ -76,13 +76,13 @@ std::size_t sector_of(double heading_rad) {
 struct Known {
   Ellipse ellipse;
   Covariance covariance = Covariance::Zero();
-  double half = 0.0;      ///< half width of a 95 % interval, in standard errors
+  double half = 0.0;      ///< half of the width of a 95 % interval, in standard errors
   double residual = 0.0;  ///< standard deviation of the residuals, as a share of the field
 };
 
-/// Computes the covariance of the ellipse by leaving out one of the n sectors at a time, because
-/// the residuals within a sector may be correlated. With the Jacobian J_s and the residuals r_s of
-/// sector s, and the Jacobian J of all rows,
+/// Computes the covariance of the ellipse by the jackknife: one of the n sectors is left out at a
+/// time, because the residuals within a sector may be correlated. With the Jacobian J_s and the
+/// residuals r_s of sector s, and the Jacobian J of all rows,
 ///     D_s = (J'J - J_s'J_s)^-1 J_s' r_s,   (n - 1)/n sum over s of D_s D_s'    [Efron 1982, 3.1]
 Known known(const Ellipse& ellipse, const Points& points, const std::vector<double>& headings) {
   Known known{.ellipse = ellipse};
@@ -130,13 +130,14 @@ double heading_error_rad(const Known& known) {
   return known.half * std::sqrt(worst);
 }
 
-/// Value of `function` at the fitted ellipse, with its 95 % interval. Its derivatives by the
-/// parameters of the ellipse are central differences.
+/// Value of `function` at the fitted ellipse, with its 95 % interval. Its derivatives with respect
+/// to the parameters of the ellipse are central differences.
 template <class Function>
 WithInterval with_interval(const Known& known, const Function& function) {
   Parameters gradient;
   for (int k = 0; k < 5; ++k) {
-    // Step relative to the size of the field for the centre, to 1/field for the gains.
+    // The step is 1e-5 of the field for the coordinates of the centre, and 1e-5/field for the
+    // gains.
     const double scale = k < 2 ? 1.0 / known.ellipse.gain().norm() : known.ellipse.gain().norm();
     const double step = 1e-5 * scale;
     Ellipse up = known.ellipse;
@@ -246,7 +247,7 @@ CompassCalibration calibration_of(const Known& known) {
           .heading_error_deg = degrees(heading_error_rad(known))};
 }
 
-/// Errors (refusal): the headings leave a large gap, or the field is not on an ellipse.
+/// Errors (refused): a gap without headings is too large, or the readings are not on an ellipse.
 Status check_ellipse(const std::string& file, const Known& fit,
                      const std::pair<double, double>& gap_rad) {
   const double gap_deg = degrees(gap_rad.second);

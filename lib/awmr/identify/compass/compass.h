@@ -1,5 +1,5 @@
 /// Calibration of a compass for hard and soft iron (magnets and iron on the vehicle), from the
-/// field that it measured over whole turns.
+/// field that the compass measured while the vehicle turned through whole circles.
 #pragma once
 
 #include <vector>

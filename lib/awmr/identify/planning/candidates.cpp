@@ -20,7 +20,7 @@ constexpr double kRate_hz = 100.0;
 /// Speed (m/s) or yaw rate (rad/s) that replaces 0, whose logarithm does not exist.
 constexpr double kAtRest = 1e-6;
 
-/// Relative standard deviation of the model's measured rows of this kind of trial about its
+/// Relative standard deviation of the measured rows of this kind of trial from the model's
 /// predictions; 5 % for fewer than three rows.
 double relative_scatter(const Model& model, TrialKind kind) {
   double squares = 0.0;

@@ -30,14 +30,14 @@ struct ScrubPlan {
 };
 /// Plans differential turns at 1/3, 2/3 and 1 times the highest measured yaw rate. The mean wheel
 /// force is that of straight driving at half the highest speed of the surge trials; without these,
-/// the middle of the force range. Plans only the turns that the wheel forces reach at the smallest
-/// possible scrub.
+/// the middle of the force range. Plans only the turns for which the wheel forces suffice if the
+/// scrub moment is the smallest possible.
 ScrubPlan scrub_plan(const Model& model);
 
-/// Plans the turn with motors off. Its speed is half of the highest speed of the surge trials or,
-/// without these, of the steady speed at full force. Its steering angle is half of the largest one,
-/// or less, so that the lateral acceleration is at most 0.2 g. Empty without steering or surge
-/// resistance.
+/// Plans the turn with motors off. Its speed is half of the highest speed of the surge trials.
+/// Without surge trials, it is half of the steady speed at full force. Its steering angle is half
+/// of the largest one, or less, so that the lateral acceleration is at most 0.2 g. Empty without
+/// steering or surge resistance.
 std::optional<CoastingTurn> coasting_turn(const Model& model);
 
 /// Describes the measurement errors that the candidates assume.

@@ -20,8 +20,9 @@
 namespace awmr {
 namespace {
 
-/// Quantity that has the error, as the estimator under test assumes. Log-linear: the logarithm of
-/// the force. Nonlinear, which also fits every family other than the power law: the requested one.
+/// Quantity that has the error according to the estimator under test. Log-linear estimator: the
+/// logarithm of the force. Nonlinear estimator (used for every family other than the power law):
+/// the requested quantity.
 ErrorModel error_of(const IdentifyOptions& options, Family family) {
   if (options.method != Method::kNonlinear && family == Family::kPower) {
     return ErrorModel::kLogForce;
@@ -79,8 +80,8 @@ Result<RowError> row_error(const Model& model, FitSubject subject, const Recover
 }
 
 /// Left and right wheel forces that give a yaw moment, m, without steering. The forces are
-/// opposite. If the left wheels cannot push back so much, the left force is at its rearward limit,
-/// or 0.
+/// opposite. If the left wheels cannot push back with this force, the left force is the lower limit
+/// of the wheel force, or 0 if that limit is positive.
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   const double difference = tau_turn_m / (2.0 * vehicle.half_track_m);
@@ -128,7 +129,8 @@ double top_speed_mps(const Model& model) {
   return top;
 }
 
-/// Measurement errors that the rows of the simulated tables get. Errors (input): as row_error().
+/// Measurement errors that the rows of the simulated tables get. Errors (input): those of
+/// row_error().
 Result<RowNoise> noise_of(const Model& model, const TablePlan& plan,
                           const RecoverOptions& options) {
   constexpr double kStopWatch_s = 0.02;
@@ -245,8 +247,8 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
   return runs;
 }
 
-/// Parameters to evaluate: the requested ones, or all if none is requested. Only those with a
-/// value.
+/// Parameters to evaluate, with their true values: those of the requested parameters (of all, if
+/// none is requested) that have a value in the model.
 std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& requested) {
   std::vector<RecoverTruth> truths;
   for (const ParameterInfo& parameter : parameter_table()) {

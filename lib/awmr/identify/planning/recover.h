@@ -34,8 +34,8 @@ struct RecoverOptions {
   int threads = 0;
   /// The estimator under test.
   IdentifyOptions identify;
-  /// Quantity that gets the simulated error. Absent: the quantity that the estimator assumes.
-  /// Another quantity shows the effect of a wrong assumption.
+  /// Quantity that gets the simulated error. Absent: the quantity that the estimator assumes to
+  /// have the error. Choose another quantity to see the effect of a wrong assumption.
   std::optional<ErrorModel> error;
   /// Sensor noise of curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors;

@@ -31,7 +31,8 @@ struct RecoverEstimate {
 
 /// Result of one run: the estimates from one simulated data set.
 struct RecoverRun {
-  int index = 0;         ///< number of the run, from 0; errors depend on it and on the seed
+  int index = 0;         ///< number of the run, from 0; it and the seed determine the simulated
+                         ///< errors
   bool refused = false;  ///< true: a requested parameter was refused
   /// In the order of RecoverPart::truths; absent for a parameter without an interval.
   std::vector<std::optional<RecoverEstimate>> estimates;
@@ -54,9 +55,9 @@ struct RecoverPart {
   std::optional<Error> error;  ///< error of the first run, if every run failed
 };
 
-/// Executes the runs of the part `shard`. `progress` and errors as in recover(), with two
-/// differences: a part without any estimate is not an error, because other parts may have
-/// estimates; a part that does not exist or has no runs is an error (input).
+/// Executes the runs of the part `shard`. `progress` is called as by recover(). Errors: those of
+/// recover(), except that a part without any estimate is no error, because other parts may have
+/// estimates. Errors (input): the part does not exist or has no runs.
 Result<RecoverPart> recover_part(const Model& model, const RecoverOptions& options,
                                  const Shard& shard, const std::function<void(int)>& progress);
 

@@ -1,4 +1,4 @@
-/// Files of `awmr recover --shard`, by which several machines share the runs.
+/// Files of `awmr recover --shard`, with which several machines divide the runs among themselves.
 /// merge_recover_shards() combines the parts; the result is byte for byte that of a single machine.
 #pragma once
 

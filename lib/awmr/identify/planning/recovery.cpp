@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Statistics of the parameter `truth`, whose index in the runs' estimates is `place`. Sums are in
-/// the order of the runs, so that they do not depend on threads or parts.
+/// Statistics of the parameter `truth`, whose index in the runs' estimates is `place`. Numbers are
+/// added in the order of the runs, so that the sums do not depend on threads or parts.
 RecoveredParameter recovered_parameter(const RecoverTruth& truth, std::size_t place,
                                        const std::vector<RecoverRun>& runs) {
   RecoveredParameter p{.id = truth.id, .truth = truth.value};

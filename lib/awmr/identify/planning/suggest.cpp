@@ -15,8 +15,9 @@
 namespace awmr {
 namespace {
 
-/// Assumed standard error of the coordinate of a parameter whose standard error is unknown: a
-/// factor of e^2 for a logarithm. It is large, so that trials that measure the parameter rank high.
+/// Assumed standard error of the coordinate of a parameter without a standard error. For a
+/// logarithm it means a factor of e^2. It is large, so that trials that measure the parameter rank
+/// high.
 constexpr double kUnknownStd = 2.0;
 
 /// Covariance of the n uncertain parameters, in the coordinates z of model/transform.h. With the
@@ -27,8 +28,8 @@ struct Uncertainty {
   Eigen::MatrixXd covariance;  ///< n x n, positive definite
 };
 
-/// The model's covariance, extended by the parameters that have a value, were not given and have no
-/// covariance.
+/// The model's covariance, extended by the estimated parameters without a covariance (except terms
+/// of a family).
 Uncertainty uncertainty_of(const Model& model) {
   const std::vector<ParameterId>& known = model.covariance.parameters;
   std::vector<ParameterId> ids = known;
@@ -75,7 +76,8 @@ Plant<double> moved(Model model, ParameterId id, double step) {
 }
 
 /// Derivatives of values by the parameters' coordinates, by central differences: one row per value,
-/// one column per parameter. A backward step makes no term of a resistance negative.
+/// one column per parameter. The backward step is limited so that no term of a resistance becomes
+/// negative.
 template <class Values>
 Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& ids,
                             const Values& values_at) {
@@ -106,9 +108,9 @@ struct Target {
   }
 };
 
-/// Resistance with all its terms at 1 m/s or 1 rad/s, by which the error of a term is divided,
-/// because the term itself may be 0. For a term of a single wheel (dead zone, back-EMF): this
-/// resistance divided by the number of driven wheels.
+/// Scale of the error of a resistance term: the resistance with all its terms at 1 m/s or 1 rad/s.
+/// (The term itself may be 0.) For a term of a single wheel (dead zone, back-EMF), this resistance
+/// is divided by the number of driven wheels.
 double whole_of(ParameterId id, const Plant<double>& plant) {
   if (id == ParameterId::kYawCoulomb || id == ParameterId::kYawQuadratic) return plant.yaw(1.0);
   const bool of_a_wheel = id == ParameterId::kWheelDeadZone || id == ParameterId::kBackEmf;
@@ -172,8 +174,8 @@ double log_determinant(const Eigen::MatrixXd& covariance) {
   return symmetric_eigen(covariance).values.array().max(1e-300).log().sum();
 }
 
-/// Computes the effect of a candidate: C_after = (C^-1 + J^T J)^-1. J has the derivatives, by the
-/// coordinates, of the measurements divided by their standard deviations.
+/// Computes the effect of a candidate: C_after = (C^-1 + J^T J)^-1. J has the derivatives, with
+/// respect to the coordinates, of the measurements divided by their standard deviations.
 SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
                         const Uncertainty& uncertainty, const Target& target) {
   const Eigen::MatrixXd j = jacobian_of(model, uncertainty.parameters, candidate.standardised);

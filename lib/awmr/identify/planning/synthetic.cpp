@@ -36,7 +36,7 @@ class NoiseSource {
 };
 
 /// Force, rate (speed or yaw rate) and time of a simulated row, with its measurement error. The
-/// time is that for a given distance or angle at this rate.
+/// time is that in which the run covers its given distance or angle at this rate.
 struct NoisyRow {
   double force;
   double rate;

@@ -19,12 +19,13 @@ struct SensorNoise {
   double correlation_s = 0.0;       ///< correlation time of every sensor's error; 0: white
 };
 
-/// Settings of the runs of all tables, in the order of the rows. An empty list: no such table.
+/// Settings of the runs of all tables, in the order of the rows. If a list is empty, its table is
+/// not simulated.
 struct TablePlan {
   std::vector<double> surge_tau_speed;       ///< dimensionless, > 0
   std::vector<double> turning_steering_rad;  ///< d_r, > 0: to the left
   double turning_wheel_force = 0.1;          ///< F' of every wheel, > 0
-  /// Wheel forces F' of the turns of a vehicle without steering, the right one larger.
+  /// Wheel forces F' of the turns of a vehicle without steering. The right force is the larger one.
   std::vector<SideForces<double>> turning_sides;
   double surge_distance_m = 10.0;     ///< timed distance of each surge run, > 0
   std::vector<double> stop_from_mps;  ///< initial speeds of the coast-downs, > 0

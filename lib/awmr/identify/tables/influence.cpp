@@ -55,8 +55,8 @@ class OneStep {
     }
   }
 
-  /// Coordinates without the run `row`. Empty if a parameter depends on this run alone, or if the
-  /// fit has no Jacobian.
+  /// Coordinates of the fit without the run `row`. Empty if only this run determines a parameter,
+  /// or if the fit has no Jacobian.
   std::optional<TransformedParameters> without(std::size_t row) const {
     constexpr double kAlone = 1e-12;
     const Eigen::Index i = eigen_index(row);

@@ -1,4 +1,4 @@
-/// Influence of each run on a fit of a table: the fit is repeated without the run. Private to
+/// Influence of each run on a table fit, measured by repeating the fit without the run. Private to
 /// identify/.
 #pragma once
 
@@ -11,8 +11,8 @@ namespace awmr {
 struct Influence {
   /// One entry per run: parameter values of the fit without this run. No entry if that fit fails.
   std::vector<LeaveOneOut> without;
-  /// `influential-row` for each run without which a parameter changes by more than one standard
-  /// error.
+  /// The finding `influential-row` for each run whose omission changes a parameter by more than one
+  /// standard error.
   std::vector<Finding> findings;
 };
 

@@ -8,11 +8,11 @@
 ///     ln w_k = -n ln s_k + 1/2 ln det C_k + sum_i ln |d e_ki/d ln w_i| + constant
 ///
 /// for n runs with the rates w_i, residuals e_ki of standard deviation s_k in the unit of the
-/// error, and the covariance C_k of the fit. This is the likelihood with the parameters and s_k
-/// integrated out under priors flat in the parameters and in ln s_k. It is a density of the ln w_i,
-/// so that error models of different units are comparable. |d e/d ln w| is w g'/(g + z) for a
-/// relative error of the force, w g' for an absolute one, w for the rate and t for the time; z:
-/// dead zone, t: time.
+/// error, and the covariance C_k of the fit. This is the likelihood, with the parameters and s_k
+/// integrated out; their priors are flat in the parameters and in ln s_k. It is expressed as a
+/// density of ln w_i for every error model, so that error models with different units can be
+/// compared. |d e/d ln w| is w g'/(g + z) for a relative error of the force, w g' for an absolute
+/// one, w for the rate and t for the time; z: dead zone, t: time.
 #pragma once
 
 #include <vector>
@@ -29,9 +29,9 @@ struct NoiseAlternative {
   double weight = 1.0;  ///< in (0, 1]; all weights add up to 1
 };
 
-/// Smallest weight of the chosen fit, whose value is reported. Half of its distribution lies on
-/// either side of this value. With a weight of 5 %, at least 2.5 % of the mixture then lies on
-/// either side, so the 95 % interval always contains the reported value.
+/// Smallest weight of the chosen fit, whose value is reported. Half of this fit's distribution lies
+/// on each side of the reported value. With a weight of 5 %, at least 2.5 % of the mixture lies on
+/// each side, so the 95 % interval always contains the reported value.
 inline constexpr double kMinOwnWeight = 0.05;
 
 /// Returns the chosen fit, then the usable fits of the same family with the same free parameters

@@ -10,9 +10,9 @@
 
 namespace awmr {
 
-/// Ceres loss function for residuals with the standard deviation `scale`. Its threshold gives 95 %
-/// efficiency under normal noise: Huber 1.345, Cauchy 2.385, Tukey 4.685 standard deviations. Null
-/// for Loss::kSquared.
+/// Ceres loss function for residuals with the standard deviation `scale`. Its threshold gives an
+/// efficiency of 95 % if the noise is normal: Huber 1.345, Cauchy 2.385, Tukey 4.685 standard
+/// deviations. Null for Loss::kSquared.
 std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale);
 
 /// 1.4826 median |e|: robust estimate of the standard deviation of normal residuals.

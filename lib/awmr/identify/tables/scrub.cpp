@@ -18,8 +18,8 @@
 namespace awmr {
 namespace {
 
-/// Degrees of freedom of g3, the fitted yaw resistance: those of the fit to the table. If g3 is
-/// from logs: 10,000, with which Student's t is nearly the normal distribution.
+/// Degrees of freedom of g3, the fitted yaw resistance: those of the table fit. If g3 was fitted to
+/// logs: 10,000, with which Student's t is nearly the normal distribution.
 double degrees_of_law(const Model& model) {
   constexpr double kOfALog = 1e4;
   for (const EstimatorReport& report : model.record.reports) {
@@ -73,7 +73,7 @@ StraightLine line_through(const std::vector<double>& x, const std::vector<double
 }
 
 /// True if the moments y_i change with x_i (t test of the slope at 95 %). The variance of the slope
-/// includes that of g3(r_i), which every moment y_i contains:
+/// includes the variance of the fitted g3(r_i), which is subtracted in every moment y_i:
 ///   slope = sum_i w_i y_i,  w_i = (x_i - mean x)/sum (x - mean x)^2
 bool is_sloped(const std::vector<double>& x, const std::vector<double>& y,
                const std::vector<double>& rates_radps, const Model& model) {

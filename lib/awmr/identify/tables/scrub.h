@@ -1,5 +1,5 @@
-/// Tyre scrub: the yaw moment of differential turns beyond the resistance of steered turns. Private
-/// to identify/.
+/// Tyre scrub: the yaw moment that differential turns need in excess of the yaw resistance of
+/// steered turns. Private to identify/.
 ///
 /// A differential turn drags the tyres sideways, which g3 of steered turns does not include. For
 /// differential turn i, with the yaw rate r_i and half of the track width d, the scrub moment is

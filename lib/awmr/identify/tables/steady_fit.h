@@ -27,9 +27,9 @@ struct SteadyPoint {
   int line = 0;                     ///< line number in the file
 };
 
-/// Largest number of rows with exact diagnostics. In larger tables, leaving out a row is one step
-/// from the fit of all rows instead of a new fit, and there are no profile intervals. Time and
-/// memory then stay proportional to the number of rows.
+/// Largest number of rows with exact diagnostics. In larger tables, the fit without a row is
+/// approximated by one step from the fit of all rows, and there are no profile intervals, so that
+/// time and memory are proportional to the number of rows.
 inline constexpr Eigen::Index kExactRows = 200;
 
 /// Input of a fit: the runs, the family of the curve, the error model and the loss.
@@ -41,8 +41,8 @@ struct SteadyProblem {
   Interval beta_range{0.0, 4.0};  ///< accepted exponents: the bounds of the search
 };
 
-/// A fitted curve. "Unit of the noise" below is the unit of the quantity that has the error: of
-/// force, rate or time, or 1 for the log force.
+/// A fitted curve. "Unit of the noise" below is the unit of the quantity that has the error (force,
+/// rate or time; 1 for the logarithm of the force).
 struct SteadyFit {
   TransformedParameters theta{};  ///< fitted coordinates; 0 (beta: 1) for terms outside the family
   /// Free coordinates of the family. A term that ended at 0, its lower bound, is included, so that
@@ -55,7 +55,8 @@ struct SteadyFit {
   double residual_std = 0.0;   ///< in the unit of the noise; 0 without degrees of freedom
   int degrees_of_freedom = 0;  ///< points - free; may be negative
   int rank = 0;                ///< rank of the Jacobian by the coordinates in `free`
-  double condition_number = 0.0;  ///< of the Jacobian by all coordinates; infinite below full rank
+  double condition_number = 0.0;  ///< of the Jacobian with all coordinates; infinite below full
+                                  ///< rank
   std::string stop_reason;
   bool usable = false;  ///< the search converged, and the Jacobian has full rank
 
@@ -82,10 +83,10 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points);
 /// beta stays in its range; c, q and z stay >= 0. The scale of a robust loss is computed from the
 /// median absolute residual. Precondition: with kTime, every point was timed.
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess);
-/// As fit_steady() above, but computes the initial guesses: one from the points, and the optimum of
-/// each family that is a special case of this one. A family with more terms thus never fits worse.
-/// `known`: optima of the same points, noise and loss, by family; the function adds those that it
-/// computes.
+/// Like fit_steady() above, but computes the initial guesses: one from the points, and the optimum
+/// of each family that is a special case of this one. Therefore a family never fits worse than its
+/// special cases. `known`: optima of the same points, noise and loss, by family; the function adds
+/// those that it computes.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
 /// Returns the problem with the error model kTime and each run's time set to travel/w, with its

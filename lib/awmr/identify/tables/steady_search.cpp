@@ -15,7 +15,8 @@
 namespace awmr {
 namespace {
 
-/// Lower bound of beta for errors of speed or time, whose residuals need the inverse curve.
+/// Lower bound of beta if the error is of speed or time: these residuals need the inverse of the
+/// curve.
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
 /// g^-1(force), the steady rate at a force, with its derivatives; 0 if the force is below Coulomb
@@ -78,7 +79,8 @@ class StopAtBound : public ceres::IterationCallback {
     return iterations_ < kIterations ? ceres::SOLVER_CONTINUE
                                      : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
-  /// Coordinates at a bound when this callback ended the search; empty if it did not end it.
+  /// Coordinates that were at a bound when this callback ended the search; empty if the search
+  /// ended for another reason.
   std::vector<TransformedParameter> held() const {
     return iterations_ < kIterations ? std::vector<TransformedParameter>() : held_;
   }
@@ -165,8 +167,8 @@ bool SteadySearch::falls_inwards(TransformedParameter c) {
   return theta_[at(c)] <= bounds_of(problem_, c).lo ? gradient[0] < 0.0 : gradient[0] > 0.0;
 }
 
-// Coordinates at a bound are fixed, because Ceres shortens a step that crosses a bound in all
-// coordinates, and convergence becomes slow.
+// Coordinates at a bound are fixed for the search of the others. If a step crosses a bound, Ceres
+// shortens it in all coordinates, and convergence becomes slow.
 void SteadySearch::solve() {
   const std::vector<TransformedParameter> held = search_until_at_bound();
   if (held.empty()) return;

@@ -18,8 +18,8 @@ std::vector<SteadyPoint> surge_points(const std::vector<SurgeRow>& rows) {
   return points;
 }
 
-/// Ratio of the yaw moment after subtracting the wheels' dead zones to the commanded yaw moment; 0
-/// if all wheel forces are within the dead zone.
+/// Fraction of the commanded yaw moment that remains after subtracting the wheels' dead zones; 0 if
+/// all wheel forces are within the dead zone.
 double share_beyond(const TurningRow& row, double dead_zone) {
   if (!row.sides && !(row.wheel_force > dead_zone)) return 0.0;
   if (!(dead_zone > 0.0)) return 1.0;

@@ -20,11 +20,12 @@ namespace {
 /// likelihood ratio of e^5).
 constexpr double kTablesPlainlyBetter = 10.0;
 
-/// Smallest number n of runs with an AICc, whose denominator n - p - 2 must be positive. The
-/// smallest families have p = 2 parameters.
+/// Smallest number n of runs for which AICc exists: its denominator n - p - 2 must be positive, and
+/// the smallest families have p = 2 parameters.
 constexpr std::size_t kMinToCompare = 5;
 
-/// The chosen fit and the index of its report in SubjectFit::reports; no fit if none is accepted.
+/// The chosen fit, with the index of its report in SubjectFit::reports. `fit` is empty if no fit is
+/// accepted.
 struct Choice {
   std::optional<SteadyFit> fit;
   SteadyProblem problem;
@@ -87,7 +88,8 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   const bool tried = std::ranges::any_of(
       candidates, [&](const FamilyCandidate& c) { return c.problem.noise == wanted; });
   if (!chosen && !options.family.family && subject.points.size() < kMinToCompare) {
-    // No family has an AICc with so few runs. The power law has as few parameters as any family.
+    // With so few runs, no family has an AICc. The power law is chosen, because no family has fewer
+    // parameters.
     chosen = candidate_of(candidates, Family::kPower, wanted);
     choice.findings.push_back(not_compared(subject));
   }

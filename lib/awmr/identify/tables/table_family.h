@@ -47,9 +47,9 @@ std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const Subjec
 const FamilyCandidate* candidate_of(const std::vector<FamilyCandidate>& candidates, Family family,
                                     ErrorModel noise);
 
-/// The converged fit with the smallest AICc among the fits under the error model `noise`. If two
-/// AICc are equal, the one that was fitted first. Null if no fit has an AICc, for example because
-/// there are too few runs.
+/// The converged fit with the smallest AICc among the fits under the error model `noise`. Of fits
+/// with equal AICc, the one that was fitted first is returned. Null if no fit has an AICc, for
+/// example because there are too few runs.
 const FamilyCandidate* best_candidate(const std::vector<FamilyCandidate>& candidates,
                                       ErrorModel noise);
 

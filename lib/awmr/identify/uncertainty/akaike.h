@@ -8,8 +8,8 @@ namespace awmr {
 
 /// Decrease of AIC above which a log fit uses another resistance family instead of the power law,
 /// or an extension of the model (back-EMF, Stribeck friction, another timing of the commands),
-/// unless the user selects one. Twice the usual threshold of 10, because near rest the simulation
-/// replaces the resistance, except Coulomb friction, by a straight line, which also changes the
+/// unless the user selects one. It is twice the usual threshold of 10. Near rest, the simulation
+/// replaces the resistance (except Coulomb friction) by a straight line, and this also changes the
 /// AIC. The finding `power-law-inadequate` of coast-down curves has the same threshold.
 inline constexpr double kFamilyAicThreshold = 20.0;
 

@@ -48,7 +48,7 @@ std::optional<Diagnostic> normality(std::span<const double> residuals) {
   const double size = static_cast<double>(n);
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    // Far in a tail a probability rounds to 0. The clamp keeps its logarithm finite.
+    // Far in a tail, a probability rounds to 0. The lower limit keeps its logarithm finite.
     const double tiny = 1e-300;
     const double below = std::max(tiny, normal_cdf((x[i] - mean) / sd));
     const double above = std::max(tiny, normal_tail((x[n - 1 - i] - mean) / sd));

@@ -25,8 +25,9 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
                                     const Eigen::VectorXd& residuals);
 
 /// F test of lack of fit: compares the distance of the curve from the mean of repeated runs with
-/// the scatter of the repeats. Empty without runs at equal forces, if these do not scatter, or if
-/// there are no more different forces than `parameters`, the free parameters of the curve.
+/// the scatter of the repeats. Empty if no runs have equal forces, if runs at equal forces do not
+/// scatter, or if the number of different forces is at most `parameters`, the number of free
+/// parameters of the curve.
 std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
                                       const Eigen::VectorXd& residuals, int parameters);
 

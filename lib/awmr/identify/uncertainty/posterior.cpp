@@ -16,7 +16,7 @@ double scale_of(const Posterior::Alternative& alternative, Eigen::Index i) {
   return std::sqrt(alternative.covariance(i, i));
 }
 
-/// P(X_i <= x). A number with variance 0 is known exactly.
+/// Probability that number i is at most x. A number with variance 0 is known exactly.
 double probability_below(const Posterior& posterior, Eigen::Index i, double x) {
   double sum = 0.0;
   for (const Posterior::Alternative& alternative : posterior.alternatives) {
@@ -86,8 +86,8 @@ void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
   for (std::size_t q = 0; q < kQuantiles.size(); ++q) {
     quantiles[q] = to_value(posterior.quantile(i, kQuantiles[q].probability));
   }
-  // The value is between these quantiles, because its alternative has at least kMinOwnWeight. Min
-  // and max only remove rounding.
+  // The value is between these quantiles, because the alternative that it comes from has at least
+  // the weight kMinOwnWeight. min() and max() only correct rounding errors.
   estimate.ci95 = Interval{std::min(quantiles.front(), *estimate.value),
                            std::max(quantiles.back(), *estimate.value)};
   estimate.quantiles = quantiles;
