@@ -39,7 +39,7 @@ class Emulator {
   /// Returns the `size` bytes of a variable in RAM, by its symbol. Writing to them changes the
   /// chip's memory. Precondition: the firmware defines the symbol.
   std::span<std::uint8_t> ram(const std::string& symbol, std::size_t size);
-  /// Returns the `size` bytes of a constant in flash, by its symbol; otherwise as ram().
+  /// Returns the `size` bytes of a constant in flash, by its symbol; otherwise like ram().
   std::span<std::uint8_t> flash(const std::string& symbol, std::size_t size);
 
   /// Resets the chip like its reset pin: RAM is kept and the time continues.

@@ -57,14 +57,14 @@ std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters,
 /// Runs firmware on an emulated chip and exchanges data through its RAM. `damage_parameters`: flip
 /// a bit of the parameters in flash before the start. Errors: those of Emulator::load().
 Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool damage_parameters);
-/// Runs firmware on an emulated chip and exchanges data through its USART. `parameters_crc`: as for
+/// Runs firmware on an emulated chip and exchanges data through its USART. `parameters_crc`: see
 /// frame_link(). The line flips a fraction `noise` of the bits and loses the same fraction of the
 /// bytes, in both directions. Errors: those of Emulator::load().
 Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
                                         std::uint32_t parameters_crc, double noise);
 /// Exchanges data with a real board through a serial port, which start() opens. `elf`: the firmware
-/// with which the board was flashed, read only for its use of flash and RAM. `parameters_crc`: as
-/// for frame_link(). Errors: those of Emulator::load().
+/// with which the board was flashed, read only for its use of flash and RAM. `parameters_crc`: see
+/// frame_link(). Errors: those of Emulator::load().
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc);

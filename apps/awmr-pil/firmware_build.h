@@ -25,7 +25,7 @@ struct FirmwareKind {
 /// Writes the emitted library and the program of the link to `directory`, which is private and
 /// empty, and builds them there. Returns the ELF file. Errors: (input) avr-g++ is not in PATH (the
 /// message names the package to install); (fault) compilation fails (the message has the compiler's
-/// output) or takes minutes.
+/// output) or exceeds its time limit.
 Result<std::filesystem::path> build_firmware(const std::filesystem::path& directory,
                                              const std::vector<EmittedFile>& library,
                                              const FirmwareKind& kind);

@@ -99,7 +99,7 @@ class FrameLink : public Chip {
     return type == ::pil::kHello ? kStartAttempts : kAttempts;
   }
 
-  /// As exchange(), but returns an error (refused) if no attempt is answered.
+  /// Like exchange(), but returns an error (refused) if no attempt is answered.
   Status ask(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
     if (answered) return {};

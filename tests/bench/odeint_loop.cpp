@@ -1,7 +1,7 @@
 // The closed loop of awmr with another integrator: Boost.odeint's runge_kutta4, one run after the
 // other, with the plants, random numbers and step lengths of `awmr compare`. Sensors, guidance,
-// control laws, step control and metrics are those of awmr. Prints the sum of all path lengths in m. scripts/bench
-// compares batches with it.
+// control laws, step control and metrics are those of awmr. Prints the sum of all path lengths in
+// m. scripts/bench compares batches with it.
 // usage: odeint_loop MODEL.json GAINS.json SCENARIO.json SAMPLES
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>

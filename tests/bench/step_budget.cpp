@@ -20,9 +20,10 @@ using bench::Counted;
 /// Cost of functions in a batch (lib/awmr/simulate/lanes/lane_math.h), in additions,
 /// multiplications, divisions and roots; an FMA counts as two. Sine and cosine of an angle are
 /// computed together. A polynomial of n coefficients is n - 1 FMAs.
-///   pow      3 + 1 + 2 + 3 FMAs and a polynomial of 7, of the logarithm; 1; 3 and a polynomial of 12
-///   sin, cos 1 + 4 FMAs, 3 products, 3 FMAs and two polynomials of 6
-///   atan     4 + 1 + 3, an FMA and a polynomial of 11
+///   pow       logarithm: 6 operations, 2 FMAs and a polynomial of 7; a product with the exponent;
+///             power of two: 3 operations and a polynomial of 12
+///   sin, cos  4 operations, 7 FMAs and two polynomials of 6, for both together
+///   atan      8 operations, an FMA and a polynomial of 11
 constexpr double kPower = 48.0;
 constexpr double kSineAndCosine = 38.0;
 constexpr double kArcTangent = 31.0;
@@ -36,8 +37,8 @@ constexpr LoopSteps<Counted> kCountedSteps = {
      [](Vehicles<Counted>& v) { steps::actuate(View{}, v); },
      [](Vehicles<Counted>& v) { steps::move(View{}, v); }}};
 
-/// Simulates the nominal vehicle in combined mode. Returns the number of Runge-Kutta steps, if no
-/// step is halved.
+/// Simulates the nominal vehicle in combined mode. Returns the number of Runge-Kutta steps,
+/// assuming that no step is halved.
 double drive(const Plant<double>& nominal, const Controller<double>& controller,
              const Scenario& scenario, double sample_time_s) {
   const BatchRun run{nominal, controller, YawMode::kCombined};

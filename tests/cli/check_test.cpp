@@ -108,8 +108,8 @@ TEST_F(Check, TablesWithoutASwayResistanceGiveGainsAndAHeader) {
   EXPECT_THAT(result.err, HasSubstr("assumed-sway"));
   const nlohmann::ordered_json model = read("out/model.json");
   const auto& sway = model["sway"]["alpha"];
-  // Assumed sway resistance c g m'/u with c = sqrt(0.5 * 16), at half the speed of the fastest
-  // surge run, 2.02 m/s, with the fitted m'.
+  // The assumed sway resistance is c g m'/u with c = sqrt(0.5 * 16), the fitted m', and u = half
+  // the speed of the fastest surge run, 2.02 m/s.
   const double value =
       std::sqrt(8.0) * 9.80665 * model["mass_norm"]["value"].get<double>() / 1.0121;
   EXPECT_NEAR(sway["value"].get<double>(), value, 1e-3 * value);
@@ -126,7 +126,7 @@ TEST_F(Check, TablesWithoutASwayResistanceGiveGainsAndAHeader) {
 TEST_F(Check, ThePapersProjectHasNoProblems) {
   const ProcessResult result = awmr("check configs/paper/project.json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("speed-mismatch")) << "its oddities are reported all the same";
+  EXPECT_THAT(result.err, HasSubstr("speed-mismatch")) << "its contradictions are reported";
 }
 
 TEST_F(Check, ListsWhatIsMissingInOrder) {
@@ -140,7 +140,7 @@ TEST_F(Check, ListsWhatIsMissingInOrder) {
   EXPECT_LT(mass, surge) << result.err;
   EXPECT_LT(surge, speed);
   EXPECT_NE(speed, std::string::npos);
-  EXPECT_THAT(result.err, Not(HasSubstr("yaw_inertia_kgm2"))) << "optional, the box stands in";
+  EXPECT_THAT(result.err, Not(HasSubstr("yaw_inertia_kgm2"))) << "optional: the box is used";
 }
 
 TEST_F(Check, NamesParametersWithoutATrial) {

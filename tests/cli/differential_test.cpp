@@ -26,7 +26,7 @@ constexpr const char* kVehicle = R"({
 /// Value with an error of 1 % whose sign alternates from row to row.
 double with_error(double value, int row) { return value * (row % 2 == 0 ? 1.01 : 0.99); }
 
-/// Runs of a rover of a1 = 1.2, b1 = 0.7, a3 = 0.4, b3 = 0.9, m' = 0.5.
+/// Table of surge runs of a rover with a1 = 1.2, b1 = 0.7, a3 = 0.4, b3 = 0.9, m' = 0.5.
 std::string surge_text() {
   std::string text = "tau_speed,speed_mps\n";
   for (int i = 1; i <= 10; ++i) {
@@ -35,7 +35,8 @@ std::string surge_text() {
   return text;
 }
 
-/// Turns to the left and to the right, on the spot and about one side.
+/// Table of turns to the left and to the right, some on the spot, some about the wheels of one
+/// side.
 std::string turning_text() {
   std::string text = "force_left,force_right,yaw_rate_radps\n";
   for (int i = 1; i <= 8; ++i) {

@@ -163,7 +163,8 @@ TEST_F(Honesty, AReportLeavesOutWhatIsNotOfItsModel) {
   const std::set<std::string> codes = codes_in(data.at("findings"));
   EXPECT_THAT(codes, Contains("result-of-another-model"));
   EXPECT_THAT(codes, Contains("result-without-origin"));
-  // The directory gets another model: the report leaves out all results of the first one.
+  // Replaces the model in the directory. The report must then leave out all results of the first
+  // model.
   fs::copy(kept("other.json"), path("model.json"), fs::copy_options::overwrite_existing);
   ASSERT_EQ(awmr("report " + directory_.path().string()).exit_code, 0);
   EXPECT_FALSE(page().contains("gains"));

@@ -136,7 +136,7 @@ TEST_F(Live, AGrowingFileIsFollowedUntilNothingMoreComes) {
 }
 
 TEST_F(Live, KeepsLogAndModelWhereItsTerminalIsClosed) {
-  // Sends two signals, as on a terminal, where kernel and shell each send one.
+  // Sends SIGHUP twice, because the kernel and the shell each send it when a terminal is closed.
   const ProcessResult run = shell("{ head -n 1400 " + kDrive + kOnAndOn + " | { exec 3<&0; " +
                                   live("--log - --every 0.2") +
                                   " <&3 & pid=$!; sleep 1.5; kill -HUP $pid; sleep 0.1; "

@@ -1,5 +1,5 @@
-/// Malformed input, one case per line of malformed.txt: exit code 2, the place, the code, nothing
-/// written, bounded time and memory.
+/// Malformed input, one case per line of malformed.txt. The program must end with exit code 2, name
+/// the place and the code, write nothing, and use bounded time and memory.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -197,7 +197,7 @@ class Malformed : public ::testing::TestWithParam<Kind> {
     return command;
   }
 
-  /// Runs within 10 s of CPU time and 2 GiB, far more than any refusal needs.
+  /// Runs the program with limits of 10 s of CPU time and 2 GiB, far more than any refusal needs.
   static ProcessResult run_bounded(const std::string& arguments) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     const std::string bounds = "ulimit -t 60; ";  // sanitizers reserve terabytes of addresses

@@ -15,8 +15,8 @@ using ::testing::Not;
 class Map : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
-  /// Writes the synthetic drive with other names, in milliseconds and km/h, with semicolons and
-  /// commas.
+  /// Writes the synthetic drive with other column names, times in ms, speeds in km/h, semicolons
+  /// between cells and decimal commas.
   void write_foreign_log() {
     std::istringstream lines(
         read_all(std::string(AWMR_SOURCE_DIR) + "/datasets/synthetic/drive_1.csv"));

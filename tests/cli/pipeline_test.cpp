@@ -14,8 +14,8 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// One run of the whole pipeline, shared by the tests below; kept in the folder AWMR_PAPER_RUN, if
-/// set, for examples.py.
+/// One run of the whole pipeline, shared by the tests below. If AWMR_PAPER_RUN is set, it names the
+/// folder of the results, which examples.py then uses.
 class Pipeline : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -132,7 +132,7 @@ TEST_F(Pipeline, GivesTheSameBytesAgain) {
   }
 }
 
-/// The forces, the steering, the speed and the yaw rate of a log of the synthetic data.
+/// Returns the columns of forces, steering, speed and yaw rate of a synthetic log.
 std::string log_without_positions(const std::string& path) {
   std::istringstream lines(read_all(path));
   std::string text;
@@ -147,7 +147,8 @@ std::string log_without_positions(const std::string& path) {
   return text;
 }
 
-/// No sensor shows the sway resistance, so identify refuses it and assumes one, which tune takes.
+/// No sensor measures the effect of the sway resistance. identify therefore reports it as not
+/// identifiable (exit code 1) and assumes a value, with which tune continues.
 TEST(RunOfALog, GoesOnWithAnAssumedSwayAsTuneDoes) {
   const std::string source = AWMR_SOURCE_DIR;
   const TemporaryDirectory directory;

@@ -48,7 +48,8 @@ class PlantOption : public ::testing::Test {
   inline static std::string model_, gains_;
 };
 
-/// Two runs on tyres, one steered and one differential: the tyres are found in them and used.
+/// Simulates two runs on tyres, one steered and one differential, fits the tyres to them, and uses
+/// the fitted tyres.
 TEST_F(PlantOption, TyresOfValidateAreThoseOfTheRuns) {
   Json scenario = Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/" + kC3));
   scenario["duration_s"] = 40;

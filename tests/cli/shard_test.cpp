@@ -1,4 +1,5 @@
-/// Shards of compare and recover on the command line: merged, mixed.
+/// Shards of compare and recover on the command line: merging them, and refusing shards that do not
+/// belong together.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -70,7 +70,7 @@ TEST(Explain, PrintsSeverityMeaningAndRemedyOfACode) {
   EXPECT_THAT(one.out, AllOf(HasSubstr("few-samples\n  severity warning\n"),
                              HasSubstr("meaning  fewer than 6 samples"),
                              HasSubstr("remedy   give --samples")));
-  // The severity of each code of a row.
+  // Two codes of the same table row can have different severities.
   EXPECT_THAT(awmr("explain held-samples").out, HasSubstr("severity note\n"));
   EXPECT_THAT(awmr("explain quantised-samples").out, HasSubstr("severity warning\n"));
   const std::string all = awmr("explain").out;

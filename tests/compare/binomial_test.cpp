@@ -41,15 +41,16 @@ TEST(McNemar, IsTheSignTestOfTheDiscordantPairs) {
 }
 
 TEST(PairedT, HasTheTablesQuantiles) {
-  // t(0.975; 9) = 2.262157 (any table): mean 2.262157 standard errors gives 5 %.
+  // The 97.5 % quantile of t with 9 degrees of freedom is 2.262157. A mean of 2.262157 standard
+  // errors therefore has p = 5 %.
   EXPECT_NEAR(paired_t_p(2.262157, std::sqrt(10.0), 10), 0.05, 1e-6);
   EXPECT_EQ(paired_t_p(0.0, 0.0, 5), 1.0);
   EXPECT_EQ(paired_t_p(1.0, 0.0, 5), 0.0);
 }
 
 TEST(Equivalence, IsTheOneSidedTestAgainstTheMargin) {
-  // The mean is one standard error inside the margin: with 2 degrees of freedom p = (1 - 1/sqrt
-  // 3)/2.
+  // The mean is one standard error inside the margin, then one outside. With 2 degrees of freedom,
+  // p = 1/2 -+ 1/(2 sqrt 3).
   EXPECT_NEAR(equivalence_p(-0.5, 0.5 * std::sqrt(3.0), 3, 1.0), 0.5 - 0.5 / std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(equivalence_p(1.5, 0.5 * std::sqrt(3.0), 3, 1.0), 0.5 + 0.5 / std::sqrt(3.0), 1e-12);
   EXPECT_EQ(equivalence_p(1.0, 0.0, 3, 1.0), 0.0);
@@ -57,8 +58,8 @@ TEST(Equivalence, IsTheOneSidedTestAgainstTheMargin) {
 }
 
 TEST(Holm, StepsDownAndKeepsTheOrder) {
-  // By increasing p: 4 * 0.01, 3 * 0.02, 2 * 0.03 and 1 * 0.2, none smaller than the previous
-  // value.
+  // Sorted by increasing p, the corrected values are 4 * 0.01, 3 * 0.02, 2 * 0.03 and 1 * 0.2. Each
+  // is raised to the previous one if it is smaller.
   const std::vector<double> p = {0.03, 0.01, 0.2, 0.02};
   const std::vector<double> corrected = holm(p);
   EXPECT_NEAR(corrected[1], 0.04, 1e-15);

@@ -187,7 +187,8 @@ TEST(BreakEven, IsNotKeptAboveTheLargestMomentWithoutATurn) {
   const YawScrub moving = scrub_of({0.5 * ends_m.front(), 0.9 * ends_m.front()});
   EXPECT_THAT(comparison_table(table_with(moving, 2.0 * ends_m.back())),
               HasSubstr("still ahead in 0, no longer in 0, undecided in 1"));
-  // If the vehicle never turned, the largest moment is the lower bound.
+  // If the vehicle never turned in the trials, the largest moment of the trials is a lower bound of
+  // the scrub moment.
   EXPECT_THAT(comparison_table(table_with(std::nullopt, 2.0 * ends_m.back())),
               HasSubstr("still ahead in 0, no longer in 1, undecided in 0"));
   EXPECT_THAT(comparison_table(table_with(std::nullopt, 0.5 * ends_m.front())),
@@ -198,8 +199,9 @@ TEST(BreakEven, ReportsTheNumberOfTurnsForADecision) {
   const std::vector<double> ends_m = ending_moments_m();
   ASSERT_FALSE(ends_m.empty());
   const double end_m = ends_m.front();
-  // The break-even moment is half-way from the middle of the interval to its end. An interval of
-  // half the width would decide, which takes four times as many turns: 40.
+  // The break-even moment is half-way from the middle of the interval to its end. Half the width of
+  // the interval would decide. The width falls with the square root of the number of turns, so this
+  // takes four times as many: 40.
   const Comparison comparison =
       table_with(scrub_of({0.9 * end_m - 0.2 * end_m, 0.9 * end_m + 0.2 * end_m}));
   for (const BreakEven& entry : *comparison.break_even) {

@@ -1,4 +1,4 @@
-/// Files of a comparison; comparisons that are stopped; comparisons of several sets of gains; seeded noise.
+/// Files of a comparison; comparisons that are stopped; several sets of gains; seeded noise.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,8 @@ Comparison stopped_after(std::size_t runs) {
 const CompareOptions kWhole{.samples = 39, .seed = 3, .threads = 2};
 
 TEST(StoppedComparison, IsASmallerOne) {
-  // Sixteen samples at a time, 6 runs per sample: 16 complete samples and two modes of the next 16.
+  // A sample has 6 runs, and runs are made in batches of 16 samples. The comparison is stopped with
+  // 16 complete samples and two of the six batches of the next 16 samples.
   const Comparison c = stopped_after(16 * 6 + 20);
   EXPECT_TRUE(c.stopped);
   EXPECT_EQ(c.rows.size(), 128U);

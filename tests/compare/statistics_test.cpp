@@ -94,14 +94,15 @@ TEST(PairedDifferences, HaveTheWidthOfTheMeansStandardError) {
   const PairedDifference d = iae_difference(paired(400, 0.5), 1);
   ASSERT_TRUE(d.ci95);
   EXPECT_TRUE(d.ci95->contains(*d.mean));
-  // 2 * 1.96 * 0.5/sqrt(400) = 0.098. The sample's deviation is known to 1/sqrt(800) = 3.5 % and
-  // the ends of 1000 resamples to 4 % each: 20 % is more than three times all combined.
+  // The width is 2 * 1.96 * 0.5/sqrt(400) = 0.098. The standard deviation of the sample has an
+  // error of 1/sqrt(800) = 3.5 %, each end from 1000 resamples one of 4 %. The tolerance of 20 % is
+  // more than three times the combined error.
   EXPECT_NEAR(d.ci95->hi - d.ci95->lo, 0.098, 0.2 * 0.098);
 }
 
 TEST(Bootstrap, LeavesOutLessForFewValues) {
-  // Phi(-t sqrt(n/(n - 1))): t of 9 degrees of freedom is 2.2622, times 1.0541: Phi(-2.3846) =
-  // 0.00855.
+  // The tail is Phi(-t sqrt(n/(n - 1))). For n = 10, t with 9 degrees of freedom is 2.2622, the
+  // root is 1.0541, and Phi(-2.3846) = 0.00855.
   EXPECT_NEAR(bootstrap_tail(10, 0.025), 0.00855, 2e-5);
   EXPECT_NEAR(bootstrap_tail(100000, 0.025), 0.025, 1e-5);
   EXPECT_LT(bootstrap_tail(2, 0.025), 1e-12);
@@ -128,8 +129,8 @@ TEST(Bootstrap, CoversAMeanOfTenAtItsRate) {
       if (d.metric == MetricId::kSettlingTime) held += d.ci95->contains(0.0) ? 1 : 0;
     }
   }
-  // 95 % of 400 intervals contain the truth, within three standard deviations. Plain percentiles of
-  // the bootstrap would contain it in 90 %.
+  // About 95 % of 400 intervals must contain the true mean; the bounds are three standard
+  // deviations of this count. With plain bootstrap percentiles, only 90 % would contain it.
   EXPECT_GT(held, 367);
   EXPECT_LT(held, 393);
 }
@@ -145,7 +146,7 @@ TEST(PairedDifferences, HaveStudentsP) {
   const PairedDifference d = iae_difference(c, 1);
   EXPECT_EQ(*d.nominal, 9.0);
   EXPECT_NEAR(*d.mean, 7.0 / 3.0, 1e-14);
-  // s^2 = 7/3, so t = (7/3)/sqrt(7/9) = sqrt 7; with 2 degrees p = 1 - t/sqrt(2 + t^2).
+  // s^2 = 7/3, so t = (7/3)/sqrt(7/9) = sqrt 7; with 2 degrees of freedom p = 1 - t/sqrt(2 + t^2).
   EXPECT_NEAR(*d.p, 1.0 - std::sqrt(7.0) / 3.0, 1e-12);
   // The margin is 5 % of 50: t = (2.5 - 7/3)/sqrt(7/9), one-sided.
   const double t = (2.5 - 7.0 / 3.0) / std::sqrt(7.0 / 9.0);
@@ -213,7 +214,8 @@ TEST(Ranking, IgnoresDifferencesBelowTheFloor) {
   Comparison c;
   c.rows = {row(YawMode::kDifferential, 0, 20.0), row(YawMode::kSteering, 0, 20.0),
             row(YawMode::kCombined, 0, 20.0)};
-  // 0.001 and 0.004 deg: ln((0.004 + 0.5)/0.5)/4 over four ranked metrics is 0.002, below ln 1.05.
+  // Overshoots of up to 0.004 deg change the logarithm of the score, over four ranked metrics, by
+  // ln((0.004 + 0.5)/0.5)/4 = 0.002. This is below the relevance margin ln 1.05.
   c.rows[0].metrics.overshoot_deg = 0.001;
   c.rows[1].metrics.overshoot_deg = 0.004;
   c.rows[2].metrics.overshoot_deg = 0.0;
@@ -237,8 +239,8 @@ Comparison settling(std::array<double, 3> seconds, std::array<int, 3> failures =
 }
 
 TEST(Ranking, DistinguishesEquivalentUndecidedAndBehind) {
-  // One of four ranked metrics differs, so a score is (ratio)^(1/4). The ratio has an offset of the
-  // metric's floor over the relevance, 0.1 s/0.05.
+  // One of four ranked metrics differs, so a score is (ratio)^(1/4). Both times of the ratio are
+  // increased by an offset, the metric's floor divided by the relevance margin: 0.1 s/0.05 = 2 s.
   const auto ranking = ranking_of(settling({10.0, 10.5, 20.0}));
   EXPECT_THAT(ranks(ranking), ElementsAre(1, 1, 3));
   EXPECT_EQ(ranking[1].contender.mode, YawMode::kSteering);
@@ -261,8 +263,8 @@ TEST(Ranking, OfTwoModesDoesNotDependOnAThird) {
 }
 
 TEST(Ranking, AnInsignificantFailureDoesNotPreventABestMode) {
-  // One failure of 40 is not significantly lower; twelve are (McNemar: 2^-11) and rank after a
-  // worse score.
+  // One failure in 40 runs is not significant. Twelve are significant (McNemar: p = 2^-11), so the
+  // mode ranks after modes with worse scores.
   EXPECT_EQ(ranking_of(settling({10.0, 30.0, 31.0}, {1, 0, 0}))[0].contender.mode,
             YawMode::kDifferential);
   const auto failing = ranking_of(settling({10.0, 30.0, 31.0}, {12, 0, 0}));
@@ -272,8 +274,8 @@ TEST(Ranking, AnInsignificantFailureDoesNotPreventABestMode) {
 }
 
 TEST(Ranking, FollowsTheUsersWeightsAndReportsItsSensitivity) {
-  // Differential settles in half the time of steering with 1.75 times its motor activity. With
-  // offsets of 2 s and 1 /s (floors over the relevance) both factors are 1.5.
+  // Differential settles in half the time of steering with 1.75 times its motor activity. With the
+  // offsets of 2 s and 1 1/s (floor divided by relevance margin) both ratios are 1.5.
   Comparison c;
   c.rows = {row(YawMode::kDifferential, 0, 50.0), row(YawMode::kSteering, 0, 50.0)};
   c.rows[0].metrics.settling_time_s = 2.0;
@@ -286,7 +288,8 @@ TEST(Ranking, FollowsTheUsersWeightsAndReportsItsSensitivity) {
   EXPECT_EQ(by_time[0].contender.mode, YawMode::kDifferential);
   EXPECT_EQ(by_work[0].contender.mode, YawMode::kSteering);
   EXPECT_THAT(by_time[0].dominated_by, IsEmpty());
-  // By symmetry each is first under half of all weights; 1000 draws have a standard error of 1.6 %.
+  // By symmetry, each mode is first for half of all weights. With 1000 drawn weights, this fraction
+  // has a standard error of 1.6 %.
   EXPECT_NEAR(by_time[0].first_by_weights, 0.5, 0.06);
   EXPECT_NEAR(by_time[0].first_by_weights + by_time[1].first_by_weights, 1.0, 1e-12);
 }

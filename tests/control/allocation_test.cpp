@@ -90,7 +90,8 @@ class Reference41 {
       const double made_m = l.front_axle_m * speed * std::sin(middle) / (1.0 + std::cos(middle));
       (made_m < moment_m ? lo : hi) = middle;
     }
-    // Bisection approaches a stop without reaching it.
+    // Bisection approaches a stop without reaching it, so a result next to the stop counts as the
+    // stop.
     const double found = 0.5 * (lo + hi);
     return stop_rad - std::abs(found) < 1e-15 ? std::copysign(stop_rad, found) : found;
   }
@@ -243,8 +244,9 @@ TEST(Allocation, ClipsTauSpeedFirstThenSteeringThenForces) {
   const Allocation<double> fast = allocate(YawMode::kSteering, 9.0, 0.0, limits());
   EXPECT_TRUE(fast.speed_limited);
   EXPECT_DOUBLE_EQ(fast.force.left, 1.0);
-  // At d_max the forces follow from the clipped angle: F' = tau_speed/(2 (1 + cos d_max)). The stop
-  // gives 0.35 m tan(10 deg) = 0.0617 m: 0.08 is slightly beyond, 5 far.
+  // At d_max the forces follow from the clipped angle: F' = tau_speed/(2 (1 + cos d_max)). At the
+  // stop, steering makes 0.35 m tan(10 deg) = 0.0617 m. The requested 0.08 m is slightly more, 5 m
+  // much more.
   for (const double tau_turn_m : {0.08, 5.0}) {
     const Allocation<double> turning = allocate(YawMode::kSteering, 1.0, tau_turn_m, limits());
     EXPECT_TRUE(turning.steering_limited);
@@ -267,14 +269,14 @@ TEST(Allocation, RedistributionNeverDeliversLessOfTheMomentThanTheFixedHalf) {
 }
 
 TEST(Allocation, SteeringTakesOverTheMomentOfClippedForces) {
-  // With tau_speed 3.6 each force is 0.1 below its limit, too little for half of the moment.
-  // Steering makes the missing moment, to either side.
+  // With tau_speed 3.6 each force is 0.1 below its limit, so the forces cannot make half of the
+  // moment. Steering makes the missing moment, to either side.
   for (const double tau_turn_m : {0.3, -0.3}) {
     const Allocation<double> a = allocate(YawMode::kCombined, 3.6, tau_turn_m, limits());
     EXPECT_TRUE(a.force_limited);
     EXPECT_FALSE(a.steering_limited);
-    // The moment that steering takes over is computed with the 1 + cos d_r of the angle before,
-    // which is 0.3 % off.
+    // The moment that steering takes over is computed with 1 + cos d_r of the old steering angle,
+    // an error of 0.3 %.
     EXPECT_NEAR(moment(a), tau_turn_m, 5e-3 * std::abs(tau_turn_m));
   }
 }
@@ -412,9 +414,9 @@ GeneralisedForces<double> by_front_wheels(const Allocation<double>& a) {
 TEST(FrontWheelAllocation, DeliversExactlyWhatIsRequestedInsideTheLimits) {
   EXPECT_TRUE(rc::check([] {
     const double tau_speed = drawn(0.1, 1.5);
-    // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(20 deg) = 0.13 tau_speed. The forces, at
-    // most (1.5 + 0.19/0.36)/(2 cos 20 deg) = 1.08 in differential mode, are within limits for half
-    // of that.
+    // |d_r| < 20 deg needs |tau_turn| < l_f tau_speed tan(20 deg) = 0.13 tau_speed. The test uses
+    // at most half of this moment. The forces are then at most (1.5 + 0.19/0.36)/(2 cos 20 deg) =
+    // 1.08 in differential mode, within the limits.
     const double tau_turn_m = drawn(-1, 1) * 0.5 * 0.35 * tau_speed * std::tan(radians(20.0));
     for (const YawMode mode : kModes) {
       const Allocation<double> a = allocate(mode, tau_speed, tau_turn_m, front_limits());

@@ -135,8 +135,8 @@ struct LinearPlant {
   LinearPlant() { a(0, 1) = a(2, 0) = 1.0L; }
 };
 
-/// Routh and Hurwitz: every root of s^3 + c2 s^2 + c1 s + c0 = det(s I - A) has a negative real
-/// part.
+/// Stability by the criterion of Routh and Hurwitz: every root of s^3 + c2 s^2 + c1 s + c0 = det(s
+/// I - A) has a negative real part.
 bool is_stable(const Matrix3& a) {
   const Real c2 = -a.trace();
   const Real c1 = (a.trace() * a.trace() - (a * a).trace()) / 2.0L;
@@ -144,7 +144,8 @@ bool is_stable(const Matrix3& a) {
   return c2 > 0.0L && c0 > 0.0L && c2 * c1 > c0;
 }
 
-/// Gelfand: the limit of |A^n|^(1/n), for n = 2^60 by squaring.
+/// Spectral radius by Gelfand's formula: the limit of |A^n|^(1/n), here for n = 2^60, by repeated
+/// squaring.
 Real spectral_radius(Matrix3 power) {
   Real log_radius = 0.0L;
   for (int k = 0; k < 60; ++k) {
@@ -198,7 +199,8 @@ RC_GTEST_PROP(Lqi, TheGainsSolveTheRiccatiEquationAndTheLoopIsStable, ()) {
   const Matrix3 p = lyapunov(closed, q + r * k * k.transpose());
   RC_ASSERT(Eigen::LLT<Matrix3>(p).info() == Eigen::Success);  // P > 0
   const Vector3 optimal = plant.b.transpose() * p / r;
-  // Scaled so that all states have equal weight.
+  // Each gain is multiplied by the largest value of its state, so that all states have equal
+  // weight.
   const Vector3 off = (optimal - k).cwiseProduct(largest);
   RC_ASSERT(off.cwiseAbs().maxCoeff() < 1e-9L * k.cwiseProduct(largest).cwiseAbs().maxCoeff());
   const Matrix3 by_input = p * plant.b * plant.b.transpose() * p / r;
@@ -208,7 +210,7 @@ RC_GTEST_PROP(Lqi, TheGainsSolveTheRiccatiEquationAndTheLoopIsStable, ()) {
             1e-9L * (scale * (by_input + q) * scale).cwiseAbs().maxCoeff());
 }
 
-/// settles_when_sampled() agrees with the eigenvalues of the sampled law: all within the unit
+/// settles_when_sampled() is true exactly if all eigenvalues of the sampled law are within the unit
 /// circle.
 RC_GTEST_PROP(Lqi, SettlesWhenSampledWhereEveryEigenvalueDoes, ()) {
   const LqiGains<double> gains = lqi_gains(any_weights(), ratio_between(1e-3, 10.0));
@@ -262,7 +264,7 @@ TEST(Lqi, StopsIntegratingAtALimit) {
   };
   EXPECT_NEAR(after(0.2, 0.5, false), 1.002, 1e-15);
   EXPECT_EQ(after(0.2, 0.3, true), 1.0);
-  EXPECT_NEAR(after(-0.2, 0.3, true), 0.998, 1e-15);        // integrates: e leads out of the limit
+  EXPECT_NEAR(after(-0.2, 0.3, true), 0.998, 1e-15);        // integrates: e reduces the request
   EXPECT_NEAR(after(0.2, 0.5 - 1e-9, true), 1.002, 1e-15);  // integrates: reduced by rounding only
   EXPECT_NEAR(after(0.2, 0.48, false), 1.002, 1e-15);       // integrates: no limit reached
 }

@@ -129,7 +129,8 @@ TEST(CommandFrame, RefusesDamageAndTextAfterIt) {
       bad[i] = static_cast<char>(bad[i] ^ (1U << bit));
       CommandReader fresh;
       for (const Heard& heard : hear(fresh, bad)) {
-        // Letter case is ignored, also in the digits of the checksum.
+        // A flipped bit may change only the case of a letter, also in the checksum. Case is
+        // ignored, so the frame is then still accepted.
         if (heard.verdict != CommandVerdict::kTaken) continue;
         EXPECT_EQ(heard.word, CommandWord::kSpeed) << bad;
         EXPECT_EQ(heard.value, 0.5F) << bad;

@@ -31,7 +31,8 @@ Avoided<double> avoided(const std::vector<O>& obstacles, double guidance_rad = 0
 }
 
 TEST(Obstacles, BeyondTheManoeuvringDistanceNothingHappens) {
-  // The distance D_obs = 7.1 - (1 + 1) = 5.1 m to the inflated disc is above MMD = 4 + 1 m.
+  // The distance to the inflated disc, D_obs = 7.1 - (1 + 1) = 5.1 m, is above the minimum
+  // manoeuvring distance MMD = 4 + 1 m.
   const auto a = avoided({{{7.1, 0.0}, 1.0}});
   EXPECT_FALSE(a.active);
   EXPECT_EQ(a.psi_rad, 0.0);
@@ -61,7 +62,8 @@ TEST(Obstacles, AWallOfOverlappingSectorsIsRoundedAsOne) {
   const std::vector<O> wall = {
       {{4.0, 0.0}, 1.0}, {{4.0, 2.5}, 1.0}, {{4.0, -2.5}, 1.0}, {{4.0, -5.0}, 1.0}};
   const auto a = avoided(wall);
-  // Leftmost edge: bearing of (4, 2.5) plus its half angle; the right one is farther.
+  // The left edge of the blocked sector is the bearing of (4, 2.5) plus the half angle. The right
+  // edge is farther from the goal.
   const double d = std::hypot(4.0, 2.5);
   const double w = (5.0 - (d - 2.0)) / 5.0;
   EXPECT_NEAR(a.psi_rad, std::atan2(2.5, 4.0) + std::asin(2.0 / d) + 0.2 * w, 1e-12);
@@ -101,7 +103,8 @@ TEST(Obstacles, ARingAroundTheVehicleBlocksEveryDirection) {
 }
 
 TEST(Obstacles, TheSpeedFallsWithTheFreeWayAhead) {
-  // Brakes for R = 1 + 0.5 + 0.25: free distance 3.0 - 1.75 = 1.25 of 2 m.
+  // The circle for braking has the radius 1 + 0.5 + 0.25 = 1.75 m (disc, vehicle, half the
+  // clearance). The free distance is 3.0 - 1.75 = 1.25 m, and brake_m is 2 m.
   EXPECT_NEAR(avoided({{{3.0, 0.0}, 1.0}}).speed_share, 0.625, 1e-12);
 }
 

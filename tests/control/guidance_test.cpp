@@ -17,7 +17,8 @@ using P = Position<double>;
 constexpr double kPi = pi<double>();
 
 TEST(Waypoints, TheLineOfSightPointsFromTheVehicleToThePoint) {
-  // (80, 0) to (90, 20): atan2(20, 10) = 1.1071; the printed (103) gives the opposite.
+  // The heading from (80, 0) to (90, 20) is atan2(20, 10) = 1.1071 rad. Equation (103) as printed
+  // gives the opposite direction.
   const P points[] = {{90.0, 20.0}};
   auto progress = start_waypoints(P{80.0, 0.0}, 0.0);
   const auto guided = guide(Waypoints<double>{points, 1, 1.0, false}, {80.0, 0.0}, progress);
@@ -141,7 +142,8 @@ TEST(Polyline, WithoutAnyLengthItIsFinishedAndTheHeadingHeld) {
 constexpr Lissajous<double> kPaperPath{10.0, 10.0, 0.01, 0.03};
 
 TEST(LissajousPath, DerivativesAreThoseOfThePosition) {
-  // Central differences of step 1e-3 s: error h^2/6 times the next derivative, below 1e-10 here.
+  // Compares with central differences with the step h, whose error, h^2/6 times the third
+  // derivative, is below 1e-10 here.
   const double t = 37.0, h = 1e-3;
   const auto before = kPaperPath.at(t - h), at = kPaperPath.at(t), after = kPaperPath.at(t + h);
   EXPECT_NEAR(at.vx_mps, (after.position_m.x_m - before.position_m.x_m) / (2 * h), 1e-9);

@@ -37,7 +37,8 @@ TEST(Laws, WrapTakesNoLongerForALargeAngleAndLeavesNaNAsItIs) {
 }
 
 TEST(Laws, HeadingLawBySubstitution) {
-  // S = (0.1 - 0.4) + 3 (0.5 - 0.2) = 0.6, inside the layer: mu S/eps = 50 * 0.6/12 = 2.5
+  // S = (0.1 - 0.4) + 3 (0.5 - 0.2) = 0.6 is inside the boundary layer, so the correction is mu
+  // S/eps = 50 * 0.6/12 = 2.5.
   const Controller<double> c = paper_controller_of<double>();
   const Measurement<double> m{0.2, 1.0, 0.0, 0.4};
   const Reference<double> ref{0.5, 0.1, 0.7, 1.0, 0.0};

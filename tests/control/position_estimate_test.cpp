@@ -180,7 +180,8 @@ TEST(PositionEstimate, DoesTheWorkOnAFixAtOnceWhereStepsAreLong) {
   const Measurement<double> rest{0.0, 0.0, 0.0, 0.0};
   estimate.step({{0.0, 0.0}, 0.0, true}, rest);
   estimate.step({{0.05, 0.0}, 0.2, true}, rest);
-  // kSpread_s are two steps. K = (R + q t)/(2 R + q t) = 0.963 with R = 1e-4 m^2, q t = 0.0025 m^2.
+  // With these long steps, a correction is spread over two steps (kSpread_s). Its gain is K = (R +
+  // q t)/(2 R + q t) = 0.963 with R = 1e-4 m^2 and q t = 0.0025 m^2.
   estimate.step({{0.05, 0.0}, 0.2, false}, rest);
   EXPECT_NEAR(estimate.step({{0.05, 0.0}, 0.2, false}, rest).x_m, 0.963 * 0.05, 1e-5);
 }

@@ -11,7 +11,8 @@
 namespace awmr::testing {
 namespace {
 
-/// Two cells per octave from 1 on: 10 at 1, 11 at 1.5, 13 at 2, 17 at 3 and 25 at 4.
+/// Table with two cells per octave, which begins at 1. Its values are 10 at 1, 11 at 1.5, 13 at 2,
+/// 17 at 3 and 25 at 4.
 constexpr ResistanceLine kLines[] = {
     {10.0F, 0.0F}, {2.0F, 8.0F}, {4.0F, 5.0F}, {4.0F, 5.0F}, {8.0F, -7.0F}};
 const ResistanceTable kTable{

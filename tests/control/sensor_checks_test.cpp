@@ -205,8 +205,8 @@ TEST(GyroCalibration, WaitsUntilTheVehicleIsAtRest) {
   EXPECT_FALSE(calibrated(0.5, 0.0, true).is_done());
   EXPECT_FALSE(calibrated(0.5, 0.0, false).is_done());
   EXPECT_FALSE(calibrated(-0.2, 0.0, false).is_done());
-  EXPECT_FALSE(calibrated(0.065, 0.0, true).is_done()) << "slow, but the compass sees it";
-  EXPECT_FALSE(calibrated(0.0, 0.1, false).is_done()) << "its mean is good, its spread is not";
+  EXPECT_FALSE(calibrated(0.065, 0.0, true).is_done()) << "slow turn, seen by the compass";
+  EXPECT_FALSE(calibrated(0.0, 0.1, false).is_done()) << "mean right, scatter too large";
 }
 
 struct Receiver {
@@ -331,8 +331,8 @@ TEST(GpsCheck, FindsAPositionThatDoesNotFollowTheSpeed) {
     stuck.next();
   }
   EXPECT_NEAR(waited, 5 * (10 + 12), 5);
-  // At rest the noise of a speed without a sign adds up, while displacements forth and back cancel:
-  // no fault.
+  // At rest, the noise of a speed without a sign adds up to a distance, while the displacements of
+  // the position cancel. This is no fault.
   Receiver resting;
   resting.fix.speed_mps = 0.25F;
   resting.at.direction = 0;
@@ -380,20 +380,23 @@ double off_course_after_m(double wanted_rad, double turn_radps, double seconds) 
 
 TEST(GpsCheck, FindsAVehicleThatDoesNotTurnToItsHeading) {
   constexpr double kLimit_mrad = static_cast<double>(kLimits.off_course_mrad);
-  // Straight on: after off_course_mrad/(e - on_course_rad). The first fix has no motion, the second
-  // a new heading, and the last is at most one late: three fixes of 0.2 m.
+  // The vehicle drives straight on with the heading error e: the fault is raised after
+  // off_course_mrad/(e - on_course_rad). Tolerance: three fixes of 0.2 m. The first fix shows no
+  // motion, the second a new heading, and the last may be one fix late.
   for (const double error_rad : {1.0, 1.57, 2.5, 3.1}) {
     EXPECT_NEAR(off_course_after_m(error_rad, 0.0, 300.0), kLimit_mrad / (error_rad - 0.262), 0.6)
         << error_rad;
   }
   EXPECT_EQ(off_course_after_m(0.25, 0.0, 300.0), -1.0);
-  // A turn by 180 deg with the radius R takes (pi - 0.262)^2/2 = 4.15 R of the 20 m rad: R = 4.8 m.
+  // In a turn by 180 deg with the radius R, distance times error adds up to (pi - 0.262)^2/2 R =
+  // 4.15 R. It reaches the limit of 20 m rad at R = 4.8 m.
   EXPECT_EQ(off_course_after_m(3.14, 1.0 / 4.6, 300.0), -1.0);
   EXPECT_GT(off_course_after_m(3.14, 1.0 / 5.4, 300.0), 0.0);
 }
 
 TEST(GpsCheck, AcceptsANewCommandedHeading) {
-  // The heading is reversed every 6 m, which adds 6 m (3.1 - 0.262) = 17 m rad; the limit is 20.
+  // The commanded heading is reversed every 6 m. This adds 6 m (3.1 - 0.262) = 17 m rad, below the
+  // limit of 20 m rad.
   Receiver gps;
   for (int i = 0; i < 3000; ++i) {
     if (i % 30 == 0) gps.at.psi_ref_rad = gps.at.psi_ref_rad > 0.0F ? 0.0F : 3.1F;
@@ -429,8 +432,9 @@ TEST(TurnCheck, FindsAQuarterTurnAgainstTheMomentUnlessTheTurnIsBraked) {
   }
 }
 
-/// Position errors wander by 1 m RMS with a time constant of 60 s. Speeds of 0.4 to 3 m/s change,
-/// also in sign, by 0.3 to 1 m/s2; turns up to 0.5 rad/s, heading errors of 5 deg.
+/// Drives with position errors that wander by 1 m RMS with a time constant of 60 s, speeds of 0.4
+/// to 3 m/s that change (also in sign) by 0.3 to 1 m/s^2, turns of up to 0.5 rad/s, and heading
+/// errors of 5 deg.
 TEST(GpsCheck, RaisesNoFaultOnARoughDrive) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::mt19937 random(seed);
@@ -502,10 +506,10 @@ TEST(MotionCheck, AcceptsADriftingPositionOfASlowVehicle) {
 }
 
 TEST(MotionCheck, FindsASpeedOfZeroAndACompassThatIsOffOnASlowVehicle) {
-  // Detected after 6 m, here within 90 s, if the drive is faster than 0.067 m/s.
+  // The speed of 0 is detected after 6 m, within 90 s if the drive is faster than 0.067 m/s.
   EXPECT_EQ(faults_of_slow_drives(0.0F, 0.0F, 0.0F), 200);
-  // Detected when |ahead| + |left| of the displacement reaches 10 m + 0.1 m/s t. At 45 deg this is
-  // within 120 s if the drive is faster than 0.16 m/s.
+  // The compass error is detected when |ahead| + |left| of the displacement reaches 10 m + 0.1 m/s
+  // t. At 45 deg this is within 120 s if the drive is faster than 0.16 m/s.
   EXPECT_GE(faults_of_slow_drives(0.0F, 1.0F, 0.785F), 200 * 8 / 10);
 }
 

@@ -74,7 +74,7 @@ TEST(Csv, ReadsALastLineWithoutAnEnd) {
   expect_two_rows(read_text("tau_speed,speed_mps\n0.5,0.25\n2,1.66", kSurge));
 }
 
-/// `CODE@LINE` of each note of a table, and the text of the last one.
+/// Returns the notes of a table, one per line, as `CODE@LINE: MESSAGE`.
 std::string notes_of(const Result<CsvTable>& table) {
   std::string text;
   for (const CsvNote& note : table->notes()) {

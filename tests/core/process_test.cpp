@@ -45,7 +45,7 @@ TEST(Process, HasItsExitCodeItsDirectoryAndNoOtherEnvironment) {
   EXPECT_EQ(run("/bin/sh", {"-c", "kill -9 $$"}).exit_code, -1);
   EXPECT_EQ(run("/usr/bin/env", {}).output, "A=b\n");
   EXPECT_EQ(run("/bin/pwd", {}).output, "/\n");
-  EXPECT_EQ(run("/bin/cat", {}).output, "");  // nothing on stdin
+  EXPECT_EQ(run("/bin/cat", {}).output, "");  // stdin is empty
 }
 
 TEST(Process, PastItsTimeLimitItEndsWithAllThatItStarted) {

@@ -76,7 +76,7 @@ TEST(Random, UniformHasItsRangeAndMoments) {
     sum += u - 0.5;
     square += (u - 0.5) * (u - 0.5);
   }
-  // Var u = 1/12; Var (u - 1/2)^2 = 1/80 - 1/144 = 1/180.
+  // For a uniform number u, Var u = 1/12 and Var (u - 1/2)^2 = 1/80 - 1/144 = 1/180.
   EXPECT_NEAR(sum / kDraws, 0.0, 5.0 * std::sqrt(1.0 / 12.0) / kRootDraws);
   EXPECT_NEAR(square / kDraws, 1.0 / 12.0, 5.0 * std::sqrt(1.0 / 180.0) / kRootDraws);
 }

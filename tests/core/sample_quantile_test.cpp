@@ -47,7 +47,7 @@ TEST(RankQuantile, IsNotExceededByTheShareOfTheValues) {
   EXPECT_EQ(rank_quantile(values, 0.05), 1.0);
   EXPECT_EQ(rank_quantile(values, 0.0), 1.0);
   EXPECT_EQ(rank_quantile(values, 1.0), 20.0);
-  // 0.07 of 100 is 7.000000000000001 in double.
+  // In double, 0.07 * 100 is 7.000000000000001, which must not count as rank 8.
   std::vector<double> hundred;
   for (int i = 1; i <= 100; ++i) hundred.push_back(i);
   EXPECT_EQ(rank_quantile(hundred, 0.07), 7.0);

@@ -17,7 +17,7 @@ TEST(Printable, EscapesControlCharactersOfNames) {
   EXPECT_EQ(printable("a\x1B[2Jb\r\n\t\x7F"), "a\\x1b[2Jb\\r\\n\\t\\x7f");
   EXPECT_EQ(printable("\xC2\x9B"
                       "31m"),
-            "\\u{9b}31m");  // CSI as one character
+            "\\u{9b}31m");  // terminal control code
   EXPECT_EQ(printable("\xE2\x80\xAE"
                       "txt"),
             "\\u{202e}txt");  // right-to-left override

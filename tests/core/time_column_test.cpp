@@ -50,7 +50,7 @@ TEST(FindTime, TakesNoNameWithoutAUnit) {
 TEST(FindTime, TakesSecondsSince1970WithTheirFractionWhereThereIsNoOtherTime) {
   EXPECT_EQ(meaning_of({"timestamp", "ATT.Roll"}, {"1700000000.25000000", ""}), "`timestamp`");
   EXPECT_EQ(meaning_of({"timestamp", "v"}, {"1700000000", "1"}),
-            "");  // microseconds since a start?
+            "");  // could also be microseconds
   EXPECT_EQ(meaning_of({"timestamp", "v"}, {"12.5", "1"}), "");
   EXPECT_EQ(meaning_of({"speed", "v"}, {"1700000000.5", "1"}), "");
   EXPECT_EQ(meaning_of({"timestamp", "time_ms"}, {"1700000000.5", "3"}), "`time_ms`*0.001");

@@ -1,5 +1,5 @@
-/// The emitted library on other boards: the sketches on Mega and Uno with Arduino's core; the
-/// autopilot on an emulated ARM gives the host's bits.
+/// The emitted library on other boards. The sketches are compiled with Arduino's core for Mega and
+/// Uno. The autopilot runs on an emulated ARM and must give the same bits as on the host.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,8 +66,8 @@ class Sketches : public Boards, public ::testing::WithParamInterface<const Board
     return std::string("'") + kAvrGxx +
            "' -std=gnu++11 -fpermissive -fno-exceptions -fno-threadsafe-statics" + flags();
   }
-  /// Builds Arduino's core and libraries as an archive, as its IDE does. They have their own
-  /// warnings; WString.cpp needs a macro that avr-gcc 5.4 defines only for C.
+  /// Builds Arduino's core and libraries as an archive, as its IDE does. Warnings are off, because
+  /// these sources cause some. WString.cpp needs a macro that avr-gcc 5.4 defines only for C.
   ProcessResult build_core() const {
     const std::string core = std::string(kArduino) + "/cores/arduino";
     const std::string libraries = std::string(kArduino) + "/libraries";

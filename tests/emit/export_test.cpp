@@ -80,8 +80,8 @@ TEST(Export, ArduPilotsCruiseHoldsItsSpeedAtItsThrottle) {
 }
 
 TEST(Export, ArduPilotsSpeedLoopClosesWithTheTimeConstantOfTheSpeedLaw) {
-  // With K_p and K_i of the closed loop of m' u' = 4 (K_p + K_i/s) e - g1'(u) u the plant's pole
-  // cancels: K_i/K_p = g1'/m', and 4 K_p/m' = mu_s/eps_s.
+  // The loop m' du/dt = 4 (K_p + K_i/s) e - g1'(u) u has the bandwidth mu_s/eps_s if K_p and K_i
+  // cancel the plant's pole: K_i/K_p = g1'/m', and 4 K_p/m' = mu_s/eps_s.
   const Model model = paper_robot();
   const SpeedGains<double> gains = kGains.speed;
   const auto values = parameters_of(text_of(model, ExportFormat::kArduPilot));
@@ -97,7 +97,8 @@ TEST(Export, ArduPilotsSteeringFeedForwardTurnsSteeredWheelsAtTheRateRequested) 
   const auto values = parameters_of(text_of(model, ExportFormat::kArduPilot));
   const Plant<double> plant = *model.plant();
   const double u = values.at("CRUISE_SPEED");
-  // At half of the steering stop: the output s is FF r, above 1 m/s divided by u.
+  // r is the rate for which ArduPilot commands half of the steering stop. Its output, 0.5, is FF r,
+  // divided by u if u is above 1 m/s.
   const double r = 0.5 / (values.at("ATC_STR_RAT_FF") / std::max(1.0, u));
   const double moment =
       plant.front_axle_m * plant.surge.at(u) * std::tan(0.5 * 0.5 * plant.steering_max_rad);
@@ -166,8 +167,8 @@ TEST(Export, AModelWithoutAYawLawGivesTheSpeedLoop) {
 }
 
 TEST(Export, TheIntervalOfADerivedNumberIsThatOfTheModelsCovariance) {
-  // RO_MAX_THR_SPEED = (4/a1)^(1/b1): if only a1 is uncertain, its relative error is that of a1
-  // over b1.
+  // RO_MAX_THR_SPEED = (4/a1)^(1/b1): if only a1 is uncertain, the relative error is that of a1,
+  // divided by b1.
   Model model = paper_robot();
   const double alpha = *model[ParameterId::kSurgeAlpha].value;
   for (const ParameterInfo& parameter : parameter_table()) {

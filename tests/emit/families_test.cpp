@@ -71,8 +71,8 @@ double zero_of(const F& rising) {
 }
 
 /// While a vehicle turns by 180 deg with the radius R, the distance times the heading error beyond
-/// e0 adds up to R (pi - e0)^2/2; 10 m rad are left for the beginning of the turn. Recomputed for
-/// turn_of_vehicle() and turn_of_law().
+/// e0 adds up to R (pi - e0)^2/2. The limit is this value plus 10 m rad for the beginning of the
+/// turn. Computed here independently of turn_of_vehicle() and turn_of_law().
 TEST(OffCourse, IsTenPlusAHalfTurnOfTheWidestRadiusAtTheRoutesSpeeds) {
   const Model model = paper_robot();
   const Plant<double> plant = model.plant().value();
@@ -151,8 +151,8 @@ TEST(Families, WithFrictionAtRestHaveATableFromTheRestSpeedOnAndTheValueThere) {
   EXPECT_EQ(p->rest->surge_at_rest, static_cast<float>(plant.surge.at(0.02)));
   EXPECT_THAT(p->rest->yaw_rest_speed, ::testing::Each(0.0F));
   EXPECT_EQ(p->rest->dead_zone, 0.0F);
-  // Equals the feed-forward of the simulated controller within 5e-4; at rest friction has the sign
-  // of the error.
+  // The chip's feed-forward equals that of the simulated controller within 5e-4. At rest, friction
+  // has the sign of the error.
   const RestingTable chip{p->surge.view(), p->rest->surge_rest_speed, p->rest->surge_at_rest};
   const Resistance<double> law = feed_forward(plant.surge);
   for (const float speed :
@@ -183,7 +183,7 @@ TEST(Families, WithFrictionInYawHaveTheFrictionWidthOfTheGains) {
     const double width = static_cast<double>(p->rest->yaw_rest_speed[mode]);
     const Resistance<double> law = feed_forward(model.plant().value().yaw, width);
     EXPECT_FLOAT_EQ(p->rest->yaw_at_rest[mode], static_cast<float>(law.at(width)));
-    // Equals the feed-forward of the simulated controller.
+    // The chip's feed-forward equals that of the simulated controller.
     const RestingTable chip{p->yaw.view(), p->rest->yaw_rest_speed[mode],
                             p->rest->yaw_at_rest[mode]};
     for (const float rate : {-1.0F, -0.149F, 0.0F, 0.1F, 0.151F}) {

@@ -176,7 +176,8 @@ TEST(ParamsHeader, RefusesAnExponentBelowZeroButTakesZero) {
 }
 
 TEST(ParamsHeader, RefusesWhenT2IsNotBelowT1) {
-  // T1 = 1/lambda = T2 = epsilon/(2 mu) at epsilon = 2 mu/lambda = 50; exact in float32.
+  // T1 = 1/lambda equals T2 = epsilon/(2 mu) at epsilon = 2 mu/lambda = 50, which is exact in
+  // float32.
   Gains<double> gains = kPaperGains;
   gains.heading = {.lambda = 2.0, .mu = 50.0, .epsilon = 50.0};
   const auto at_the_limit = params_header(paper_robot(), gains, paper_inputs());
@@ -184,8 +185,8 @@ TEST(ParamsHeader, RefusesWhenT2IsNotBelowT1) {
   EXPECT_EQ(exit_code(at_the_limit.error()), 1);
   EXPECT_THAT(to_text(at_the_limit.error()), HasSubstr("T2"));
 
-  // Smaller than the limit in double, but equal to it in float32, in which the compiler's check
-  // would fail.
+  // This epsilon is below the limit in double, but equal to it in float32, in which the check of
+  // the compiler computes.
   gains.heading.epsilon = std::nextafter(50.0, 0.0);
   EXPECT_FALSE(params_header(paper_robot(), gains, paper_inputs()));
   gains.heading.epsilon = static_cast<double>(std::nextafter(50.0F, 0.0F));

@@ -116,7 +116,7 @@ class SafeSketches : public ::testing::Test {
       write_all(directory.path() / file.path, file.bytes);
     }
     const std::string core = std::string(AWMR_SOURCE_DIR) + "/tests/emit/host_core";
-    // naked functions exist only on the chip
+    // Removes the attribute `naked`, which only compilers for the chip support.
     const std::string flags =
         " -w -ffp-contract=off -Isrc -I" + core + " -Dnaked= -D__AVR_ATmega2560__ ";
     // With -Og rather than -O1, compiling takes half the time.
@@ -125,8 +125,8 @@ class SafeSketches : public ::testing::Test {
       return succeeded(run_process(cached(kGxx) + flags + arguments, directory.path()));
     };
     ASSERT_TRUE(compile(sanitize + "-Og -std=c++14 -c src/awmr.cpp -o awmr.o"));
-    // The simulated world is not under test. The linker keeps the first copy of an inline function:
-    // the sketch's.
+    // The simulated world is compiled without sanitizers, because it is not under test. The sketch
+    // is linked first, because the linker keeps the first copy of an inline function.
     const auto compile_case = [&](const char* name, std::initializer_list<const char*> sketches) {
       ASSERT_TRUE(compile(fmt::format("-O1 -std=c++17 -c {0}/{1}.cpp -o {1}.o", core, name)));
       for (const char* sketch : sketches) {

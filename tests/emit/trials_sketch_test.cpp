@@ -18,9 +18,9 @@ namespace {
 
 using namespace awmr_trials;
 
-/// Simulated rover, ten times as heavy relative to its motors as the paper's robot, because that
-/// one comes to rest between two GPS fixes: m' du/dt = 2 F' (1 + cos d) - a1 u^b1,  I'z dr/dt = 2
-/// F' l_f sin d - a3 r^b3
+/// Simulated rover, relative to its motors ten times as heavy as the paper's robot, because that
+/// robot comes to rest between two GPS fixes:
+///   m' du/dt = 2 F' (1 + cos d) - a1 u^b1,   I'z dr/dt = 2 F' l_f sin d - a3 r^b3
 struct Rover {
   double a1 = 1.3157, b1 = 0.8841, a3 = 0.3028, b3 = 0.8250, mass = 1.0, inertia = 0.15;
   double front_axle_m = paper_vehicle().front_axle_m;
@@ -118,7 +118,8 @@ TEST(TrialRecorder, ItsTablesGiveBackTheVehicle) {
   EXPECT_NEAR(value(ParameterId::kSurgeBeta), truth.b1, 1e-3);
   EXPECT_NEAR(value(ParameterId::kYawAlpha), truth.a3, 2e-3 * truth.a3);
   EXPECT_NEAR(value(ParameterId::kYawBeta), truth.b3, 5e-3);
-  // A fix is up to a step of 10 ms older than its row says, in a coast-down of over a second.
+  // Tolerance: a fix is up to 10 ms (one step) older than its row states; a coast-down takes over a
+  // second.
   EXPECT_NEAR(value(ParameterId::kMassNorm), truth.mass, 0.03 * truth.mass);
 }
 

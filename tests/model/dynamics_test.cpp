@@ -12,7 +12,7 @@
 namespace awmr::testing {
 namespace {
 
-/// A double in [lo, hi] derived from an integer, so that shrinking works.
+/// Draws a double in [lo, hi]. It is derived from an integer, so that RapidCheck can shrink it.
 double drawn(double lo, double hi) {
   return lo + (hi - lo) * *rc::gen::inRange(0, 10001) / 10000.0;
 }
@@ -92,7 +92,8 @@ TEST(Dynamics, EachEquationBySubstitution) {
   EXPECT_DOUBLE_EQ(d.x_m, 1.2 * std::cos(0.5) - 0.1 * std::sin(0.5));
   EXPECT_DOUBLE_EQ(d.y_m, 1.2 * std::sin(0.5) + 0.1 * std::cos(0.5));
   EXPECT_DOUBLE_EQ(d.psi_rad, 0.4);
-  // m' u_dot - m' r v = S_f cos d_r + S_r - g1(u), and so on: the equations, multiplied out.
+  // m' u_dot - m' r v = S_f cos d_r + S_r - g1(u), and so on: the equations of motion, multiplied
+  // by m' or I'z.
   EXPECT_NEAR(0.0768 * (d.u_mps - 0.4 * 0.1), 0.8 * cos_d + 0.8 - 1.3157 * std::pow(1.2, 0.8841),
               1e-14);
   EXPECT_NEAR(0.0768 * (d.v_mps + 0.4 * 1.2), 0.8 * sin_d - 3.0 * 0.1, 1e-14);
@@ -103,7 +104,8 @@ TEST(Dynamics, EachEquationBySubstitution) {
 }
 
 TEST(Dynamics, FrontWheelsTurnTheVehicleByTheirLateralForce) {
-  // Two wheels, each with 0.3 sin 30 deg sideways, 0.4 m ahead of the centre of gravity.
+  // Two wheels act 0.4 m ahead of the centre of gravity, each with the sideways force 0.3 sin 30
+  // deg.
   EXPECT_DOUBLE_EQ(steering_moment_m(0.4, 0.3, pi<double>() / 6.0), 0.12);
 }
 
@@ -132,7 +134,6 @@ Plant<double> with_back_emf() {
   return plant;
 }
 
-/// 4 (F' - k_e u) = g1(u) + m' du/dt.
 TEST(Resistance, IsFedForwardWithAChordIfItJumpsAtRest) {
   Resistance<double> law = paper_plant().surge;
   EXPECT_EQ(feed_forward(law).rest_speed, law.rest_speed);
@@ -143,6 +144,7 @@ TEST(Resistance, IsFedForwardWithAChordIfItJumpsAtRest) {
   EXPECT_DOUBLE_EQ(law(0.01), 0.5 * law(0.02));
 }
 
+/// Equation of motion straight ahead: m' du/dt = 4 (F' - k_e u) - g1(u).
 TEST(BackEmf, ReducesEveryMotorsForceWithTheSpeed) {
   const Plant<double> plant = with_back_emf();
   State<double> s{};
@@ -170,9 +172,9 @@ TEST(BackEmf, IsZeroForMotorsThatAreOff) {
   }));
 }
 
-/// A wheel force acts along the rolling direction. Back-EMF therefore takes the power k_e w^2, w
-/// the rolling speed, of each wheel out of the motion's power m' u u_dot + m' v v_dot + I'z r
-/// r_dot.
+/// A wheel force acts along the rolling direction. Back-EMF therefore reduces the power of the
+/// motion, m' u u_dot + m' v v_dot + I'z r r_dot, by k_e w^2 for each wheel with the rolling speed
+/// w.
 TEST(BackEmf, BrakesEveryWheelByItsPower) {
   EXPECT_TRUE(rc::check([] {
     const Plant<double> plant = with_back_emf();
@@ -186,12 +188,13 @@ TEST(BackEmf, BrakesEveryWheelByItsPower) {
     const WheelSpeeds<double> w = wheel_speeds(plant.front_axle_m, plant.half_track_m, s);
     const double lost = 0.3 * (w.front_left * w.front_left + w.front_right * w.front_right +
                                w.rear_left * w.rear_left + w.rear_right * w.rear_right);
-    // Powers of up to some 20, with the rounding of a few tens of operations.
+    // Tolerance: rounding of a few tens of operations on powers of up to 20.
     RC_ASSERT(std::abs(power(paper_plant_of<double>()) - power(plant) - lost) < 1e-12);
   }));
 }
 
-/// Compares the equations by wheel without rear forces with those of the generalised forces.
+/// Compares two forms of the equations: with wheel forces, the rear ones 0, and with generalised
+/// forces.
 TEST(FrontWheelDrive, PushesWithTheFrontWheelsAlone) {
   EXPECT_TRUE(rc::check([] {
     const Plant<double> all = paper_plant_of<double>();
@@ -204,7 +207,7 @@ TEST(FrontWheelDrive, PushesWithTheFrontWheelsAlone) {
     const GeneralisedForces<double> tau =
         front_wheel_forces(plant.front_axle_m, plant.half_track_m, f, s.steering_rad);
     const State<double> none = state_rates(all, s, SideForces<double>{0.0, 0.0}, 0.1);
-    // Rates of up to 1e3, with the rounding of ten operations.
+    // Tolerance: rounding of ten operations on rates of up to 1e3.
     RC_ASSERT(std::abs(d.u_mps - none.u_mps - tau.tau_speed / all.mass_norm) < 3e-12);
     RC_ASSERT(std::abs(d.r_radps - none.r_radps -
                        (tau.tau_steering_m + tau.tau_diff_m) / all.inertia_norm) < 3e-12);

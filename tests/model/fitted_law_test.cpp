@@ -25,7 +25,7 @@ Model model_of_laws() {
   model.covariance.parameters = {ParameterId::kSurgeAlpha,   ParameterId::kYawBeta,
                                  ParameterId::kYawAlpha,     ParameterId::kYawCoulomb,
                                  ParameterId::kYawQuadratic, ParameterId::kWheelDeadZone};
-  // L L' of a lower triangle L is a covariance.
+  // The product L L' of a lower triangular matrix L and its transpose is a valid covariance.
   const std::size_t n = model.covariance.parameters.size();
   std::vector<std::vector<double>> lower(n, std::vector<double>(n, 0.0));
   for (std::size_t i = 0; i < n; ++i) {
@@ -42,7 +42,8 @@ Model model_of_laws() {
   return model;
 }
 
-/// Mean of the law over the rates; with `zone`, including the dead zones of the wheels.
+/// Mean of the law over the rates. For surge trials, it includes the dead zones of the driven
+/// wheels.
 double mean_of_law(const Model& model, TrialKind kind, const std::vector<double>& rates) {
   double sum = 0.0;
   for (const double rate : rates) sum += fitted_law(model, kind)->at(rate);

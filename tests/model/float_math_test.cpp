@@ -110,7 +110,8 @@ TEST(FloatMath, BearingKeepsItsStatedErrorInEveryDirectionAndAtEveryLength) {
 }
 
 TEST(FloatMath, BearingAtTheAxesAndTheDiagonalsIsWithinItsLastPlace) {
-  // In units of 2^-17 rad, half a unit off by rounding; pi is rounded down.
+  // Bearings are multiples of 2^-17 rad, so the rounding error is up to half of that; pi is rounded
+  // down.
   constexpr double kUnit = 1.0 / 131072.0;
   constexpr double kQuarter = 1.5707963267948966;
   EXPECT_EQ(float_math::bearing(0.0F, 2.0F), 0.0F);
@@ -140,7 +141,7 @@ TEST(FloatMath, AnglesOfTheAxesAndOfTheOriginAreExact) {
   EXPECT_EQ(float_math::atan2(-3.0F, 0.0F), -float_math::kPiBy2);
   EXPECT_EQ(float_math::atan2(0.0F, -1.0F), float_math::kPi);
   EXPECT_EQ(float_math::atan2(-0.0F, -1.0F), float_math::kPi);
-  // Half a turn has a fixed sign, however little below the axis the vector is.
+  // A vector slightly below the negative x axis has the angle +pi, not -pi.
   for (const float hair : {-1e-45F, -1e-30F, -1e-8F}) {
     EXPECT_EQ(float_math::atan2(hair, -1.0F), float_math::kPi) << hair;
     EXPECT_GT(float_math::bearing(hair, -1.0F), -float_math::kPi) << hair;
@@ -203,7 +204,7 @@ TEST(FloatMath, OrdersAsTheOperatorsDo) {
 }
 
 TEST(FloatMath, RatioIsToTheNearestOfSixteenBits) {
-  // The leading 16 bits of each mantissa, with any exponents.
+  // Tests random numbers with 16-bit mantissas and different exponents.
   for (std::uint32_t i = 0; i < 200'000; ++i) {
     const std::uint32_t hash = i * 2654435761U;
     const std::uint32_t apart = hash % 19U;

@@ -272,8 +272,8 @@ TEST(ModelFile, RefusesSizesThatContradictEachOtherUnlessIdentifyAcceptedThem) {
       {"/vehicle/half_track_m", 0.001},    // refused: the wheels are in the middle
       {"/vehicle/front_axle_m", 0.7},      // refused: the front axle is ahead of the body
       {"/vehicle/length_m", 90.0},         // refused: 100 times longer than wide
-      {"/vehicle/mass_kg", 37000.0},       // refused: g
-      {"/vehicle/steering/max_deg", 0.35}  // refused: rad
+      {"/vehicle/mass_kg", 37000.0},       // refused: grams
+      {"/vehicle/steering/max_deg", 0.35}  // refused: radians
   };
   for (const Edit& edit : edits) {
     EXPECT_THAT(faults_after(edit), ElementsAre(StartsWith(edit.pointer)))
@@ -291,7 +291,8 @@ TEST(ModelFile, RefusesQuantitiesThatTheVehicleCannotHave) {
   for (Estimate& estimate : model.estimates) estimate.ci95.reset();
   model[ParameterId::kMassNorm].value = 0.1;
   const double share = model.vehicle.inertia_kgm2() / model.vehicle.mass_kg;
-  // Without intervals, a factor of 2 is added to 0.05 to 3 times Iz/m of the vehicle.
+  // I'z/m' must be 0.05 to 3 times Iz/m of the vehicle. For estimates without intervals, a further
+  // factor of 2 is accepted at both ends.
   for (const double times : {0.03, 1.0, 5.9}) {
     model[ParameterId::kInertiaNorm].value = 0.1 * share * times;
     EXPECT_TRUE(reread(model_text(model))) << times;
@@ -354,7 +355,7 @@ TEST(Model, GivesAPlantForAMotionWhoseParametersAreKnown) {
     }
   }
   EXPECT_EQ(some_model().simulated_motion(), Motion::kPlanar);
-  // Unknown values are multiplied by zeros: a straight motion remains straight.
+  // Unknown values are multiplied by zeros, so a straight motion remains straight.
   Model straight = some_model();
   for (const ParameterInfo& parameter : parameter_table()) {
     if (!takes(Motion::kStraight, parameter.id)) straight[parameter.id].value.reset();

@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// Mass, length, width, front axle, half track; typical servo and inertia.
+/// Vehicle with this mass and these dimensions, and with a typical servo and inertia.
 Vehicle vehicle(double mass_kg, double length_m, double width_m, double front_axle_m,
                 double half_track_m) {
   Vehicle v = paper_vehicle();

@@ -29,7 +29,8 @@ TEST(Scalars, JetDerivativesAgreeWithCentralDifferences) {
     down[i] -= h;
     const State<double> a = rates_of(up[0], up[1], up[2], up[3]);
     const State<double> b = rates_of(down[0], down[1], down[2], down[3]);
-    // Truncation h^2 f'''/6 and rounding 1e-16 |f|/h, with f up to about 1e2: both below 1e-7.
+    // Errors of the central difference: truncation h^2 f'''/6 and rounding 1e-16 |f|/h, with f up
+    // to about 1e2. Both are below 1e-7.
     EXPECT_NEAR(jet.u_mps.v[i], (a.u_mps - b.u_mps) / (2 * h), 1e-7);
     EXPECT_NEAR(jet.v_mps.v[i], (a.v_mps - b.v_mps) / (2 * h), 1e-7);
     EXPECT_NEAR(jet.r_radps.v[i], (a.r_radps - b.r_radps) / (2 * h), 1e-7);
@@ -61,7 +62,7 @@ TEST(Scalars, FloatAgreesWithDoubleToFloatPrecision) {
                      {0.6F, 0.0F, 0.0F, 1.0F, 0.0F});
     const Command<double> b = control_step(paper_controller_of<double>(), mode,
                                            {0.1, 0.8, 0.02, 0.3}, {0.6, 0.0, 0.0, 1.0, 0.0});
-    // About ten operations of 6e-8 on values of order 1.
+    // Tolerance: about ten roundings of 6e-8 on values near 1.
     EXPECT_NEAR(static_cast<double>(a.tau_speed), b.tau_speed, 1e-6);
     EXPECT_NEAR(static_cast<double>(a.allocation.force.left), b.allocation.force.left, 1e-6);
     EXPECT_NEAR(static_cast<double>(a.allocation.steering_rad), b.allocation.steering_rad, 1e-6);

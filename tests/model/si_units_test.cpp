@@ -50,7 +50,8 @@ Model uncertain_model() {
 
 TEST(SiUnits, AreThoseOfThePaperByHand) {
   const Model model = fitted_paper_model();
-  // python3: 37/0.0768, 1.3157 * 37/0.0768, 0.3028 * 37/0.0768, 3 * 37/0.0768
+  // Expected values, computed in Python: 37/0.0768, 1.3157 * 37/0.0768, 0.3028 * 37/0.0768, 3 *
+  // 37/0.0768.
   EXPECT_NEAR(*quantity(model, "/max_wheel_force").estimate.value, 481.77083, 1e-5);
   EXPECT_NEAR(*quantity(model, "/surge/alpha").estimate.value, 633.86589, 1e-5);
   EXPECT_NEAR(*quantity(model, "/yaw/alpha").estimate.value, 145.88021, 1e-5);
@@ -64,7 +65,7 @@ TEST(SiUnits, AreThoseOfThePaperByHand) {
 
 TEST(SiUnits, PropagateTheCovariance) {
   const SiQuantity alpha = quantity(uncertain_model(), "/surge/alpha");
-  // Var ln(a/m') = 0.05^2 + 2 * 0.6 * 0.05 * 0.1 + 0.1^2
+  // Variance of ln(a1/m') with the correlation -0.6: 0.05^2 + 2 * 0.6 * 0.05 * 0.1 + 0.1^2
   const double relative = std::sqrt(0.0025 + 0.006 + 0.01);
   const double value = *alpha.estimate.value;
   EXPECT_NEAR(*alpha.estimate.std_error, relative * value, 1e-12 * value);

@@ -62,8 +62,8 @@ TEST(Steady, NewtonAgreesWithBisection) {
             const auto rate = steady_rate(law, force);
             ASSERT_TRUE(rate) << alpha << ' ' << beta << ' ' << quadratic << ' ' << coulomb << ' '
                               << excess;
-            // A rounding of g, which includes c, moves the root by g/(w g') times as much. Eight
-            // roundings cover the few operations of either method.
+            // A relative rounding error of g, which includes c, changes the root w by g/(w g')
+            // times this error. Tolerance: eight roundings, for the few operations of both methods.
             const double slope =
                 (beta * alpha * std::pow(truth, beta) + 2.0 * quadratic * truth * truth) / force;
             EXPECT_NEAR(*rate, truth, 8.0 * 2.3e-16 / slope * truth)
@@ -84,8 +84,9 @@ TEST(Steady, AForceBelowFrictionHasNoSteadyRate) {
 }
 
 TEST(Steady, TheTimeToRestIsTheIntegralDownToRest) {
-  // m' du/dt = -(c + a u):  t = (m'/a) ln(1 + a u0/c);  m' du/dt = -a u^b:  m' u0^(1 - b)/((1 - b)
-  // a)
+  // Times to rest by integration:
+  // m' du/dt = -(c + a u):  t = (m'/a) ln(1 + a u0/c)
+  // m' du/dt = -a u^b:      t = m' u0^(1 - b)/((1 - b) a)
   const Resistance<double> linear{.alpha = 0.8, .beta = 1.0, .rest_speed = 0.0, .coulomb = 0.1};
   EXPECT_NEAR(*stop_time_s(linear, 0.5, 2.0), 0.5 / 0.8 * std::log(1.0 + 0.8 * 2.0 / 0.1), 1e-9);
   const Resistance<double> power{.alpha = 0.8, .beta = 0.5};
@@ -94,8 +95,8 @@ TEST(Steady, TheTimeToRestIsTheIntegralDownToRest) {
 }
 
 TEST(Steady, TheSearchEndsWhereTheCurveJumpsAtRest) {
-  // beta = 0: the curve starts at c + alpha = 1.3, so 0.2 is inside the jump. Halving the speed did
-  // not terminate.
+  // With beta = 0 the curve jumps from 0 to c + alpha = 1.3 at rest, and the force 0.2 is inside
+  // the jump. A search by halving the speed would not terminate.
   const Resistance<double> law{
       .alpha = 1.2, .beta = 0.0, .rest_speed = 0.0, .coulomb = 0.1, .quadratic = 0.05};
   EXPECT_FALSE(steady_rate(law, 0.2).has_value());

@@ -17,8 +17,8 @@ TEST(Transform, KeepsExponentsAndTermsLinearAndTakesTheLogarithmOfTheRest) {
   EXPECT_EQ(to_coordinate(ParameterId::kSurgeCoulomb, 0.0), 0.0);
 }
 
-/// exp(ln p) errs by about |ln p| + 1 units in the last place. A central difference of step h errs
-/// by h^2/6 of the value and by rounding over h.
+/// Tolerances: exp(ln p) has an error of about |ln p| + 1 units in the last place. A central
+/// difference with the step h has an error of h^2/6 of the value, plus rounding divided by h.
 TEST(Transform, InvertsAndHasItsOwnDerivative) {
   constexpr double kValue = 0.37;
   constexpr double kStep = 1e-5;

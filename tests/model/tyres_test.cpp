@@ -114,7 +114,7 @@ RC_GTEST_PROP(FourWheels, OnlyDrivesAndTyresChangeTheEnergyAndTyresOnlyReduceIt,
                         x.rear_left * w.rear_left + x.rear_right * w.rear_right;
   const double taken = tyre_power_mps(vehicle, s, force);
   RC_ASSERT(taken >= 0.0);
-  // Some twenty products of up to about 10, with rounding.
+  // Tolerance: rounding of some twenty products of up to about 10.
   RC_ASSERT(std::abs(kinetic - (driven - taken)) < 1e-12);
   const State<double> off = state_rates(vehicle, s, SideForces<double>{0.0, 0.0}, 0.1);
   RC_ASSERT(p.mass_norm * (s.u_mps * off.u_mps + s.v_mps * off.v_mps) +
@@ -159,8 +159,8 @@ RC_GTEST_PROP(FourWheels, TheTyreRateBoundsTheRatesOfSwayAndYaw, ()) {
   const double vr = (rates(0, h).v_mps - rates(0, -h).v_mps) / (2 * h) / scale;
   const double rv = (rates(h, 0).r_radps - rates(-h, 0).r_radps) / (2 * h) * scale;
   const double norm = std::sqrt(vv * vv + rr * rr + vr * vr + rv * rv);
-  // A slip beyond 1 also changes with the rolling speed of a steered or turning wheel. Friction
-  // limits this to a third of a radian's stiffness, which at most doubles any rate here.
+  // At a slip above 1, the force of a steered or turning wheel also depends on its rolling speed.
+  // Friction limits this effect, which at most doubles any rate here.
   RC_ASSERT(norm <= 4.0 * tyre_rate(vehicle, s) + 2.0 * std::abs(s.u_mps) / scale + 1e-3);
 }
 
@@ -179,7 +179,8 @@ TEST(FourWheels, StrictScalarGivesTheSameBits) {
   EXPECT_EQ(a.r_radps.value(), b.r_radps);
 }
 
-/// Straight ahead, surge trials cannot distinguish the two vehicles unless the tyres slide.
+/// Straight ahead, the vehicle on four tyres accelerates like the model unless the tyres slide, so
+/// surge trials cannot distinguish the two.
 TEST(FourWheels, DrivesStraightAheadAsTheModelDoes) {
   const Plant<double> plant = paper_plant();
   const State<double> s{0.0, 0.0, 0.0, 1.2, 0.0, 0.0, 0.0};

@@ -169,7 +169,7 @@ TEST(VehicleFile, RefusesImpossibleValues) {
                                 {"/motor/back_emf_s_per_m", -0.1},
                                 {"/yaw_rate_max_degps", 0}};
   for (const Edit& edit : edits) {
-    // One place is named, though it may have several faults.
+    // All faults must be at the changed key; there may be several.
     EXPECT_THAT(faults_after(edit), AllOf(Not(IsEmpty()), Each(StartsWith(edit.pointer + ": "))))
         << edit.pointer << " = " << edit.value.dump();
   }

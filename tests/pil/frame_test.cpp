@@ -53,12 +53,13 @@ TEST(Frame, WithAnyOneBitFlippedIsNotTaken) {
 }
 
 TEST(Frame, IsFoundInsideOfADamagedOne) {
-  // The first frame lost a byte: it ends with the start of the second, which is found inside it.
+  // The first frame lost a byte, so the reader takes the first byte of the second frame for its
+  // last one. The reader must still find the second frame.
   for (std::size_t lost = 0; lost < 10; ++lost) {
     Bytes bad = framed(5, {1, 2, 3, 4});
     bad.erase(bad.begin() + static_cast<std::ptrdiff_t>(lost));
     pil::FrameReader reader{};
-    // If the length is lost, the payload's first byte replaces it: 1, which is shorter.
+    // If the length byte is lost, the first payload byte, 1, is read as the length.
     EXPECT_EQ(taken(reader, bad + framed(6, {7})), std::vector<int>{6}) << lost;
   }
 }

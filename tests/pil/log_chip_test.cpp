@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// As in log_chip.cpp.
+// Must equal the constants of log_chip.cpp.
 constexpr std::size_t kSteps = 250;
 constexpr std::size_t kStallFrom = 60, kStallTo = 150;
 class LogChip : public Chip {
@@ -39,14 +39,14 @@ TEST_F(StepChip, AStepThatDoesNotEndResetsTheChipAndIsLogged) {
   const auto first = static_cast<std::size_t>(std::count(run.begin(), run.end(), 1.0));
   EXPECT_EQ(first, 96U);
   for (std::size_t row = 0; row < log->rows(); ++row) {
-    ASSERT_EQ(cause[row], run[row] == 1.0 ? 1.0 : 8.0);  // switched on, watchdog
+    ASSERT_EQ(cause[row], run[row] == 1.0 ? 1.0 : 8.0);  // power-on, then watchdog
     // Steps are numbered from 1, one per sample time.
     ASSERT_NEAR(log->columns[0][row],
                 0.01 * static_cast<double>((row < first ? row : row - first) + 1), 1e-12);
   }
   ASSERT_EQ(log->findings.size(), 1U);
   EXPECT_EQ(log->findings[0].code, "chip-reset");
-  // Four ticks per sample time of 10 ms read the serial lines, in 200 sample times.
+  // In each of 200 sample times of 10 ms, four ticks read the serial lines.
   const auto calls = emulator_->ram("receive_calls", 2);
   EXPECT_NEAR(calls[0] + 256 * calls[1], 4 * 200, 4);
 }
@@ -65,8 +65,8 @@ TEST_F(LogChip, RowsReadBackAsTheyWereAndThoseOfAStallAreCounted) {
   const auto log = read_awl(file_, "a.awl");
   ASSERT_TRUE(log) << to_text(log.error());
   EXPECT_EQ(log->parameters_sha256, params_sha256(paper_inputs()));
-  // Of the 90 sample times of the stall the ring bridges 64 minus the part of a block already in
-  // it. Writing the block after the stall takes one sample time.
+  // The stall takes 90 sample times. The ring buffers 64 rows, minus those of an incomplete block
+  // that it already contains. Writing the block after the stall takes one sample time.
   EXPECT_GE(log->lost, kStallTo - kStallFrom - 64);
   EXPECT_LE(log->lost, kStallTo - kStallFrom - 56 + 1);
   EXPECT_EQ(log->rows(), kSteps - log->lost);

@@ -42,7 +42,8 @@ class Pil : public ::testing::Test {
   }
   static void TearDownTestSuite() { delete directory_; }
 
-  /// A compiler for `pil_on`: the firmware of the same sources and options is compiled once.
+  /// Writes a wrapper of avr-g++ for `pil_on`, which compiles firmware with the same sources and
+  /// options only once.
   static void write_compile_once() {
     const std::string compiler = path("compile_once/avr-g++");
     std::filesystem::create_directory(path("compile_once"));
@@ -74,7 +75,8 @@ class Pil : public ::testing::Test {
                            const std::string& options, const std::string& output = "pil.json") {
     return pil_on("model.json", "gains.json", scenario, mode, options, output);
   }
-  /// pil.json of `scenario` in combined mode; each run once.
+  /// pil.json of `scenario` in combined mode. Each combination of scenario and options is run only
+  /// once.
   static const Json& result_of(const std::string& scenario,
                                const std::string& options = kWithoutSearch) {
     static std::map<std::string, Json> results;
@@ -149,8 +151,7 @@ TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   const Json json = result();
   EXPECT_EQ(largest(json["difference"]), 0.0);
   EXPECT_LE(json["difference_double"]["heading_deg"].get<double>(), 0.0071);
-  // Optional parts that are not compiled in cost nothing: the firmware is as small as before there
-  // were optional parts.
+  // Optional parts that are not compiled in must not cost flash or RAM.
   EXPECT_LE(json["flash_bytes"].get<int>(), 12050);
   EXPECT_LE(json["ram_bytes"].get<int>(), 416);
   EXPECT_GT(json["stack_bytes"].get<int>(), 50);
@@ -282,7 +283,8 @@ TEST_F(Pil, RefusesTheLqiByName) {
   EXPECT_FALSE(exists("refused.json"));
 }
 
-/// If the only task is a heading that has been reached, the commands decay to the smallest numbers.
+/// If the vehicle only holds a heading that it has reached, the commands decay to the smallest
+/// floating-point numbers.
 TEST_F(Pil, ADecayingHeadingGivesTheHostsBitsInEveryMode) {
   for (const char* mode : {"differential", "steering"}) {
     const ProcessResult run = pil("configs/scenarios/low_battery.json", mode, kWithoutSearch);
@@ -317,8 +319,8 @@ TEST_F(Pil, CompensatesFrictionDeadZoneAndBackEmfAsTheSimulator) {
   }
 }
 
-/// In a scenario without its own observer, with headings from the host and with guidance on the
-/// chip.
+/// Neither scenario defines an observer. In the first, the headings come from the host; in the
+/// second, the chip computes the guidance.
 TEST_F(Pil, AnObserverTunedWithTheGainsWorksOnTheChip) {
   Json gains = Json::parse(read_all(path("gains.json")));
   gains["observer"] = {{"bandwidth_radps", 2.0}, {"yaw_max_m", 0.04}, {"surge_max", 1.3}};
@@ -382,9 +384,9 @@ TEST_F(Pil, RefusesOutputEqualToInput) {
 }
 
 TEST_F(Pil, ByPowfItIsWithinTwoMillionths) {
-  // The powf of the two libraries differs by up to 2.4e-7. The steering's division by tau_speed
-  // amplifies this: 1.3e-6 measured with these gains, at most 9e-7 with the full-precision gains of
-  // awmr tune.
+  // The powf functions of chip and host differ by up to 2.4e-7. The steering's division by
+  // tau_speed amplifies this: 1.3e-6 measured with these gains, at most 9e-7 with the
+  // full-precision gains of awmr tune.
   const ProcessResult run =
       pil(kC3, "combined", "--resistance powf --difference-max 2e-6 --hostile-steps 0");
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
@@ -442,7 +444,7 @@ TEST(PilFaults, AreAllHazardsOfTheSafetyPage) {
       read_all(std::string(AWMR_SOURCE_DIR) + "/lib/awmr/emit/assets/SAFETY.md"));
   std::vector<std::string> hazards;
   for (std::string line; std::getline(page, line);) {
-    // A row of the five-column hazard table.
+    // Skips lines that are not rows of the hazard table, which has five columns.
     if (std::count(line.begin(), line.end(), '|') != 6 || !line.ends_with("` |")) continue;
     const std::size_t name = line.rfind(" `") + 2;
     hazards.push_back(line.substr(name, line.size() - 3 - name));
@@ -640,10 +642,11 @@ TEST_F(Pil, TwoRunsGiveTheSameBytesAndTheRealTimeFactorIsOnStdoutOnly) {
 
 TEST_F(Pil, ASignalLeavesNoFolderBehind) {
   std::filesystem::create_directory(path("tmp"));
-  // At times from before the compiler's start to the end of the emulation, which takes seconds.
+  // Sends a signal after several delays: before the compiler starts, while it runs, and during the
+  // emulation, which takes seconds.
   for (const char* signal : {"TERM", "INT", "HUP"}) {
     for (const char* after_s : {"0.05", "0.3", "1.0"}) {
-      // One handler for all signals: the times are tried with one of them.
+      // All signals have the same handler, so only one signal is tested with every delay.
       if (signal != std::string("TERM") && after_s != std::string("0.3")) continue;
       const ProcessResult run = run_process(
           "export TMPDIR=" + path("tmp") + "; timeout --preserve-status --signal=" + signal + " " +
@@ -667,7 +670,8 @@ TEST_F(Pil, RemovesTheFolderOfAKilledRun) {
     run_process("export TMPDIR=" + path("left") + "; " + killed + run_c8, AWMR_SOURCE_DIR);
   }
   ASSERT_GT(entries("left"), 0u);
-  // Not leftovers of a dead run: another name, no number, a link, a held lock.
+  // These must not be removed, because they are not left by a killed run: another name, no number
+  // in the name, a link, a locked folder.
   for (const char* name : {"other", "awmr-pil-abc", "awmr-pil-1-locked"}) {
     std::filesystem::create_directory(path("left/" + std::string(name)));
   }
@@ -703,7 +707,7 @@ TEST_F(Pil, MoreWaypointsThanTheFirmwareHoldsAreRefusedWithTheirPlace) {
 TEST_F(Pil, SpeaksToABoardOnASerialPort) {
   const std::string build = "--link uart --build-dir " + path("board") + kWithoutSearch;
   ASSERT_EQ(pil(brief(), "steering", build).exit_code, 0);
-  // The board: an emulated chip behind a pseudo-terminal, as long as the port is open.
+  // The board is an emulated chip behind a pseudo-terminal. It ends when the port is closed.
   const ProcessResult run = run_process(
       std::string(AWMR_PIL_PROGRAM) + " serve " + path("board") + "/pil_uart.elf >" + path("tty") +
       " & board=$!; while ! [ -s " + path("tty") + " ]; do sleep 0.05; done; " + AWMR_PROGRAM +

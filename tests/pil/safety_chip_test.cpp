@@ -62,7 +62,7 @@ TEST_F(SafetyChip, SensorChecksCommandsArmingAndDirectionGiveTheHostsBitsWithinT
     unsigned steps = 0;
     host >> steps;
     EXPECT_EQ(causes[i], steps) << i;
-    // Faults that the sequence triggers.
+    // The sequence must trigger these faults.
     for (const std::size_t seen : {0, 2, 3, 4, 5, 7, 10, 12}) {
       if (seen == i) {
         EXPECT_GT(steps, 0U) << i;

@@ -132,7 +132,7 @@ inline void prepare(Sequence& s, uint16_t step) {
   for (uint8_t i = 0; i < 3; ++i) s.field[i] = static_cast<int16_t>(i * 100 + draw(s) % 9);
   if (step % 20 == 0) {
     s.arrived = s.taken = 0;
-    if (!fails(step, 5)) s.utc_ms = 43200000UL + 10UL * step;  // else the same UTC again
+    if (!fails(step, 5)) s.utc_ms = 43200000UL + 10UL * step;  // else the UTC repeats
     say_fix(s, step);
   }
   for (uint8_t tick = 0; tick < kTicksPerStep; ++tick) receive(s);

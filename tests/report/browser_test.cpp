@@ -188,7 +188,7 @@ TEST_F(ReportInBrowser, AxesIncludeZeroExtrapolatedTurnsAreShadedAndColoursAreLe
   const Json& page = report_at(1280);
   EXPECT_THAT(page.at("truncated"), IsEmpty()) << page.at("truncated");
   EXPECT_THAT(page.at("shaded"), ::testing::Contains("yaw rate"));
-  // WCAG 2.1 AA: 1.4.3 for text, 1.4.11 for graphics.
+  // Minimum contrasts by WCAG 2.1 AA: criterion 1.4.3 for text, 1.4.11 for graphics.
   EXPECT_GE(page.at("contrasts").at("text"), 4.5);
   EXPECT_GE(page.at("contrasts").at("line"), 3.0);
 }

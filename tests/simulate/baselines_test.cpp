@@ -100,7 +100,8 @@ TEST(IlosInTheLoop, LeavesNoOffsetOnASideSlopeWhereLineOfSightDoes) {
       const LineOfSight<double> los{radians(60.0), 5.0, compensated};
       const IntegralLos<double> ilos{3.0, 0.3, compensated};
       EXPECT_GT(std::abs(last_cross_track_m(on_a_side_slope(los), mode)), 0.05) << name_of(mode);
-      // y_int converges at 0.1 1/s = sigma/Delta at the slowest, over 150 s.
+      // The integral y_int converges at a rate of at least sigma/Delta = 0.1 1/s. The drive lasts
+      // 150 s.
       EXPECT_LT(std::abs(last_cross_track_m(on_a_side_slope(ilos), mode)), 1e-3) << name_of(mode);
     }
   }

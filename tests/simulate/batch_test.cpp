@@ -54,7 +54,7 @@ Plant<double> drawn_plant(std::uint64_t sample, double spread) {
   return plant;
 }
 
-/// All instruction sets of this processor; restores AWMR_INSTRUCTIONS afterwards.
+/// Returns all vector instruction sets of this processor. Afterwards, AWMR_INSTRUCTIONS is not set.
 std::vector<BatchArithmetic> all_arithmetics() {
   std::vector<BatchArithmetic> all;
   for (const char* name : {"avx2", "avx512", "neon"}) {
@@ -172,7 +172,8 @@ void expect_same(const Metrics& a, const Metrics& b, const std::string& where) {
   EXPECT_EQ(numbers_of(a), numbers_of(b)) << where;
 }
 
-/// Skips if batches are not supported and simulate() runs instead.
+/// Skips the tests if this processor does not support batches, because simulate() then replaces
+/// them.
 class Batch : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -429,8 +430,8 @@ std::vector<double> numbers_of(const RunRow& row) {
           row.tyre_power_mps};
 }
 
-/// Rows of the model's own vehicle, which amplifies nothing, in every mode together with the
-/// others.
+/// Compares the rows of the nominal vehicle, whose run does not amplify rounding. One batch has
+/// this vehicle in all three modes.
 TEST_F(Batch, RowsAreThoseOfSimulateInEveryShippedScenario) {
   const BatchArithmetic arithmetic = batch_arithmetic().value();
   for (const Scenario& scenario : shipped_scenarios()) {

@@ -118,7 +118,7 @@ awmr::Run run_of(const Plant<double>& plant, const Scenario& scenario) {
 }
 
 TEST(Bounds, IntegratesAStiffResistanceStably) {
-  // b3 = 4 from -121 deg/s: g3'(r)/I'z is 940 /s there, and RK4 at 3.3 ms overflowed.
+  // With b3 = 4 at -121 deg/s, g3'(r)/I'z is 940 1/s. RK4 with steps of 3.3 ms would overflow.
   Plant<double> plant = paper_plant();
   plant.yaw.beta = 4.0;
   for (const double r0 : {-121.0, -12100.0, 5e4}) {
@@ -126,12 +126,12 @@ TEST(Bounds, IntegratesAStiffResistanceStably) {
     const awmr::Run run = run_of(plant, coasting(start));
     ASSERT_EQ(run.end, RunEnd::kDuration) << r0;
     for (const RunRow& row : run.rows) {
-      // dr/dt = -a |r|^4/I'z  =>  1/|r|^3 = 1/|r0|^3 + 3 a t/I'z
+      // Exact solution: dr/dt = -a |r|^4/I'z  =>  1/|r|^3 = 1/|r0|^3 + 3 a t/I'z
       const double inverse =
           std::pow(std::abs(start), -3.0) + 3.0 * plant.yaw.alpha * row.t_s / plant.inertia_norm;
       const double expected = std::copysign(std::cbrt(1.0 / inverse), start);
-      // Tolerance: with one step per time constant of the transient, the error is 1^5/120 of what
-      // remains of it.
+      // Tolerance: the steps are at most one time constant of the transient. The error of such a
+      // step is 1^5/120 of the rest of the transient.
       ASSERT_NEAR(row.state.r_radps, expected, 1e-3 * std::abs(expected)) << r0 << " " << row.t_s;
     }
   }
@@ -196,7 +196,7 @@ TEST(Bounds, AHeadingManyTurnsAwayTakesNoLongerThanAnyOther) {
                YawMode::kCombined, {});
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(run.end, RunEnd::kDuration);
-  EXPECT_LT(taken.count(), 10.0);  // earlier it took over 50 s
+  EXPECT_LT(taken.count(), 10.0);  // an earlier version took over 50 s
 }
 
 }  // namespace

@@ -69,16 +69,17 @@ RC_GTEST_PROP(Energy, WorkDoneIsKineticEnergyPlusDissipation, ()) {
   const Plant<double> resolved = resolved_at_rest(plant, kStep_s);
   double balance = 0.0;
   for (std::size_t i = 1; i < run.rows.size(); ++i) {
-    // Command and disturbance of the previous row hold over the step.
+    // Command and disturbance of the previous row are constant over the step.
     balance += 0.5 * kStep_s *
                (net_power(resolved, run.rows[i - 1].state, run.rows[i - 1]) +
                 net_power(resolved, run.rows[i].state, run.rows[i - 1]));
   }
   const double gained =
       kinetic(plant, run.rows.back().state) - kinetic(plant, run.rows.front().state);
-  // The trapezoid's error is h^2/12 times the change of the power's slope, summed over transients
-  // of time constant T >= 0.02 s. Powers up to 3 per second give 3 (1e-3/0.02)^2/12 * T = 1e-5
-  // each. The yaw chord near rest adds as much where r changes its sign.
+  // The error of the trapezoidal rule is h^2/12 times the change of the power's slope, summed over
+  // all transients. With a power of up to 3 m/s and a time constant T >= 0.02 s, a transient adds 3
+  // (1e-3/0.02)^2/12 * T = 1e-5 m. Each change of the sign of r adds as much, because a straight
+  // line (chord) replaces g3 near rest.
   RC_ASSERT(std::abs(balance - gained) < 2e-4);
 }
 
@@ -93,8 +94,8 @@ RC_GTEST_PROP(FourWheels, AgreeWithTheReducedForm, ()) {
   for (const YawMode mode : kYawModes) {
     const State<double> a = simulate(plant, controller, reduced, mode, {}).rows.back().state;
     const State<double> b = simulate(plant, controller, four, mode, {}).rows.back().state;
-    // The two forms sum in another order: rounding of 1e-16 in each of 1e3 steps of a damped
-    // system.
+    // Tolerance: the two forms add terms in different orders, which causes a rounding error of
+    // 1e-16 in each of 1e3 steps of a damped system.
     RC_ASSERT(std::abs(a.x_m - b.x_m) < 1e-10);
     RC_ASSERT(std::abs(a.y_m - b.y_m) < 1e-10);
     RC_ASSERT(std::abs(a.psi_rad - b.psi_rad) < 1e-10);
@@ -139,7 +140,8 @@ TEST(Work, IsThatOfTheForcesThatActWhateverKeepsThemFromTheWheels) {
     const awmr::Run run = simulate(plant, controller, scenario, YawMode::kCombined,
                                    {.sample_time_s = 1e-3, .substeps = {}});
     const Metrics metrics = metrics_of(run, scenario, controller);
-    // Error of the rectangle rule: half a sample of the change of power, at most 2 m/s times 2.
+    // Tolerance: the error of the rectangle rule is half a sample times the change of power, which
+    // is at most 2 m/s times 2.
     EXPECT_NEAR(metrics.energy_mech, taken_and_kept(plant, run), 4e-3) << scenario.name;
   }
 }

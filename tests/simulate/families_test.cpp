@@ -70,7 +70,8 @@ TEST(BackEmf, IsMadeUpForByTheController) {
     const awmr::Run run =
         simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}});
     const RunRow& last = run.rows.back();
-    // The same tolerances as in TheControllerHoldsSpeedAndHeadingWithEveryOne, with ideal motors.
+    // The tolerances are those of TheControllerHoldsSpeedAndHeadingWithEveryOne, where motors are
+    // ideal.
     EXPECT_NEAR(last.state.u_mps, 0.8, 1e-3);
     EXPECT_NEAR(last.state.psi_rad, 0.5, 1e-3);
     EXPECT_NEAR(last.force.left, plant.surge(0.8) / 4.0 + 0.25 * 0.8, 1e-3);
@@ -121,7 +122,8 @@ TEST(FrontWheelDrive, HoldsSpeedAndHeadingInEveryModeWithAndWithoutBackEmf) {
       const RunRow last =
           simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}})
               .rows.back();
-      // The same tolerances as in TheControllerHoldsSpeedAndHeadingWithEveryOne, with four wheels.
+      // The tolerances are those of TheControllerHoldsSpeedAndHeadingWithEveryOne, where all four
+      // wheels are driven.
       EXPECT_NEAR(last.state.u_mps, 0.6, 1e-3) << name_of(mode) << back_emf;
       EXPECT_NEAR(last.state.psi_rad, 0.5, 1e-3) << name_of(mode) << back_emf;
       EXPECT_NEAR(last.force.left, plant.surge(0.6) / 2.0 + back_emf * 0.6, 1e-3);
@@ -132,7 +134,8 @@ TEST(FrontWheelDrive, HoldsSpeedAndHeadingInEveryModeWithAndWithoutBackEmf) {
 TEST(Families, AForceBelowCoulombFrictionDoesNotMoveAVehicleAtRest) {
   const Plant<double> plant = plant_of({.alpha = 1.0, .beta = 1.0, .coulomb = 0.3}, 0.0);
   const awmr::Run run = run_open_loop(plant, {}, 5.0, {0.25, 0.0});
-  // Below the chord's 1 mm/s the vehicle creeps, by less than 5 mm in 5 s.
+  // Below 1 mm/s the resistance is replaced by a straight line through the origin (the chord), so
+  // the vehicle creeps: by less than 5 mm in 5 s.
   EXPECT_LT(std::abs(run.rows.back().state.u_mps), 1e-3);
   EXPECT_LT(run.rows.back().state.x_m, 5e-3);
 }
@@ -160,7 +163,7 @@ TEST(Families, TheTimeToSlowDownIsTheSimulatorsToo) {
     State<double> start{};
     start.u_mps = 1.5;
     const awmr::Run run = run_open_loop(plant, start, 3.0, {0.0, 0.0});
-    // From 1.5 to 0.5 m/s: the difference of the two stop times.
+    // The time from 1.5 to 0.5 m/s is the difference of the two stop times.
     const double slowed_s = *stop_time_s(plant.surge, plant.mass_norm, 1.5) -
                             *stop_time_s(plant.surge, plant.mass_norm, 0.5);
     double at_half_s = 0.0;

@@ -97,8 +97,8 @@ RC_GTEST_PROP(FourWheelRuns, WorkDoneIsKineticEnergyPlusWhatTheTyresTake, ()) {
   }
   const double gained =
       kinetic(vehicle.body, run.rows.back().state) - kinetic(vehicle.body, run.rows.front().state);
-  // Trapezoid rule with rates up to 1000/s (c_a g/v_0 and more) and steps of 1e-4 s: (0.1)^2/12 of
-  // the lateral part of an energy of about 0.1, which decays within milliseconds.
+  // Error of the trapezoidal rule with rates up to 1000 1/s (c_a g/v_0 and more) and steps of 1e-4
+  // s: (0.1)^2/12 of the energy of the lateral motion, about 0.1, which decays within milliseconds.
   RC_ASSERT(std::abs(gained - balance) < 2e-4);
 }
 
@@ -115,7 +115,8 @@ TEST(FourWheelRuns, MetersTheWorkOfTheTyres) {
   EXPECT_NEAR(metrics_of(run, scenario, controller).tyre_work, work, 1e-12);
 }
 
-/// Steps of a tenth of the length change the heading by less than a hundredth of a degree.
+/// With ten times shorter integration steps, the heading differs by less than a hundredth of a
+/// degree.
 TEST(FourWheelRuns, DoNotDependOnTheStep) {
   for (const YawMode mode : kYawModes) {
     for (const double tau_turn_m : {0.02, 0.1, 0.2}) {

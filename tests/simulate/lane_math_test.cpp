@@ -93,8 +93,8 @@ int main() {
   const auto sine = [](const Lanes& x, const Lanes&) { return sin(x); };
   const auto cosine = [](const Lanes& x, const Lanes&) { return cos(x); };
   for (const double most : {1.0, 100.0, 1e6}) {
-    // Errors are relative to at least 1, because near a root of sin or cos the rounding of the
-    // argument determines them.
+    // Errors are in units of the last place of 1, because near a root of sin or cos the rounding of
+    // the argument determines them.
     check(
         "sin", sine, [](long double x, long double) { return sinl(x); },
         [&](double& x, double& y) { one(x, y, most); }, 1.0, 1.5);
@@ -126,7 +126,7 @@ int main() {
   double least[Lanes::kCount];
   pow(Lanes(1e-200), Lanes(20.0)).store(least);
   if (!(least[0] < 1e-300)) {
-    printf("pow(1e-200, 20) is %g and not next to nothing  FAILED\n", least[0]);
+    printf("pow(1e-200, 20) is %g, which is not negligible  FAILED\n", least[0]);
     ++failures;
   }
   // Within half a turn, with the sign of the C library's remainder, as in wrap_angle() of the laws.

@@ -126,7 +126,7 @@ TEST(Metrics, WorkIsPositiveForceTimesTheWheelsSpeed) {
   EXPECT_NEAR(m.tyre_work, 4.0 * 0.3028 * std::pow(0.5, 0.825) * 0.5, 1e-12);
   EXPECT_EQ(m.saturation_s, 0.0);
   EXPECT_EQ(m.steering_travel_deg, 0.0);
-  // The same wheel by wheel, with almost lossless motors.
+  // The same energy computed wheel by wheel, for almost lossless motors.
   Controller<double> real = make_controller(paper_plant(), paper_vehicle(), {});
   real.limits.back_emf_s_per_m = 1e-12;
   EXPECT_NEAR(metrics_of(run, kSteps, real).energy_mech, m.energy_mech, 1e-9);
@@ -160,8 +160,8 @@ TEST(Metrics, FrontWheelsRollAlongTheirAngle) {
     row.state.steering_rad = radians(20.0);
     row.acting = {0.5, 0.5, 0.5, 0.5};
   }
-  // Front: 0.8 cos 20 deg + (0.1 + 0.35 x 0.5) sin 20 deg, the d r of left and right cancel; rear:
-  // 0.8.
+  // Rolling speeds, mean of left and right (the terms d r cancel): 0.8 cos 20 deg + (0.1 + 0.35 x
+  // 0.5) sin 20 deg in front, 0.8 at the rear.
   const double front_mps = 0.8 * std::cos(radians(20.0)) + 0.275 * std::sin(radians(20.0));
   EXPECT_NEAR(evaluate(run).energy_mech, 4.0 * 2.0 * 0.5 * (front_mps + 0.8), 1e-12);
 }
@@ -303,7 +303,7 @@ TEST(Validity, WarnsOfScenarioPartsWithoutEffect) {
   ASSERT_EQ(codes_of(findings), Codes{"blocked-waypoint"});
   EXPECT_NE(findings[0].message.find("waypoint 2"), std::string::npos);
 
-  // Four wheels at F_max hold 4 = 1.33 u^0.88: 3.5 m/s.
+  // With all four wheels at F_max, the steady speed is 3.5 m/s, from 4 = 1.33 u^0.88.
   Scenario fast = kSteps;
   fast.speed_mps = 3.3;
   EXPECT_EQ(codes_of(unattainable_requests(fast, model)), Codes{});
@@ -318,12 +318,13 @@ TEST(Validity, WarnsOfASpeedLawThatDrivesBackwardWithAnUnsignedSpeed) {
   Gains<double> gains = kPaperGains;
   gains.speed = {0.9, 1.0};
   EXPECT_FALSE(unsigned_speed_finding(plant, paper_vehicle(), gains, ""));
-  // Coulomb friction that is fed forward: 0.9 u + 0.12 > 0.1 + u up to 0.2 m/s.
+  // With Coulomb friction, the law drives a vehicle that rolls backward at the speed u with 0.9 u
+  // plus the friction fed forward, 0.12. Up to 0.2 m/s, this exceeds the resistance 0.1 + u.
   plant.surge.coulomb = 0.1;
   const auto finding = unsigned_speed_finding(plant, paper_vehicle(), gains, "");
   ASSERT_TRUE(finding);
   EXPECT_NE(finding->message.find("at 0.195 m/s"), std::string::npos) << finding->message;
-  // However weak the law is, it cancels the friction at 0.02 m/s.
+  // Even with a tiny gain, the friction fed forward cancels the resistance at 0.02 m/s.
   gains.speed = {1e-6, 1.0};
   EXPECT_TRUE(unsigned_speed_finding(plant, paper_vehicle(), gains, ""));
 }

@@ -16,7 +16,8 @@ namespace {
 
 awmr::Run run_of(const Scenario& scenario, YawMode mode) {
   const Plant<double> plant = paper_plant();
-  // One RK4 step per sample, for speed: (h/T)^5/120 of the servo lag is 3e-4 of its excursion.
+  // One RK4 step per sample makes the test fast. Its error for the servo with the time constant T,
+  // (h/T)^5/120, is 3e-4 of the excursion.
   return simulate(plant, make_controller(plant, paper_vehicle(), kPaperGains), scenario, mode,
                   {.sample_time_s = 0.01, .substeps = 1});
 }

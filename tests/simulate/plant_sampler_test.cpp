@@ -53,7 +53,7 @@ TEST(PlantSampler, DrawsHaveTheModelsMeanAndCovariance) {
       for (const auto& z : draws) {
         covariance += (z[i] - mean[i]) * (z[j] - mean[j]) / (kDraws - 1);
       }
-      // Var(s_ij) = (C_ii C_jj + C_ij^2)/(n - 1) for normal draws.
+      // The sample covariance s_ij of normal draws has the variance (C_ii C_jj + C_ij^2)/(n - 1).
       const double deviation =
           std::sqrt((expected(i, i) * expected(j, j) + expected(i, j) * expected(i, j)) / kDraws);
       EXPECT_NEAR(covariance, expected(i, j), 5.0 * deviation) << i << ' ' << j;
@@ -90,8 +90,8 @@ TEST(PlantSampler, EvenDrawsHaveTheModelsMeanAndSpreadWhileTheyAreFew) {
   }
 }
 
-/// The share below a quantile of n draws has a standard deviation of sqrt(p (1 - p)/n); 5 of them
-/// are passed once in 10^6 seeds.
+/// The share below a quantile of n draws has a standard deviation of sqrt(p (1 - p)/n); Five of
+/// them are exceeded once in 10^6 seeds.
 TEST(PlantSampler, DrawsHaveTheQuantilesThatTheModelShows) {
   Model model = uncertain_model();
   const Quantiles shown{0.06, 0.08, 0.11, 0.12, 0.15};
@@ -169,7 +169,8 @@ TEST(PlantSampler, KeepsPositiveQuantitiesPositiveWhateverTheirError) {
   }
 }
 
-/// surge_beta_range limits fits, not draws: an estimate at its end is uncertain in both directions.
+/// surge_beta_range limits fits, not draws, because an estimate at an end of the range is uncertain
+/// in both directions.
 TEST(PlantSampler, DrawsExponentsOnBothSidesOfAnEndOfTheVehiclesRange) {
   for (const double beta : {0.995, 1.0, 1.4}) {
     Model model = uncertain_model();
@@ -183,14 +184,15 @@ TEST(PlantSampler, DrawsExponentsOnBothSidesOfAnEndOfTheVehiclesRange) {
       ASSERT_TRUE(plant) << to_text(plant.error());
       above += plant->surge.beta > beta ? 1 : 0;
     }
-    // Binomial of 1000 halves: 5 standard deviations of 16.
+    // The count is binomial with n = 1000 and p = 1/2, so its standard deviation is 16. Tolerance:
+    // 5 standard deviations.
     EXPECT_NEAR(above, 500, 79) << beta;
   }
 }
 
 TEST(PlantSampler, DrawsNoNegativeExponent) {
   Model model = uncertain_model();
-  model[ParameterId::kSurgeBeta].value = 0.01;  // s.e. 0.016: a quarter would be below 0
+  model[ParameterId::kSurgeBeta].value = 0.01;  // s.e. 0.016: a quarter of normal draws are below 0
   const auto sampler = PlantSampler::make(model);
   ASSERT_TRUE(sampler);
   for (int sample = 1; sample <= 1000; ++sample) {

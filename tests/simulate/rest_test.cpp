@@ -23,8 +23,9 @@ TEST(Rest, MotorsOffEverySpeedFallsToZeroWithoutChangingSign) {
       ASSERT_GE(s.r_radps, 0.0) << "beta " << beta << " row " << i;
       ASSERT_LE(s.r_radps, run.rows[i - 1].state.r_radps) << "beta " << beta << " row " << i;
     }
-    // With an exponent below 1 the stop takes a finite time. Below 1e-3 rad/s the resistance is a
-    // chord, whose decay is faster than 1/h and ends at 0.
+    // With an exponent below 1 the stop takes a finite time. Below 1e-3 rad/s the resistance is
+    // replaced by a straight line through the origin (the chord). Motion there decays faster than
+    // 1/h and ends at 0.
     if (beta < 1.0) {
       EXPECT_EQ(run.rows.back().state.r_radps, 0.0) << beta;
       EXPECT_EQ(run.rows.back().state.u_mps, 0.0) << beta;
@@ -43,13 +44,15 @@ TEST(Rest, CoastDownFollowsItsClosedForm) {
   for (const RunRow& row : run.rows) {
     const double left = std::pow(1.66, k) - k * plant.surge.alpha * row.t_s / plant.mass_norm;
     const double expected = row.t_s < stop_s ? std::pow(left, 1.0 / k) : 0.0;
-    // RK4 at h = 1 ms against a time constant of m' u^k/(a b) > 20 ms where u > 1e-4 m/s.
+    // Tolerance: the error of RK4 with h = 1 ms. The time constant is m' u^k/(a b) > 20 ms for u >
+    // 1e-4 m/s.
     EXPECT_NEAR(row.state.u_mps, expected, 1e-7) << row.t_s;
   }
 }
 
 TEST(Rest, SteadyYawRateOfAStronglyDampedVehicleIsTheLawsOwn) {
-  // g3(r) = a3 r^b3 = tau_turn has its root above the chord: the step must be chosen for it.
+  // The steady yaw rate, a3 r^b3 = tau_turn, is above the range in which g3 is replaced by a chord.
+  // The integration step must therefore be short enough for the steep g3 at this rate.
   Plant<double> plant = paper_plant();
   plant.yaw = {0.9, 0.3};
   const awmr::Run run = run_open_loop(plant, {}, 5.0, {0.5, 0.2});
@@ -59,8 +62,9 @@ TEST(Rest, SteadyYawRateOfAStronglyDampedVehicleIsTheLawsOwn) {
 }
 
 TEST(Rest, WorkOfTheMotorsIsKineticEnergyPlusDissipation) {
+  // Energy balance, checked by the trapezoidal rule:
   // d/dt (m' u^2/2 + m' v^2/2 + I'z r^2/2) = tau_speed u + (tau_steer/l_f) v + tau_turn r
-  //                                          - g1(u) u - g2(v) v - g3(r) r, by the trapezium rule.
+  //                                          - g1(u) u - g2(v) v - g3(r) r
   const Plant<double> plant = paper_plant();
   const awmr::Run run = run_open_loop(plant, {}, 5.0, {1.2, 0.05}, YawMode::kCombined);
   const auto power = [&](const RunRow& row) {
@@ -76,7 +80,8 @@ TEST(Rest, WorkOfTheMotorsIsKineticEnergyPlusDissipation) {
                   plant.inertia_norm * s.r_radps * s.r_radps);
   };
   double work = 0.0;
-  // From 0.1 s on, past the servo's kink; the trapezium's error is h^2/12 [P'], about 1e-5 here.
+  // The sum begins at 0.1 s, after the kink in the servo's motion. The error of the trapezoidal
+  // rule is h^2/12 times the change of the power's slope, about 1e-5 here.
   for (std::size_t i = 10; i + 1 < run.rows.size(); ++i) {
     work += 0.005 * (power(run.rows[i]) + power(run.rows[i + 1]));
   }

@@ -239,7 +239,7 @@ TEST(ScenarioFile, ReadsLinesAndTimedPaths) {
       read(replaced(replaced(kHeading, steps, timed), "\"speed_mps\": 1", "\"speed_mps\": 0"));
   ASSERT_TRUE(closed) << to_text(closed.error());
   EXPECT_EQ(std::get<LissajousPath>(closed->guidance).path.rate_y_radps, 0.2);
-  // A closed timed path has the path's speed.
+  // The speed on a closed timed path follows from the path, so speed_mps is refused.
   EXPECT_THAT(to_text(read(replaced(kHeading, steps, timed)).error()), HasSubstr("/speed_mps"));
 }
 

@@ -46,13 +46,13 @@ TEST(ScenarioGuidance, GoesToOnePointAfterTheOtherAndSlowsDownBeforeTheLast) {
       .points_m = {{10.0, 0.0}, {10.0, 10.0}}, .acceptance_m = 1.0, .slow_down_m = 4.0});
   ScenarioGuidance guidance(scenario, 0.01, at(0.0, 0.0));
   const GuidanceOutput first =
-      guidance.step(0.0, at(7.5, 0.5));  // within 4 m, but not of the last one
+      guidance.step(0.0, at(7.5, 0.5));  // within 4 m of a point, but not of the last
   expect_on_first_leg(first, 0.5);
   const GuidanceOutput last = guidance.step(0.01, at(10.0, 0.5));
   EXPECT_EQ(last.path.leg, 1);
   EXPECT_EQ(last.path.target_m.y_m, 10.0);
   EXPECT_EQ(last.reference.speed_mps, 2.0);
-  EXPECT_NEAR(guidance.step(0.02, at(10.0, 8.0)).reference.speed_mps, 1.0, 1e-12);  // 2 of 4 m
+  EXPECT_NEAR(guidance.step(0.02, at(10.0, 8.0)).reference.speed_mps, 1.0, 1e-12);  // 2 m of 4
   const GuidanceOutput there = guidance.step(0.03, at(10.0, 9.5));
   EXPECT_TRUE(there.finished);
   EXPECT_EQ(there.reference.speed_mps, 0.0);

@@ -50,8 +50,8 @@ class ScenarioFiles : public ::testing::TestWithParam<fs::path> {
 
 /// Scenarios that some modes do not complete, with the reason.
 const std::set<std::string> kNotForAll{
-    "c11_lissajous", "c11_lissajous_closed",  // turns tighter than steering's 5 m
-    "wheel_failure",                          // steering cannot hold a line against a dead wheel
+    "c11_lissajous", "c11_lissajous_closed",  // turns tighter than the 5 m of steering mode
+    "wheel_failure",                          // steering cannot hold a line if a motor has failed
 };
 
 /// Scenarios that no mode completes: under a constant yaw moment the sliding mode leaves a heading
@@ -108,7 +108,7 @@ bool switch_alike(const awmr::Run& a, const awmr::Run& b) {
 
 /// A run does not depend on position and orientation in the world. Tolerances:
 /// - Rounding of 1e-14 m at positions near 100 m passes through guidance and control, which are
-///   damped; 1e-6 allows for the tolerance of the sectors.
+///   damped; The tolerance of 1e-6 also covers that of the comparison of blocked sectors.
 /// - A leg that ends within rounding of a sample's time may end one sample later, which moves the
 ///   rest of the run by at most u T_s = 0.01 m.
 /// - Only 20 s are compared. Near r = 0, where the slope of g3 is infinite, a plant that differs

@@ -41,7 +41,7 @@ double scrub_at(const State<double>& state, const SideForces<double>& force) {
 }
 
 TEST(Scrub, OpposesTheTurnByTheDifferentialShareOfItsMoment) {
-  // Rounding of sums of moments of about 0.1 m, divided by I'z = 0.0128.
+  // Tolerance: rounding of sums of moments of about 0.1 m, divided by I'z = 0.0128.
   constexpr double kRounding_m = 1e-14;
   EXPECT_NEAR(scrub_at(turning(0.2, 0.0), {0.2, 0.3}), kScrub_m, kRounding_m);
   EXPECT_NEAR(scrub_at(turning(-0.2, 0.0), {0.2, 0.3}), -kScrub_m, kRounding_m);

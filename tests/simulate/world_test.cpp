@@ -78,8 +78,8 @@ TEST(Disturbances, BandLimitedNoiseHasItsDeviationAndMemory) {
     product += x * run.rows[i + kLag].disturbance.sway;
   }
   const double n = static_cast<double>(run.rows.size() - kLag);
-  // Correlation time 1/(2 pi) s: about 400 * pi independent values, variance known to sqrt(2/1257)
-  // = 4 %; the bound is four times that.
+  // Correlation time 1/(2 pi) s: about 400 * pi independent values, so the standard error of the
+  // variance is sqrt(2/1257) = 4 %. The bound is four standard errors.
   EXPECT_NEAR(square / n, 0.01, 0.16 * 0.01);
   EXPECT_NEAR(product / square, std::exp(-0.2 * pi<double>()), 0.1);
 }
@@ -175,7 +175,8 @@ TEST(Battery, SpeedFallsToThatOfTheReducedForce) {
 }
 
 TEST(Battery, SagsUnderTheMotorsCurrent) {
-  // Without back-EMF, straight ahead with F' at all four wheels: F' s, s = 1/(1 + 4 rho F'^2).
+  // Straight ahead, without back-EMF, and with the command F' at all four wheels, the voltage falls
+  // to the fraction s = 1/(1 + 4 rho F'^2), and the force to F' s (rho: `sag`).
   Scenario s = straight(60.0);
   s.guidance = OpenLoop{2.0, 0.0};  // F' = 0.5 of each wheel
   s.battery = Battery{.sag = 0.1};
@@ -338,7 +339,8 @@ TEST(SensorChannels, ReturnTheValueFromOneLatencyAgo) {
 }
 
 TEST(Motors, TheForceFollowsItsCommandWithTheirTimeConstant) {
-  // Straight ahead under a constant command c: u and F by Heun's method in steps of 10 us,
+  // The expected u and F, straight ahead under a constant command c, are computed by Heun's method
+  // in steps of 10 us:
   //   u_dot = (4 F - g1(u))/m',   F_dot = (c - F)/tau
   Scenario s = straight(0.5);
   s.initial.u_mps = 0.2;
@@ -358,8 +360,8 @@ TEST(Motors, TheForceFollowsItsCommandWithTheirTimeConstant) {
     u += 0.5 * kStep_s * (first + accel(u + kStep_s * first, next));
     force = next;
   }
-  // The simulator holds each force at its mean over the sample, with an error of (T_s/tau)^2/24 of
-  // its change.
+  // Tolerance: the simulator replaces each force by its mean over the sample, with an error of
+  // (T_s/tau)^2/24 of the force's change.
   EXPECT_NEAR(run.rows.back().state.u_mps, u, 1e-3 * u);
   EXPECT_LT(run.rows[5].state.u_mps, run_of(
                                          [&] {

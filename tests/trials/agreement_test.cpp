@@ -43,7 +43,8 @@ TEST(Agreement, RoundsByHalfAPlaceButNeverByMoreThanFivePercent) {
 }
 
 TEST(Agreement, TimesByHandOrToTheUnitOfAnAutomaticClock) {
-  // 2 (0.2/8 + 0.005) = 0.06 by hand; 2 (0.001/8 + 0.005) = 0.01025 to the millisecond.
+  // By stop watch: 2 (0.2/8 + 0.005) = 0.06. Timed to the millisecond: 2 (0.001/8 + 0.005) =
+  // 0.01025.
   EXPECT_DOUBLE_EQ(timing_error(2.0, 8.0, 0.01), 0.06);
   EXPECT_DOUBLE_EQ(timing_error(2.0, 8.0, 0.001), 0.01025);
 }

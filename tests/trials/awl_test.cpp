@@ -70,7 +70,7 @@ TEST(Awl, RowsThatTheChipLostAreCounted) {
   EXPECT_EQ(steps(*log), joined(range(0, 20), range(44, 60)));
   EXPECT_EQ(log->lost, 24U);
   EXPECT_THAT(codes(*log), ElementsAre("rows-lost"));
-  EXPECT_THAT(log->findings[0].message, HasSubstr("24 before 0.44 s (the chip had no room"));
+  EXPECT_THAT(log->findings[0].message, HasSubstr("24 before 0.44 s (the chip had no room to"));
 }
 
 TEST(Awl, EveryDamagedByteCostsItsRowAndNoOther) {
@@ -147,9 +147,9 @@ TEST(Awl, RowsThatMeasureNothingAreSetAside) {
   for (std::uint32_t i = 0; i < 40; ++i) {
     LogRow row = awl_row(i);
     if (i < 5) row.fault = 0x08;  // fault kFaultHeadingStale: no heading yet
-    if (i == 20) row.u_mps = std::numeric_limits<float>::quiet_NaN();  // no number
+    if (i == 20) row.u_mps = std::numeric_limits<float>::quiet_NaN();  // not a number
     if (i == 25) row.psi_rad = std::numeric_limits<float>::infinity();
-    if (i == 30) row.fault = 0x20;  // kFaultCommandTimeout: not a fault of a measurement
+    if (i == 30) row.fault = 0x20;  // kFaultCommandTimeout: the measurements are valid
     bytes += awl_bytes(row);
   }
   const auto log = read_awl(bytes, "a.awl");

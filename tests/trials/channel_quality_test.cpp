@@ -79,7 +79,8 @@ TEST(ChannelQuality, ASlowSensorCountsAtItsOwnRate) {
   }
 }
 
-/// Slow motion reaches the next step at irregular times, often several rows apart.
+/// A slowly moving signal reaches the next step of the resolution at irregular times, often several
+/// rows apart.
 TEST(ChannelQuality, ACoarseSensorWithoutNoiseIsNotTakenForASlowOne) {
   for (const double quantum : {0.05, 0.1, 0.2}) {
     Drive d = drive(6, 0.0);
@@ -101,7 +102,7 @@ TEST(ChannelQuality, ASlowAndCoarseSensorCountsWhereItRepeatsToo) {
   }
   const ChannelQuality q = evaluate(d);
   EXPECT_EQ(q.repeats, Repeats::kSlow);
-  // A reading every 5 rows, except next to long repeats.
+  // A new reading every 5 rows, except next to long repeats.
   EXPECT_NEAR(static_cast<double>(fresh_rows(q)), kRows / 5.0, kRows / 50.0);
 }
 
@@ -223,7 +224,8 @@ TEST(ChannelQuality, TheEndOfASensorsRangeIsSetAside) {
   EXPECT_EQ(q.saturated_at, top);
 }
 
-/// A rounded signal, only the values that differ from the last one.
+/// Rounds a signal to multiples of `step`, and keeps only the values that differ from the one
+/// before.
 std::vector<double> only_changes(const std::vector<double>& signal, double step) {
   std::vector<double> changes;
   for (const double x : signal) {
@@ -238,7 +240,8 @@ TEST(ChannelQuality, KnowsReadingsThatWereWrittenOnlyWhenTheyChanged) {
   std::vector<double> slow;
   for (int i = 0; i < 3000; ++i) slow.push_back(std::sin(0.004 * i));
   EXPECT_NEAR(resolution_of_changes(only_changes(slow, kStep)), kStep, 1e-9);
-  // Readings at regular times repeat; fine or fast ones do not, but change by more than one step.
+  // Readings at regular times (`regular`) repeat values. Those of an unrounded (`slow`) or fast
+  // signal do not repeat, but their changes are not single steps of one resolution.
   std::vector<double> regular;
   std::vector<double> fast;
   for (int i = 0; i < 3000; ++i) {

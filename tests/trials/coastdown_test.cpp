@@ -83,7 +83,8 @@ TEST(CoastdownTrial, RefusesBothFormsInOneFile) {
 }
 
 TEST(CoastdownTrial, DerivesTheErrorOfATimeFromItsDigits) {
-  // A stop watch: 0.1 s. An automatic time to the millisecond: its rounding, 1 ms / sqrt 12.
+  // Standard deviation: 0.1 s for a stop watch; for times to the millisecond, which are taken
+  // automatically, that of rounding, 1 ms/sqrt(12).
   const auto timing_std_s = [](const std::string& row) {
     const auto read = accepted(read_coastdown, "initial_speed_mps,stop_time_s\n" + row + "\n");
     return std::get<StopTimes>(read.set).rows[0].timing_std_s;

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// Refusal of these tables, each of which may be empty, for a vehicle with this wheel_force.
+/// Returns the error text for these tables (each may be empty) and a vehicle with this wheel_force.
 std::string refusal_of(const std::string& surge, const std::string& turning,
                        const Interval& wheel_force = {-1.0, 1.0},
                        std::vector<ColumnMapping> columns = {}) {
@@ -85,7 +85,7 @@ TEST(ForceUnits, NamesAllUnitsIfNoneIsClear) {
               AllOf(HasSubstr("percent, 8-bit PWM counts or newtons"),
                     HasSubstr("wheel_force=\"wheel_force\"*0.01' (percent)"),
                     HasSubstr("wheel_force=\"wheel_force\"*0.003921569' (8-bit PWM counts)")));
-  // A mapping names its unit even if the other units have none.
+  // The mapping is shown with its unit even if the other possible units have no mapping.
   EXPECT_THAT(refusal_of("wheel_force,speed_mps\n20,0.55\n38,1.66\n", ""),
               AllOf(HasSubstr("percent, volts"), HasSubstr("newtons"),
                     HasSubstr("wheel_force=\"wheel_force\"*0.01' (percent), or accept it")));

@@ -22,8 +22,8 @@ using ::testing::StartsWith;
 
 std::string number(double value) { return std::to_string(value); }
 
-/// A command every 40 ms, a speed every 10 ms with an offset of 3 ms, a position every 200 ms with
-/// an offset of 1 ms: one wide table with empty cells.
+/// Wide table with empty cells: a command every 40 ms, a speed every 10 ms with an offset of 3 ms,
+/// and a position every 200 ms with an offset of 1 ms.
 std::string wide_log(int rows = 400) {
   std::string text = "t_s,cmd.left,force_right,steering_cmd_deg,speed_mps,x_m,y_m,note\n";
   for (int ms = 0; ms < rows; ++ms) {
@@ -63,7 +63,8 @@ TEST(JoinedLog, CommandsHoldAndMeasurementsCountInTheirOwnRows) {
 TEST(JoinedLog, ShortStepsBetweenSignalsMakeNoGaps) {
   const auto read = accepted(read_log, wide_log(4000), kLeft);
   EXPECT_THAT(codes_of(read.findings), Each(Not(StartsWith("log-gap"))));
-  // Speeds 10 ms apart cover most of the time, the 3 ms and 7 ms steps around the commands little.
+  // Steps are weighted with their length. The steps of 10 ms between speeds cover most of the time,
+  // the steps of 3 ms and 7 ms around the commands little.
   EXPECT_NEAR(read.set.median_step_s(), 10e-3, 1e-9);
   EXPECT_THAT(windows_of(read.set, 1.0), SizeIs(4));
 }

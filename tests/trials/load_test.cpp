@@ -26,7 +26,8 @@ TrialFiles paper_files() {
           .coastdowns = {kPaper / "coastdown.csv"}};
 }
 
-/// Returns the faults of a surge or turning table with these rows.
+/// Returns the error text for a surge or turning table with these rows. If the table is accepted,
+/// returns its warning with `as_is`, else an empty text.
 std::string refusal_of(const std::string& name, const std::string& text, bool as_is = false) {
   const ScratchFile file(name, text);
   TrialFiles files{.vehicle = paper_vehicle(), .options = {.columns = {}, .as_is = as_is}};
@@ -165,7 +166,8 @@ TEST(LoadTrials, ACoastDownThatBeginsFasterThanTheSurgeRunsAllowIsRefusedWithThe
                     HasSubstr("initial_speed_mps=\"initial_speed_mps\"*0.2777778")));
   files.options.as_is = true;
   EXPECT_TRUE(load_trials(files));
-  // A downhill start within the speed range of the runs is accepted.
+  // 1.9 m/s is accepted: it exceeds the fastest run, 1.66 m/s, but by less than the margin of 30 %,
+  // as in a coast-down that begins downhill.
   files.options.as_is = false;
   const ScratchFile fast("coastdown.csv", "initial_speed_mps,stop_time_s\n1.9,0.6\n");
   files.coastdowns = {fast.path()};
@@ -241,7 +243,7 @@ TEST(LoadTrials, SteadyRunsOfALogJoinTheRowsOfATable) {
   const auto trials = load_trials(files);
   ASSERT_TRUE(trials) << to_text(trials.error());
   EXPECT_THAT(trials->data.logs, SizeIs(1));
-  // Ten and five rows of the tables, and one of each kind from the log.
+  // Surge: ten rows of the table and one from the log. Turning: five and one.
   EXPECT_THAT(trials->data.surge->rows, SizeIs(11));
   EXPECT_THAT(trials->data.turning->rows, SizeIs(6));
   EXPECT_EQ(trials->data.surge->file, "surge.csv");

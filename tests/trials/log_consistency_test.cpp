@@ -1,5 +1,5 @@
-/// Wrong units, signs and sides are detected before any fit, each by its factor, and correct logs
-/// give no finding. The logs are first-order responses with noise, independent of the fitted model.
+/// Wrong units, wrong signs and swapped sides are detected before any fit, and correct logs give no
+/// finding. The logs are first-order responses with noise, independent of the fitted model.
 #include "awmr/trials/log_consistency.h"
 
 #include <gmock/gmock.h>
@@ -152,7 +152,7 @@ TEST(LogConsistency, RefusesAVehicleThatNeverMoves) {
   }
 }
 
-/// Number of findings about the calibration of channels.
+/// Number of calibration findings with this code whose message contains `words`.
 int calibrations(const DrivingLog& log, const std::string& code, const std::string& words = "") {
   return static_cast<int>(
       std::ranges::count_if(calibration_findings(log, {}), [&](const Finding& finding) {
@@ -202,7 +202,7 @@ TEST(LogConsistency, OdometryWithAWrongTrackWidthIsNamedByThePositions) {
     odometry[LogChannel::kHeading].reset();
     with_rate += calibrations(odometry, "scale-mismatch", "by the positions");
   }
-  // One of these drives turns too little for five standard errors.
+  // In one of the 20 drives, the vehicle turns too little for a deviation of five standard errors.
   EXPECT_GE(with_heading, 19);
   EXPECT_GE(with_rate, 19);
 }
@@ -222,7 +222,7 @@ TEST(LogConsistency, TheFirstTenSecondsOfAHundredGoodLogsRaiseNoAlarm) {
   }
 }
 
-/// Keeps every n-th value, held until the next.
+/// Keeps every n-th value, and repeats it until the next one.
 void hold(LogChannel channel, std::size_t n, DrivingLog& log) {
   Measured& held = *log[channel];
   held.held = true;
@@ -309,8 +309,8 @@ struct WrongTurn {
   std::function<void(DrivingLog&)> make;
   std::string column;
   std::string words;
-  /// Minimum number of ten drives in which the first ten seconds reveal the fault. A wrong unit
-  /// shows at once, a wrong sign only when the drive makes it observable.
+  /// Minimum number of drives, out of ten, whose first ten seconds reveal the fault. A wrong unit
+  /// is visible at once, a wrong sign only after the motion that depends on it.
   int early = 9;
 };
 
@@ -329,7 +329,8 @@ TEST_P(AWrongTurn, IsNamedInEveryLog) {
   }
 }
 
-/// Wheel odometry with the left side reversed: the speed is d r, the yaw rate u/d.
+/// Replaces speed and yaw rate by those of wheel odometry with the left side reversed: the speed is
+/// then d r, the yaw rate u/d.
 void reverse_left_wheels(DrivingLog& log) {
   const double d = vehicle().half_track_m;
   std::vector<double>& speed = log[LogChannel::kSpeed]->value;
@@ -344,7 +345,7 @@ void reverse_left_wheels(DrivingLog& log) {
 TEST(LogConsistency, BlamesReversedWheelOdometryInsteadOfTheForces) {
   DrivingLog log = sound_log(1, {.position = false});
   std::ranges::fill(*log.steering_command_rad, 0.0);
-  const auto moved = [&log](double turn) {  // a drive that turns by its forces only
+  const auto moved = [&log](double turn) {  // only force differences turn it
     for (std::size_t i = 0; i < log.rows(); ++i) {
       log[LogChannel::kYawRate]->value[i] =
           turn * (log.force_right[i] - log.force_left[i]) + 1e-4 * static_cast<double>(i % 7);
@@ -363,7 +364,7 @@ TEST(LogConsistency, BlamesReversedWheelOdometryInsteadOfTheForces) {
   EXPECT_EQ(by_heading[0].column, "speed_mps");
   EXPECT_THAT(by_heading[0].message, HasSubstr("one side is reversed"));
   EXPECT_EQ(by_heading[0].mapping, "");
-  // Without the heading, reversed forces of one side explain the log as well.
+  // Without the heading, a force column with the wrong sign explains the log as well.
   log[LogChannel::kHeading].reset();
   const auto alone = contradictions(log, vehicle(), {});
   ASSERT_EQ(alone.size(), 1U);
@@ -491,8 +492,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& turn) { return turn.param.name; });
 
 // The vehicle drives at about 0.2 m/s, and fixes have a noise of 0.2 m. The measured ends of a
-// window of 1 s are sqrt(0.2^2 + 4*0.2^2) = 0.45 m apart, 2.2 times the distance driven. Without
-// regard to noise, a factor above 1.6 would count as another unit.
+// window of 1 s are sqrt(0.2^2 + 4*0.2^2) = 0.45 m apart, 2.2 times the distance driven. If the
+// noise were neglected, a factor above 1.6 would count as another unit.
 TEST(LogConsistency, NoiseAsLargeAsTheDistanceIsNotTakenForAnotherUnit) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     DrivingLog log = sound_log(seed);
@@ -511,7 +512,7 @@ TEST(LogConsistency, AFixThatComesBackAndOneAfterADropoutAreNoOtherRun) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     DrivingLog log = sound_log(seed);
     channel(log, LogChannel::kX)[700] += 40.0;
-    // Two seconds without a fix while the vehicle continues.
+    // For two seconds the log has no fix, while the vehicle continues to drive.
     for (const LogChannel c : {LogChannel::kX, LogChannel::kY}) {
       for (std::size_t i = 1000; i < 1100; ++i) log[c]->fresh[i] = false;
     }

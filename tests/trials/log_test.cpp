@@ -124,7 +124,7 @@ TEST(Log, UnwrapsTheHeadingEitherWay) {
 }
 
 TEST(Log, CountsOnlyNewValuesOfASlowSensor) {
-  // Positions in every third row; y sometimes repeats by chance.
+  // The position changes in every third row; y sometimes stays the same by chance.
   const auto read = accepted_log(log_text(
       "x_m,y_m,speed_mps",
       [](int i) {
@@ -172,7 +172,8 @@ TEST(Log, RefusesUnusableLogs) {
               ElementsAre(HasSubstr("belong together")));
 }
 
-/// 1 m/s at 90 deg, with rest before and in between; `course` is the heading at rest.
+/// A drive at 1 m/s with the heading 90 deg, and two rests: at its beginning and in its middle.
+/// `course`: heading in the rows at rest. `after_deg`: heading after the second rest.
 std::string with_rests(const std::function<double(int)>& course, double after_deg = 90.0) {
   const auto cell = [&](int i) {
     const bool rests = i < 10 || (i >= 30 && i < 40);
@@ -213,7 +214,7 @@ TEST(Log, ACourseAtRestIsSetAside) {
     // Row 0 is the added row of rest.
     EXPECT_FALSE(heading.fresh[6] || heading.fresh[36]);
     EXPECT_TRUE(heading.fresh[21]);
-    EXPECT_NEAR(heading.value[56], radians(90.1), 1e-9);  // without whole turns from the noise
+    EXPECT_NEAR(heading.value[56], radians(90.1), 1e-9);  // jumps at rest add no whole turns
   }
 }
 
@@ -267,7 +268,7 @@ TEST(Log, AHeldSignalsDelayedMeanHasItsDerivative) {
   const std::vector<double> t{0.0, 1.0, 2.0, 3.0};
   const std::vector<double> value{1.0, 3.0, -2.0, 5.0};
   const HeldSignal signal(t, value);
-  // Over [1.2, 2.2] with a delay of 0.5: [0.7, 1.7] is 0.3 of 1 and 0.7 of 3.
+  // The delay of 0.5 shifts [1.2, 2.2] to [0.7, 1.7], where the command is 1 for 0.3 and 3 for 0.7.
   EXPECT_NEAR(delayed_mean(signal, 1.2, 1.0, 0.5), 0.3 * 1.0 + 0.7 * 3.0, 1e-12);
   // Beyond the ends the end value holds.
   EXPECT_NEAR(delayed_mean(signal, 0.0, 1.0, 2.0), 1.0, 1e-12);
@@ -296,7 +297,7 @@ TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   vehicle.drive = Drive::kDifferential;
   std::string text = "t_s,force_left,force_right,speed_mps,yaw_rate_radps\n";
   for (int i = 0; i < 120; ++i) {
-    const bool turn = i >= 60;  // then turns to the right on the spot
+    const bool turn = i >= 60;  // from row 60 on, the vehicle turns to the right on the spot
     const double wiggle = i % 2 == 0 ? 1e-3 : -1e-3;
     text += std::to_string(0.1 * i) + (turn ? ",0.2,-0.2," : ",0.3,0.3,") +
             std::to_string((turn ? 0.0 : 1.0) + wiggle) + "," +
@@ -311,7 +312,7 @@ TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   EXPECT_NEAR(runs.surge.rows[0].tau_speed, 1.2, 1e-9);
   ASSERT_THAT(runs.turning.rows, SizeIs(1));
   EXPECT_NEAR(runs.turning.rows[0].yaw_rate_radps, 0.4, 1e-3);
-  // 2 d (F'R - F'L)                                                                 [paper (41)]
+  // tau_turn = 2 d (F'R - F'L)                                                      [paper (41)]
   EXPECT_NEAR(runs.turning.rows[0].tau_turn_m, 2.0 * vehicle.half_track_m * 0.4, 1e-12);
   EXPECT_THAT(findings.back().message, HasSubstr("F'L = 0.2, F'R = -0.2"));
 }

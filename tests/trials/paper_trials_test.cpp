@@ -33,7 +33,8 @@ TEST(PaperSurgeTrial, HasTenUsableRowsAndOneAtRest) {
 TEST(PaperSurgeTrial, ReportsContradictoryRows) {
   std::vector<Finding> findings;
   ASSERT_TRUE(read_surge(kPaper / "surge.csv", {}, findings));
-  // Lines: 4 is trial 2 (0.12 for 0.1263), 10 is trial 8 (1.03 for 1.080), 3 is trial 1 (at rest).
+  // Line 4 is trial 2 (0.12 m/s printed, 0.1263 timed), line 10 is trial 8 (1.03 printed, 1.080
+  // timed), line 3 is trial 1 (at rest).
   ASSERT_THAT(codes_of(findings),
               ElementsAre("speed-mismatch@4", "speed-mismatch@10", "rows-set-aside@3"));
   EXPECT_THAT(findings[0].message, AllOf(HasSubstr("0.12,"), HasSubstr("0.1263")));
@@ -96,7 +97,8 @@ TEST(PaperCoastdown, HasTheStopTimeComputedBack) {
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].initial_speed_mps, 1.66);
   // m' = (1-b1) a1 t_a/u_max^(1-b1)                                                 [paper (60)]
-  // printed as 0.0768; 0.573 s to half a millisecond is 0.09 % of it: 7e-5, plus 5e-5 of rounding.
+  // The paper prints 0.0768. Tolerance: t_a = 0.573 s is rounded to 0.5 ms, 0.09 %, which changes
+  // m' by 7e-5; the rounding of the printed m' adds 5e-5.
   const double a1 = 1.3268;
   const double b1 = 0.8933;
   const double mass_norm = (1.0 - b1) * a1 * rows[0].stop_time_s / std::pow(1.66, 1.0 - b1);

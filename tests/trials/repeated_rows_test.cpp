@@ -116,14 +116,15 @@ TEST(RepeatedRows, TurnsAndStopsAreEvaluatedAsWell) {
 }
 
 TEST(RepeatedRows, CoarseReadingsAgreeByChance) {
-  // Times to 0.1 s, and speeds of two decimals that repeat to 0.3 %: half of all pairs are equal.
+  // Times are rounded to 0.1 s, speeds to two decimals. With a scatter of 0.3 %, half of all pairs
+  // of runs have equal readings by chance.
   EXPECT_EQ(findings_of(read_surge,
                         "tau_speed,distance_m,elapsed_s\n1,10,13.9\n1,10,13.9\n1.4,10,9.3\n"
                         "1.4,10,9.3\n2,10,6\n2,10,6\n"),
             "");
   EXPECT_EQ(findings_of(read_surge, "tau_speed,speed_mps\n1,0.72\n1,0.72\n1.4,1.03\n1.4,1.03\n"),
             "");
-  // A speed computed from such times has more digits but no more resolution.
+  // A speed computed from such times has more digits, but its resolution is no finer.
   EXPECT_EQ(findings_of(read_surge,
                         "tau_speed,speed_mps\n1,0.719424460431655\n1,0.719424460431655\n"
                         "1.4,1.07526881720430\n1.4,1.06382978723404\n"),

@@ -52,8 +52,9 @@ TEST(SurgeTrial, ReadsOtherNamesAndUnits) {
 }
 
 TEST(SurgeTrial, DoesNotCallRoundingAContradiction) {
-  // 10/18 = 0.5556 printed 0.55 or 0.56, 10/7.9 = 1.2658 printed 1.26: within half a place plus
-  // 0.5556 (0.2/18 + 0.005) = 0.009 and 1.2658 (0.2/7.9 + 0.005) = 0.038.
+  // The timed speed is 10/18 = 0.5556, the printed one 0.55 or 0.56; 10/7.9 = 1.2658, printed 1.26.
+  // The differences are below half a unit of the last place plus the timing error, 0.5556 (0.2/18 +
+  // 0.005) = 0.009 and 1.2658 (0.2/7.9 + 0.005) = 0.038.
   EXPECT_THAT(accepted(read_surge,
                        "tau_speed,distance_m,elapsed_s,speed_mps\n0.8,10,18,0.55\n"
                        "0.8,10,18,0.56\n1.6,10,7.9,1.26\n")

@@ -21,7 +21,8 @@ using ::testing::HasSubstr;
 constexpr double kCircumference_m = 0.4788;
 constexpr std::size_t kRows = 60;
 
-/// A quasistatic run at 0.25 V/s: the wheels turn at 0.5 rotations/s per volt, the right ones 10 % faster.
+/// A quasistatic run at 0.25 V/s: the left wheels turn at 0.5 rotations/s per volt, the right ones
+/// 10 % faster.
 json run_of(double direction, bool is_signed = true, double begin_s = 7.0) {
   json rows = json::array();
   double left = 0.0;

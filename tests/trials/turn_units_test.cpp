@@ -113,7 +113,7 @@ TEST(TurnUnits, APrintedMomentWithoutAnAngleDoesNotBoundTheRate) {
             "");
 }
 
-/// The bounds, computed independently from the formulas of turn_evidence.h.
+/// Computes the bounds independently, by the formulas of turn_evidence.h.
 TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
   const std::string surge = "wheel_force,speed_mps\n0.2,0.5\n0.4,1.0\n0.8,3.0\n";
   const double tan20 = std::tan(std::acos(-1.0) / 9.0);
@@ -121,8 +121,8 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
     return refusal_of(paper_vehicle(), surge,
                       fmt::format("steering_deg,wheel_force,yaw_rate_radps\n20,0.6,{}\n", rate));
   };
-  // u(0.6) = 2 m/s lies halfway between two runs; l_f = 0.35 m: up to three times u tan(d)/l_f =
-  // 6.24 rad/s.
+  // u(0.6) = 2 m/s lies halfway between two surge runs. With l_f = 0.35 m, yaw rates of up to three
+  // times u tan(d)/l_f, that is, 6.24 rad/s, are accepted.
   const double rolled = 2.0 * tan20 / 0.35;
   EXPECT_EQ(steered(2.95 * rolled), "");
   EXPECT_THAT(steered(3.05 * rolled), HasSubstr("2 m/s of the surge runs"));
@@ -135,8 +135,8 @@ TEST(TurnUnits, TheBoundsAreTheDocumentedOnes) {
     return refusal_of(sides, surge,
                       fmt::format("force_left,force_right,yaw_rate_radps\n-0.2,0.6,{}\n", rate));
   };
-  // The sides differ by 2 - (-0.5) m/s: 2.5/(2 0.36) = 3.47 rad/s. Up to four times this is
-  // accepted.
+  // The speeds of the two sides differ by 2 - (-0.5) m/s, so rolling wheels turn at 2.5/(2 0.36) =
+  // 3.47 rad/s. Up to four times this rate is accepted.
   EXPECT_EQ(by_sides(3.95 * 2.5 / 0.72), "");
   EXPECT_THAT(by_sides(4.05 * 2.5 / 0.72), HasSubstr("differ by 2.5 m/s"));
 
@@ -165,7 +165,7 @@ TEST(TurnUnits, NoGoodTableIsRefused) {
   }
 }
 
-/// random_campaign.h is reproducible, so the counts are exact.
+/// The random campaigns are reproducible, so the counts are the same in every run.
 TEST(TurnUnits, WrongTablesOfDrawnVehiclesAreNamed) {
   constexpr int kCampaigns = 50;
   for (const Drive drive : kDrives) {

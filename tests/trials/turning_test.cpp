@@ -21,7 +21,7 @@ TEST(TurningTrial, ComputesTheYawMomentWhereNoneIsPrinted) {
   const auto read =
       accepted(kReadTurning, "steering_deg,wheel_force,yaw_rate_radps\n10,0.35,0.1\n");
   ASSERT_THAT(read.set.rows, SizeIs(1));
-  // 2 l_f F' sin d_r                                                                [paper (62)]
+  // tau_turn = 2 l_f F' sin d_r                                                     [paper (62)]
   EXPECT_DOUBLE_EQ(read.set.rows[0].tau_turn_m, 2.0 * 0.35 * 0.35 * std::sin(radians(10.0)));
   EXPECT_THAT(read.findings, IsEmpty());
 }
@@ -65,7 +65,8 @@ TEST(TurningTrial, RefusesSignsThatDisagree) {
 }
 
 TEST(TurningTrial, FindsAYawMomentThatTheGeometryDoesNotGive) {
-  // 2 0.35 0.35 sin 10 deg = 0.04254; tolerance 0.00005 + 1 % = 0.00048.
+  // tau_turn = 2 0.35 0.35 sin 10 deg = 0.04254 m. Tolerance: 0.00005 for rounding plus 1 %,
+  // 0.00048.
   const auto read =
       accepted(kReadTurning,
                "steering_deg,wheel_force,yaw_rate_radps,tau_turn\n10,0.35,0.088,0.0420\n"
@@ -128,7 +129,7 @@ TEST(TurningTrial, KeepsDifferentialTurnsApartFromSteeredOnes) {
   EXPECT_EQ(read.set.rows[1].wheel_force, 0.3);
   ASSERT_THAT(read.set.by_sides, SizeIs(2));
   for (const TurningRow& row : read.set.by_sides) {
-    // 2 d (F'R - F'L)                                                               [paper (41)]
+    // tau_turn = 2 d (F'R - F'L)                                                    [paper (41)]
     EXPECT_DOUBLE_EQ(row.tau_turn_m, 2.0 * 0.36 * 0.2);
     EXPECT_EQ(row.yaw_rate_radps, 0.2);
     EXPECT_EQ(row.sides->right, 0.3);
@@ -194,7 +195,7 @@ TEST(TurningTrial, TakesAPrintedMomentWhereARowHasOne) {
                              "5,0.35,0.038,\n10,0.35,0.088,0.0425\n15,0.35,0.15,\n");
   ASSERT_THAT(read.set.rows, SizeIs(3));
   EXPECT_EQ(read.set.rows[1].tau_turn_m, 0.0425);
-  // 2 l_f F' sin d_r                                                                [paper (62)]
+  // tau_turn = 2 l_f F' sin d_r                                                     [paper (62)]
   EXPECT_DOUBLE_EQ(read.set.rows[0].tau_turn_m, 2.0 * 0.35 * 0.35 * std::sin(radians(5.0)));
   EXPECT_DOUBLE_EQ(read.set.rows[2].tau_turn_m, 2.0 * 0.35 * 0.35 * std::sin(radians(15.0)));
   EXPECT_THAT(read.findings, IsEmpty());
@@ -222,7 +223,7 @@ TEST(TurningTrial, NeedsARateInEachRowAndLeavesNoneOut) {
                         "steering_deg,wheel_force,yaw_rate_radps\n10,0.35,0.1\n"
                         "15,,\n20,0.35,0.2\n"),
               ElementsAre(StartsWith("3:5: "), StartsWith("3:4: ")));
-  // A formula does not reuse values of the previous row.
+  // A formula must not reuse values of the previous row.
   EXPECT_THAT(faults_of(kReadTurning, "steering_deg,wheel_force,a,b\n10,0.35,0.1,1\n15,0.35,,1\n",
                         {.columns = {*parse_column("yaw_rate_radps=a*b")}}),
               ElementsAre(HasSubstr("no yaw rate")));
@@ -244,7 +245,7 @@ TEST(TurningTrialOfSides, ComputesTheYawMomentAndMirrorsATurnToTheRight) {
                              "-0.1,0.2,0.5\n0.2,-0.1,-0.5\n0.1,0.1,0\n");
   ASSERT_THAT(read.set.rows, SizeIs(2));
   for (const TurningRow& row : read.set.rows) {
-    // 2 d (F'R - F'L)                                                               [paper (41)]
+    // tau_turn = 2 d (F'R - F'L)                                                    [paper (41)]
     EXPECT_DOUBLE_EQ(row.tau_turn_m, 2.0 * 0.36 * 0.3);
     EXPECT_EQ(row.yaw_rate_radps, 0.5);
     EXPECT_EQ(row.sides->left, -0.1);

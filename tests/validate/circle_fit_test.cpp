@@ -21,8 +21,8 @@ std::vector<Point> arc(double x_m, double y_m, double radius_m, double angle_rad
 TEST(CircleFit, RecoversAFullCircleFarFromTheOrigin) {
   const auto circle = fit_circle(arc(1000.0, -300.0, 1.145, 2.0 * std::numbers::pi, 500));
   ASSERT_TRUE(circle);
-  // The coordinates have 1000 * 2^-53 = 1.1e-13 m of rounding; sums of 500 stay below 100 times
-  // that.
+  // The rounding error of a coordinate is 1000 * 2^-53 = 1.1e-13 m. Sums over 500 points err by
+  // less than 100 times that.
   EXPECT_NEAR(circle->x_m, 1000.0, 1e-11);
   EXPECT_NEAR(circle->y_m, -300.0, 1e-11);
   EXPECT_NEAR(circle->radius_m, 1.145, 1e-11);
@@ -32,7 +32,8 @@ TEST(CircleFit, RecoversAFullCircleFarFromTheOrigin) {
 TEST(CircleFit, RecoversAQuarterArc) {
   const auto circle = fit_circle(arc(2.0, 3.0, 5.0, std::numbers::pi / 2.0, 200));
   ASSERT_TRUE(circle);
-  // A quarter arc's scatter has condition about 100: 1e-16 * 5 m * 100, with a margin of 100.
+  // Tolerance: the equations of a quarter arc have a condition number of about 100, so rounding
+  // causes an error of 1e-16 * 5 m * 100. The bound is 100 times as large.
   EXPECT_NEAR(circle->radius_m, 5.0, 5e-12);
 }
 
@@ -41,7 +42,8 @@ TEST(CircleFit, MeasuresTheDeviationOfOnePointOut) {
   points[0].x_m += 0.1;
   const auto circle = fit_circle(points);
   ASSERT_TRUE(circle);
-  // One of 1000 points moved by 0.1 m shifts centre and radius by some 0.1/1000 * 2 m each.
+  // A displacement of one of 1000 points by 0.1 m changes centre and radius by about 0.1/1000 * 2 m
+  // each.
   EXPECT_NEAR(circle->deviation_m, 0.1, 1e-3);
 }
 

@@ -48,12 +48,12 @@ TEST(Claims, RunsOnlyTheOpenLoopOnesWithoutGains) {
 TEST(Claims, TheStraightRunGivesTheModelsAndTheMeasuredSpeed) {
   Model model = fitted_paper_model();
   add_paper_trials(model);
-  // (2/1.3157)^(1/0.8841) = 1.6059 m/s, 3.3 % below the measured 1.66.
+  // The simulated speed is (2/1.3157)^(1/0.8841) = 1.6059 m/s, 3.3 % below the measured 1.66 m/s.
   const Claim fitted = check_straight_run(model, plant_of(model));
   EXPECT_TRUE(fitted.reproduced);
   EXPECT_THAT(fitted.figure, HasSubstr("simulated 1.6059 m/s"));
   EXPECT_THAT(fitted.figure, HasSubstr("measured u_max 1.66 m/s (-3.3 %)"));
-  // The paper's own pair: (2/1.3268)^(1/0.8933) = 1.583 m/s.
+  // With a1 and b1 as printed in the paper, it is (2/1.3268)^(1/0.8933) = 1.583 m/s.
   model[ParameterId::kSurgeAlpha].value = 1.3268;
   model[ParameterId::kSurgeBeta].value = 0.8933;
   EXPECT_THAT(check_straight_run(model, plant_of(model)).figure, HasSubstr("simulated 1.583"));
@@ -79,19 +79,20 @@ TEST(Claims, TheDiametersFollowFromTheSteadyState) {
   const Model model = fitted_paper_model();
   const Claim claim = check_circle(model, plant_of(model));
   EXPECT_TRUE(claim.reproduced);
-  // Steady: r = (tau/a3)^(1/b3), diameter 2 sqrt(u^2 + v^2)/r with sway (tau_st/l_f - m' r u)/a_s.
-  // differential: tau = 0.4, r = exp(ln(0.4/0.3028)/0.825) = 1.4013; with m' r v in surge u
-  // = 1.597, v = -0.0768 * 1.4013 * 1.597/3 = -0.0573: 2 * 1.598/1.4013 = 2.28 to 2.29 m. steering:
-  // stopped at 20 deg, tau = 0.35 * 2 tan(10 deg) = 0.12343, r = 0.3370, u = 1.609, v = (0.35265 -
-  // 0.0416)/3 = 0.1037: 2 * 1.612/0.3370 = 9.57 m.
+  // In a steady turn, r = (tau/a3)^(1/b3), the sway speed is v = (tau_steering/l_f - m' r u)/a_s,
+  // and the diameter is 2 sqrt(u^2 + v^2)/r. m' r v also changes u.
+  //   differential: tau = 0.4, r = (0.4/0.3028)^(1/0.825) = 1.4013, u = 1.597,
+  //                 v = -0.0768 * 1.4013 * 1.597/3 = -0.0573, 2 * 1.598/1.4013 = 2.28 to 2.29 m
+  //   steering:     at the stop of 20 deg, tau = 0.35 * 2 tan(10 deg) = 0.12343, r = 0.3370,
+  //                 u = 1.609, v = (0.35265 - 0.0416)/3 = 0.1037, 2 * 1.612/0.3370 = 9.57 m
   EXPECT_THAT(claim.figure, HasSubstr("differential: diameter 2.29 m"));
   EXPECT_THAT(claim.figure, HasSubstr("steering: diameter 9.57 m"));
 }
 
 TEST(Claims, AVehicleThatCannotTurnMakesNoCircle) {
   Model model = fitted_paper_model();
-  // differential: tau = 0.36 * 2 * 0.005 = 0.0036 m, r = (0.0036/0.3028)^(1/0.825) = 0.0046 rad/s:
-  // a turn takes 22 minutes.
+  // Differential mode: tau = 0.36 * 2 * 0.005 = 0.0036 m, r = (0.0036/0.3028)^(1/0.825)
+  // = 0.0046 rad/s, so a turn takes 22 minutes.
   model.vehicle.wheel_force = {0.0, 0.005};
   const Claim claim = check_circle(model, plant_of(model));
   EXPECT_FALSE(claim.reproduced);
@@ -142,7 +143,8 @@ TEST(Claims, TheSideslipIsAlsoGivenForThePapersGains) {
   Gains<double> fast = kPaperGains;
   fast.heading = {.lambda = 6.0, .mu = 100.0, .epsilon = 6.0};
   const Claim own = claim_of(heading_claims_of(model, fast), "C6");
-  // At 200 deg/s sway is m' r u/a_s = 0.0768 * 3.5/3 = 0.09 m/s: 5 deg even without steering.
+  // At 200 deg/s the sway speed is m' r u/a_s = 0.0768 * 3.5/3 = 0.09 m/s, a sideslip of 5 deg even
+  // without steering.
   EXPECT_FALSE(own.reproduced) << own.figure;
   EXPECT_THAT(own.figure, HasSubstr("with the paper's gains"));
   const Claim paper = claim_of(heading_claims_of(model, kPaperGains), "C6");
@@ -161,7 +163,8 @@ TEST(Claims, AControllerThatIsTooStiffForItsSampleTimeChatters) {
 TEST(Claims, ALazyControllerIsNotFast) {
   const Model model = fitted_paper_model();
   Gains<double> lazy = kPaperGains;
-  // With eps = 300 rad/s the slow pole is mu/eps = 1/6 per s: 2 % takes 4 * 6 s.
+  // With eps = 300 rad/s the slow pole is mu/eps = 1/6 per s, so an error takes four time
+  // constants, 4 * 6 s, to decay to 2 %.
   lazy.heading.epsilon = 300.0;
   const Claim claim = claim_of(heading_claims_of(model, lazy), "C3");
   EXPECT_FALSE(claim.reproduced);
@@ -183,9 +186,9 @@ TEST(Reversals, CountsTurningPointsBeyondTheBand) {
 
 TEST(AllowedSettling, AddsTheActuatorsAndTheLawsShare) {
   const Model model = fitted_paper_model();
-  // steering at 1 m/s: moment 0.35 * 1.3157 tan(10 deg) = 0.0811977 m and
-  // r = (0.0811977/0.3028)^(1/0.825) = 0.202832 rad/s; 4 (1/3 + 0.24) = 2.29333 s. (python3, 6
-  // digits)
+  // Steering at 1 m/s makes the yaw moment 0.35 * 1.3157 tan(10 deg) = 0.0811977 m and the yaw rate
+  // r = (0.0811977/0.3028)^(1/0.825) = 0.202832 rad/s. The heading law needs four of its time
+  // constants, 4 (1/lambda + eps/mu) = 4 (1/3 + 0.24) = 2.29333 s.
   const double allowed =
       allowed_settling_s(plant_of(model), model.vehicle, YawMode::kSteering, 1.0, 1.0);
   EXPECT_NEAR(allowed, 1.0 / 0.202832 + 2.293333, 1e-4);
@@ -207,8 +210,8 @@ Model identified_paper_model() {
 }
 
 TEST(OpenCases, ThePapersSmallAnglesMakeTheDropThatTheExactAllocationRemoves) {
-  // Independent simulations: 0.0001, 0.108, 0.107 m/s for small angles; exact 0.0001, 0.0028,
-  // 0.003.
+  // Speed drops of differential, steering and combined mode by independent simulations: 0.0001,
+  // 0.108 and 0.107 m/s with small angles; 0.0001, 0.0028 and 0.003 m/s with the exact allocation.
   Model model = identified_paper_model();
   const Claim exact = claim_of(heading_claims_of(model, kPaperGains), "C5");
   EXPECT_FALSE(exact.reproduced);
@@ -225,7 +228,8 @@ TEST(OpenCases, AreAllCombinationsWithTheMassThatTyresCarry) {
   Model model = fitted_paper_model();
   const std::vector<ClaimCase> cases = open_cases(model);
   ASSERT_EQ(cases.size(), 2U * 3U * 2U * 2U);
-  // 2/(0.8 g) = 0.2549, over m' = 0.0768.
+  // Tyres with the friction 0.8 can transmit the full thrust only if m' is at least 2/(0.8 g) =
+  // 0.2549. The model has m' = 0.0768.
   double largest = 0.0;
   for (const ClaimCase& open : cases) largest = std::max(largest, open.mass_factor);
   EXPECT_NEAR(largest, 2.0 / (0.8 * 9.80665) / 0.0768, 1e-9);

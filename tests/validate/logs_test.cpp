@@ -53,8 +53,8 @@ TEST(LogValidation, TheTrueModelPredictsExactly) {
   ASSERT_EQ(validation.channels.size(), 3U);
   EXPECT_TRUE(validation.passed);
   for (const ChannelValidation& c : validation.channels) {
-    // The only errors: unmeasured states are assumed at each window's start (servo at its command,
-    // no sway), and the log holds its commands at 50 Hz.
+    // Errors have only two causes: states that are not measured are assumed at the start of each
+    // window (servo at its command, no sway), and the log samples its commands at 50 Hz.
     EXPECT_LT(c.long_horizon.nrmse, 0.1) << c.channel;
     EXPECT_LT(c.one_step.nrmse, 0.03) << c.channel;
     EXPECT_NEAR(c.long_horizon.r2, 1.0 - c.long_horizon.nrmse * c.long_horizon.nrmse, 1e-12);

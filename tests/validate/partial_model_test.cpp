@@ -62,8 +62,8 @@ TEST(PartialModel, HasNoClosedLoopClaims) {
   EXPECT_THAT(to_text(v.error()), HasSubstr("a turning trial"));
 }
 
-/// Two seconds of constant thrust at the model's own speed u' = (tau - g1(u))/m', by Euler steps of
-/// 1 ms.
+/// Log of two seconds of constant thrust. Its speed is that of the model, du/dt = (tau - g1(u))/m',
+/// computed by Euler steps of 1 ms.
 DrivingLog straight_log(double tau_speed) {
   const Plant<double> plant = fitted_paper_model().plant().value();
   DrivingLog log;

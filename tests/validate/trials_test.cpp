@@ -28,8 +28,8 @@ Validation validated(const Model& model, double tolerance = 0.15) {
 TEST(Validate, PredictsTheTrialsAsComputedByHand) {
   const Validation v = validated(model_with_trials());
   ASSERT_EQ(v.trials.size(), 4U);
-  // python3, to 7 digits: (0.2/1.3157)**(1/0.8841), (2/1.3157)**(1/0.8841),
-  // (0.064/0.3028)**(1/0.8250), 0.0768 * 1.66**0.1159/(0.1159 * 1.3157)
+  // Expected values, computed in Python to 7 digits: (0.2/1.3157)**(1/0.8841),
+  // (2/1.3157)**(1/0.8841), (0.064/0.3028)**(1/0.8250), 0.0768 * 1.66**0.1159/(0.1159 * 1.3157)
   EXPECT_NEAR(*v.trials[0].predicted, 0.1187468, 1e-7);
   EXPECT_NEAR(*v.trials[1].predicted, 1.6058891, 1e-7);
   EXPECT_NEAR(*v.trials[2].predicted, 0.1520013, 1e-7);
@@ -46,7 +46,8 @@ TEST(Validate, ThePredictionSolvesTheResistanceLaw) {
     const auto u = predicted_measurement(*plant, {TrialKind::kSurge, "", 0, input, 1.0, {}});
     const auto r = predicted_measurement(*plant, {TrialKind::kTurning, "", 0, input, 1.0, {}});
     ASSERT_TRUE(u && r);
-    // g1(u) = tau_speed, g3(r) = tau_turn: two powers, a few units in the last place.
+    // The predictions solve g1(u) = tau_speed and g3(r) = tau_turn. Tolerance: two powers, each
+    // accurate to a few units in the last place.
     EXPECT_NEAR(plant->surge(*u), input, 1e-14 * input);
     EXPECT_NEAR(plant->yaw(*r), input, 1e-14 * input);
   }

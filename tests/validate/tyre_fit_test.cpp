@@ -69,7 +69,7 @@ TEST(TyreFit, AVehicleWithoutTyresIsPredictedByTheModel) {
   }
 }
 
-/// The same log at 50 Hz with commands that alternate, of a controller at 50 Hz and of one at 100 Hz.
+/// Logs at 50 Hz of controllers at 50 Hz and at 100 Hz, with the same alternating commands.
 TEST(TyreFit, CommandsLostBetweenRowsWidenTheIntervals) {
   DrivingLog log = driven({.friction = 0.5, .stiffness = 7.0});
   for (std::size_t row = 0; row < log.rows(); ++row) {

@@ -37,7 +37,7 @@ struct {
   uint8_t payload[sizeof(awmr_output) + sizeof(uint16_t)];
 } reply;
 bool is_answered;  // true: `reply` is the answer to the last request
-bool is_greeted;   // true: a hello came since the reset; before it no other request is answered
+bool is_greeted;   // true: kHello came since the reset; only then others are answered
 
 void send(uint8_t byte) {
   while ((UCSR0A & _BV(UDRE0)) == 0) {

@@ -10,9 +10,9 @@
 ///                  value. The last place is the finest one in the column, because trailing zeros
 ///                  are lost. Without the limit of 5 %, small whole numbers would agree with almost
 ///                  any value.
-///     stop_watch   0.2 s: 0.1 s for pressing the stop watch at the start, 0.1 s at the end. Times
-///                  given to the millisecond or finer are timed automatically: one unit of their
-///                  last place.
+///     stop_watch   0.2 s: 0.1 s for pressing the stop watch at the start, 0.1 s at the end. For
+///                  times given to the millisecond or finer, which were taken automatically: one
+///                  unit of their last place.
 ///     course       0.5 %: a track of 10 m is measured to 5 cm, a full turn to 2 deg.
 #pragma once
 
@@ -23,9 +23,9 @@
 
 namespace awmr {
 
-/// Returns one unit in the last decimal place with which the file writes a column, converted to
-/// awmr's unit of the column: 0.01 for speeds such as 1.25 m/s. For a column computed by a formula,
-/// the last place of its computed values. `mappings`: column mappings used to read the table.
+/// Returns the value of one unit in the last decimal place of a column, in awmr's unit of the
+/// column: 0.01 for speeds such as 1.25 m/s. For a column computed by a formula, the last place of
+/// its computed values. `mappings`: column mappings used to read the table.
 double last_place(const CsvTable& table, std::string_view column,
                   std::span<const ColumnMapping> mappings);
 

@@ -54,7 +54,7 @@ void report_scan(const Scan& scan, const std::string& file, AwlLog& log) {
          fmt::format("{} rows are missing: {}", log.lost, list_of(scan.lost, [](const Lost& lost) {
                        return fmt::format("{} before {:.6g} s ({})", lost.count, lost.before_s,
                                           lost.is_damaged ? "the file is damaged there"
-                                                          : "the chip had no room for them");
+                                                          : "the chip had no room to buffer them");
                      })));
   }
   if (log.damaged_bytes > 0) {

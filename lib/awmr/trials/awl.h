@@ -44,7 +44,7 @@ bool is_awl(std::string_view bytes);
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file);
 
 /// Reads a file by read_awl(), and records the hash of the file as an input of the command. Errors:
-/// as read_awl() and read_input().
+/// those of read_awl() and read_input().
 Result<AwlLog> read_awl_file(const std::filesystem::path& path);
 
 /// Returns the log as CSV text. Numbers are written in the shortest form that reads back exactly.

@@ -42,7 +42,7 @@ class ByteReader {
     offset_ += size;
     return taken;
   }
-  /// Returns the next number and advances, as take().
+  /// Returns the next number and advances past it. Returns nothing if fewer bytes are left.
   template <class T>
   std::optional<T> number(bool big = false) {
     const auto taken = take(sizeof(T));

@@ -35,6 +35,8 @@
 ///
 ///     arg((p(t1) - p(t0))/a) = phi + (k - 1) (psi(t0) + psi(t1))/2
 ///                              + k_2 (psi(t1) - psi(t0)) + k_3 t0
+///
+/// k_2 is due to sideslip and latency of the heading in turns, k_3 to a drift of the heading.
 #pragma once
 
 #include <optional>

@@ -144,9 +144,9 @@ double spike_limit(std::span<const double> value, std::span<const double> off, d
                    0.1 * range, 3.0 * quantum});
 }
 
-/// True if reading `k` is near the straight line through two neighbouring readings on one side (-1:
-/// before, 1: after). The nearer one is the nearest that is not itself a possible spike. Such a
-/// reading is a sharp change of motion, no spike.
+/// True if reading `k` is near the straight line through two readings on one side (-1: before, 1:
+/// after). The first of the two is the nearest reading that is not itself a possible spike, the
+/// second is its neighbour. If true, reading `k` is a sharp change of motion, not a spike.
 bool is_reached_from(std::span<const double> value, std::span<const double> off, double limit,
                      std::size_t k, std::ptrdiff_t side) {
   const auto rows = static_cast<std::ptrdiff_t>(value.size());

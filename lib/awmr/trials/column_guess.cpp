@@ -59,8 +59,8 @@ double largest(const std::vector<double>& values) {
 constexpr double kUsualStop_deg = 20.0;
 constexpr double kUsualVolts = 12.0;
 
-/// True if the values may be pulses of a servo or a motor driver, us: 1500 in the middle, 500 to
-/// either end.
+/// True if the values may be pulses of a servo or a motor driver, us: from 500 below to 500 above
+/// 1500.
 bool looks_like_pulses(const std::vector<double>& values) {
   if (values.empty()) return false;
   const auto [least, most] = std::ranges::minmax(values);

@@ -20,8 +20,8 @@ struct FileSample {
 };
 inline constexpr std::size_t kSampleRows = 1000;
 
-/// Reads the first rows of a file or a directory of files. Errors: as the reader of the file's
-/// format; a directory without a log.
+/// Reads the first rows of a file or a directory of files. Errors: those of the reader of the
+/// file's format; a directory without a log.
 Result<FileSample> sample_of(const std::filesystem::path& path);
 
 /// Confidence of a guess.

@@ -18,7 +18,7 @@ struct CsvTopics {
 /// Reads the files as signals. A signal is named `FILE.COLUMN` (FILE without extension), and also
 /// `COLUMN` if no other file has that column. Each file needs a time column: t_s, the source of a
 /// mapping to t_s, or one that find_time() recognises. All files must use the same clock. Errors:
-/// as read_csv(); files that do not overlap in time; a time of more than 9e9 s.
+/// those of read_csv(); files that do not overlap in time; a time of more than 9e9 s.
 Result<CsvTopics> read_csv_topics(std::span<const std::filesystem::path> paths,
                                   std::span<const ColumnMapping> mappings, const Wanted& wanted);
 

@@ -17,9 +17,9 @@ namespace awmr {
 
 bool is_dataflash_text(std::string_view bytes);
 
-/// As read_dataflash(), for the text form. Lines of an unknown type, lines with a wrong number of
-/// values and an incomplete last line are skipped, with a note. Errors, with the line: as
-/// read_dataflash(); a value that is not a number.
+/// Like read_dataflash(), but for the text form. Lines of an unknown type, lines with a wrong
+/// number of values and an incomplete last line are skipped, with a note. Errors, with the line:
+/// those of read_dataflash(); a value that is not a number.
 Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& file,
                                     const Wanted& wanted);
 

@@ -21,8 +21,8 @@ struct FieldRecord {
 };
 
 /// Reads the columns t_s, field_ahead, field_left and, if present, yaw_rate_radps. `mappings`:
-/// column mappings for the file. Errors: as read_csv(); time that does not rise; fewer than 30
-/// rows; a mapping to a column that is not one of these four; an unused mapping.
+/// column mappings for the file. Errors: those of read_csv(); time that does not rise; fewer than
+/// 30 rows; a mapping to a column that is not one of these four; an unused mapping.
 Result<FieldRecord> read_field(const std::filesystem::path& path,
                                const std::vector<ColumnMapping>& mappings);
 

@@ -130,7 +130,7 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
                          const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
   const ForceSpan of_one{thrust.least / n, thrust.largest / n};
-  // Values up to n are the sum n F' of n wheels in the right unit, but beyond n F'max.
+  // Values up to n can be the sum n F' of n wheels: the unit is right, but the sum exceeds n F'max.
   const bool is_sum = is_share_of_f_max(of_one);
   ForceUnits units;
   if (wheels && !is_sum) {

@@ -8,7 +8,7 @@
 ///     900 to 2200, no value below 900      microseconds of a servo pulse: F' = (us - 1500)/500
 ///     100, 255, 1000, 1023, 4095 +-0.5 %   percent, PWM counts or per mille, at full power
 ///     20 to 100 % of one of these          possibly that scale; the message lists all such scales
-///     n F/m of 0.1 to 30 m/s^2             possibly newtons (n driven wheels, mass m in kg)
+///     acceleration n F/m 0.1 to 30 m/s^2   possibly newtons (n driven wheels, mass m in kg)
 ///     2 to 60                              possibly volts
 ///
 /// Only a force at full power identifies a scale for certain. Therefore the largest force in all
@@ -55,7 +55,7 @@ struct ForceUnit {
 /// Possible units of forces beyond F'max.
 struct ForceUnits {
   std::vector<ForceUnit> units;  ///< the most likely first; never empty; only one if it is certain
-  std::string remedy = {};       ///< change of vehicle.json that also solves it, as text; or empty
+  std::string remedy = {};       ///< alternative: a change of vehicle.json, as text; may be empty
 
   bool is_clear() const { return units.size() == 1; }
 };

@@ -95,7 +95,7 @@ ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel chann
 /// True if at least 80 % of the times between successive `rows` are about equal. This is the case
 /// for readings of a slow sensor, and for a channel that only lacks the rows of a gap.
 bool are_regular(const std::vector<double>& t_s, const std::vector<std::size_t>& rows) {
-  constexpr double kAbout = 1.5;  // factor
+  constexpr double kAbout = 1.5;  // times that differ by less than this factor count as equal
   constexpr double kMost = 0.8;
   std::vector<double> gaps_s;
   for (std::size_t i = 1; i < rows.size(); ++i) gaps_s.push_back(t_s[rows[i]] - t_s[rows[i - 1]]);
@@ -124,8 +124,8 @@ std::vector<std::size_t> rows_between(std::size_t first, std::size_t last) {
   return rows;
 }
 
-/// Returns the values; each one after the first of `rows` that is not in `rows` is replaced by the
-/// last value in `rows` before it.
+/// Fills gaps: in each row that is not in `rows`, replaces the value by that of the last row before
+/// it that is in `rows`. Values before the first of `rows` stay unchanged.
 std::vector<double> held_between(const std::vector<std::size_t>& rows, std::vector<double> values) {
   auto next = rows.begin();
   for (std::size_t i = rows.front() + 1; i < values.size(); ++i) {
@@ -168,7 +168,7 @@ void join_position(DrivingLog& log) {
     const bool new_x = x.value[i] != x.value[i - 1];
     const bool new_y = y.value[i] != y.value[i - 1];
     // If a new value of x is not a measurement (a spike, or saturated), y of this row is not used
-    // either, and the reverse.
+    // either, and vice versa.
     const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
     x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
   }

@@ -41,9 +41,9 @@ struct Evidence {
   const Vehicle& vehicle;
   std::span<const ColumnMapping> mappings;  ///< column mappings used to read the log
   std::vector<EvidenceWindow> windows;      ///< consecutive windows without overlap
-  /// For robust_ratio(), which needs twenty windows: `windows`, and if they are fewer than twenty
-  /// also windows that overlap them by thirds. A log of ten seconds is then enough to detect a
-  /// wrong unit.
+  /// Windows for robust_ratio(), which needs twenty: those in `windows` and, if they are fewer than
+  /// twenty, also windows shifted by thirds of their length. A log of ten seconds is then enough to
+  /// detect a wrong unit.
   std::vector<EvidenceWindow> overlapping;
 
   bool has(LogChannel channel) const { return log[channel].has_value(); }

@@ -42,10 +42,10 @@ struct TrialOptions {
 
 /// Each function reads one table. Findings: the notes of CsvTable::notes(), `speed-mismatch`,
 /// `tau-speed-mismatch`, `yaw-rate-mismatch`, `tau-turn-mismatch`, `steering-stop`,
-/// `turned-by-sides`, `rows-set-aside`, `repeated-rows`. Errors: as read_csv(); missing columns, or
-/// columns that exclude each other; a negative force, speed, time or distance (force_left and
-/// force_right may be negative); turns whose signs, forces or angles contradict each other; a
-/// coast-down curve with fewer than three rows or with times that do not rise.
+/// `turned-by-sides`, `rows-set-aside`, `repeated-rows`. Errors: those of read_csv(); missing
+/// columns, or columns that exclude each other; a negative force, speed, time or distance
+/// (force_left and force_right may be negative); turns whose signs, forces or angles contradict
+/// each other; a coast-down curve with fewer than three rows or with times that do not rise.
 Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
                                       const TrialOptions& options, std::vector<Finding>& findings);
 Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, const Vehicle& vehicle,
@@ -58,14 +58,14 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
 /// channel of log.h other than steering_deg. A vehicle with steering also needs steering_cmd_deg or
 /// steering_deg. latitude_deg and longitude_deg may replace x_m (east) and y_m (north), in the
 /// local tangent plane at the first row used of each run. Findings: the notes of CsvTable::notes(),
-/// those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: as read_csv(); missing or
-/// contradictory columns; a latitude or longitude out of range; times that do not rise; fewer than
-/// 10 rows; no row left by used_s and excluded_s of the options; more than one run.
+/// those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: those of read_csv();
+/// missing or contradictory columns; a latitude or longitude out of range; times that do not rise;
+/// fewer than 10 rows; no row left by used_s and excluded_s of the options; more than one run.
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
                             std::vector<Finding>& findings);
 
-/// As read_log(), for a file with one or more runs, numbered by its column `run`. Returns one log
-/// per run, or several for a run that `excluded_s` divides.
+/// Like read_log(), but for a file with one or more runs, numbered by its column `run`. Returns one
+/// log per run, or several for a run that `excluded_s` divides.
 Result<std::vector<DrivingLog>> read_logs(const std::filesystem::path& path,
                                           const TrialOptions& options,
                                           std::vector<Finding>& findings);

@@ -166,7 +166,7 @@ class ModelStep {
   FrictionRates<T> friction_;
 };
 
-/// replay_rows() with the 3-DOF model. Precondition: as for ModelStep.
+/// replay_rows() with the 3-DOF model. Precondition: that of the constructor of ModelStep.
 template <class T, class Visit>
 void replay(const LogSignals& signals, std::size_t begin, std::size_t end, const Plant<T>& plant,
             const T* delay_s, double longest_step_s, State<T> state, Visit visit,

@@ -292,7 +292,7 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
       "that of the yaw rate";
   if (turn.follows_difference() || rate.follows_difference()) {
     return Contradiction{"speed_mps",
-                         fmt::format("{}, as the turning is ({:.2f}): {}", observed,
+                         fmt::format("{}, and so is the turning (R^2 {:.2f}): {}", observed,
                                      std::max(turn.of_difference, rate.of_difference), kReversed),
                          "", "map the column of the vehicle's speed, forward positive"};
   }

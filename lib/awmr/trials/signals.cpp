@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Checks the times and values of a topic. Errors: as join().
+/// Checks the times and values of a topic. Errors: those of join() about times and values.
 Status check(const Topic& topic, const Signals& signals, const std::string& file) {
   std::vector<Fault> faults;
   const auto fault = [&](ErrorCode code, std::size_t message, std::string text) {

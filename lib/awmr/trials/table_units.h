@@ -4,7 +4,7 @@
 ///     quantity                                  expected range
 ///     speed_mps over distance_m/elapsed_s       1; 3.6, 1000, 0.01, ... identify a unit
 ///     yaw_rate_radps over 2 pi turns/elapsed_s  1; 57.3, 1000 identify a unit
-///     fastest run over the vehicle's length     0.02 to 100 1/s: from a crawl to a racing model
+///     speed of fastest run/vehicle's length     0.02 to 100 1/s: from a crawl to a racing model
 ///     fastest turn, if timed                    0.01 rad/s and more; upper limit: turn_evidence.h
 ///     hardest coast-down, mean deceleration     0.01 m/s^2 (the best bearings) and more
 ///     gentlest coast-down, mean deceleration    20 m/s^2 (locked racing tyres) and less
@@ -30,8 +30,8 @@ struct WrongUnit {
 /// Returns the first column with values that are implausible in its unit; empty if there is none.
 std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehicle& vehicle);
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning);
-/// As wrong_unit() above, for coast-downs. `surge`: surge runs of the same vehicle, if there are
-/// any; the fastest of them limits the speed at which a coast-down can begin.
+/// Like wrong_unit() above, but for coast-downs. `surge`: surge runs of the same vehicle, if there
+/// are any; the fastest of them limits the speed at which a coast-down can begin.
 std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);

@@ -19,8 +19,8 @@ std::span<const CsvColumn> columns_of(TrialKind kind);
 std::span<const CsvColumn> turning_columns(const Vehicle& vehicle);
 
 /// Returns the options with the mappings of the vehicle file appended, and with `has_steering` and
-/// `driven_wheels` of the vehicle. Errors: as parse_column(); a mapping of a column that no trial
-/// has (the message suggests the closest name).
+/// `driven_wheels` of the vehicle. Errors: those of parse_column(); a mapping of a column that no
+/// trial has (the message suggests the closest name).
 Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& vehicle);
 
 /// Checks that every mapping of the options was used by a file. `used`: indices of the mappings

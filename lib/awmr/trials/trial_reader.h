@@ -24,7 +24,7 @@ class TrialReader {
   std::vector<double> take(std::string_view column) { return table_.take(column); }
   /// Returns the value of a cell; empty if the file has no such column or the cell is empty.
   std::optional<double> cell(std::size_t row, std::string_view column) const;
-  /// As cell(), and adds a fault if the value is negative.
+  /// Like cell(); also adds a fault if the value is negative.
   std::optional<double> non_negative(std::size_t row, std::string_view column);
 
   /// Adds a fault at the cell of this row and column; header_fault() adds one at the header.

@@ -168,10 +168,12 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
   const double difference = std::max(*right - *left, 0.5 * chord);
   if (!(difference > 0.0)) return std::nullopt;
   const double most = difference / (2.0 * vehicle.half_track_m);
-  return TurnShare{&row, row.yaw_rate_radps / most,
-                   fmt::format("while rolling wheels, which by the surge runs differ by {:.3g} m/s "
-                               "between left and right, turn at {:.3g} rad/s (over 2 half_track_m)",
-                               difference, most)};
+  return TurnShare{
+      &row, row.yaw_rate_radps / most,
+      fmt::format("while rolling wheels, which by the surge runs differ by {:.3g} m/s "
+                  "between left and right, turn at {:.3g} rad/s (this difference over 2 "
+                  "half_track_m)",
+                  difference, most)};
 }
 
 /// Yaw rate r of a steered turn, divided by the yaw rate at which the centripetal acceleration

@@ -65,7 +65,7 @@ std::optional<Field> field_of(std::string_view text) {
   return field;
 }
 
-/// Adds the numbers of a format to the layout, with `prefix` before their names. Errors: as
+/// Adds the numbers of a format to the layout, with `prefix` before their names. Errors: those of
 /// layout_of().
 tl::expected<void, std::string> lay_out(std::string_view format, const std::string& prefix,
                                         int depth, const Formats& formats, Layout& layout) {

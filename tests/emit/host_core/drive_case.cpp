@@ -132,8 +132,8 @@ void drive_wrong(double offset_deg, double servo_sign) {
   printf("stopped_s=%.2f cause=%d away_m=%.2f\n", stop.stopped_s, stop.cause, hypot(w.x, w.y));
 }
 
-/// The vehicle is turned by hand at `rate` until t = 6 s. Prints the heading at rest, and whether
-/// ARM was refused until then.
+/// The vehicle is turned by hand at `rate` until t = 6 s. Prints whether the vehicle could be armed
+/// while it turned and at rest, and the heading error at rest.
 void start_turning(double rate) {
   World& w = world;
   w.forced_turn = rate;

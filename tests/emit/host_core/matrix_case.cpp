@@ -62,12 +62,12 @@ std::string text_of(const char* format, double a) {
   return text;
 }
 
-/// Sends a command, as a frame after the first one.
+/// Sends a command: the first one as plain text, later ones as frames.
 void command(const std::string& text) {
   world.say(world.sequence > 0 ? frame(world.sequence += 2, text) : text + "\n");
 }
 
-/// Starts the sketch at rest and arms it. True: it is armed.
+/// Starts the sketch at rest and arms it. Returns true if it is armed.
 bool start_and_arm() {
   setup();
   world.run(kStart_s);
@@ -130,7 +130,7 @@ void run_failure(const Failure& one, Time when, const Setting& setting) {
 
 using Uniform = std::function<double(double, double)>;
 
-/// Sets random differences of a healthy vehicle and its sensors from the model.
+/// Draws a healthy vehicle and sensors that differ from the model at random.
 void draw_world(World& w, const Setting& setting, double wander_m, const Uniform& uniform) {
   w.psi = uniform(-kPi, kPi);
   w.mass_factor = uniform(0.7, 1.4);

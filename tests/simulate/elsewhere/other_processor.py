@@ -126,7 +126,7 @@ def on_skylake(folder, bits):
     run(["g++", *OPTIONS, *KERNELS["avx512"], f"-I{ROOT / 'tests'}", "-static", HERE.parent / "lane_operations_test.cpp", "-o", operations])
     boot_disc(folder, [bits, operations])
     (folder / "bochsrc").write_text(BOCHS.format(folder=folder))
-    (folder / "commands").write_text("c\n")  # Debian's Bochs starts in its debugger
+    (folder / "commands").write_text("c\n")  # Debian's Bochs starts in its debugger; "c" continues
     with open(folder / "bochs.txt", "w", encoding="utf-8") as told:
         subprocess.run(["bochs", "-q", "-f", "bochsrc", "-rc", "commands"], cwd=folder, stdin=subprocess.DEVNULL,
                        stdout=told, stderr=told, timeout=LONGEST_S, check=False)

@@ -1,4 +1,4 @@
-// Watchdog that records its setting.
+// Watchdog functions without effect.
 #pragma once
 #include <Arduino.h>
 enum { WDTO_250MS = 4, WDTO_500MS, WDTO_1S, WDTO_2S, WDTO_4S };
