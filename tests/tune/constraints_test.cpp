@@ -787,6 +787,34 @@ TEST(Constraints, IncludeTheDifferenceOfADrawToTheModel) {
       kRounding);
 }
 
+/// With a latency of 10 samples, poles that decay in 30 ms have a damping ratio of 0.27. The slowest
+/// poles decay in 1 s without oscillation. Faster gains have the same quick poles, but slow ones with
+/// a lower damping ratio, which counts.
+TEST(Constraints, CountQuickPolesOfALatencyLess) {
+  const SampledHeadingLoop slow{.lambda = 0.69,
+                                .reaching_rate = 1.36,
+                                .resistance_rate = 19.0,
+                                .fed_forward_rate = 19.0,
+                                .servo_time_constant_s = 0.02,
+                                .sample_time_s = 0.02,
+                                .direct_share = 1.0,
+                                .motor_time_constant_s = 0.02,
+                                .command_delay_s = 0.2};
+  EXPECT_GT(dominant_damping_ratio(slow), damping_ratio(slow) + 0.05);
+  SampledHeadingLoop fast = slow;
+  fast.lambda = 12.0;
+  fast.reaching_rate = 24.0;
+  EXPECT_LT(dominant_damping_ratio(fast), 0.7 * dominant_damping_ratio(slow));
+  // Both have the same sign: positive exactly if the loop is stable.
+  for (double factor = 0.1; factor < 200.0; factor *= 1.3) {
+    SampledHeadingLoop loop = slow;
+    loop.lambda *= factor;
+    loop.reaching_rate *= factor;
+    EXPECT_EQ(dominant_damping_ratio(loop) > 0.0, damping_ratio(loop) > 0.0) << factor;
+    EXPECT_GE(dominant_damping_ratio(loop), damping_ratio(loop)) << factor;
+  }
+}
+
 TEST(Constraints, RequireDampingWithLatency) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   const std::size_t without = constraints_of(kPaperGains, context).size();

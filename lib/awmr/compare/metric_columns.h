@@ -70,7 +70,7 @@ inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
      1.0},
     {MetricId::kCrossTrack, "cross_track_rms_m", "x-track", "m", &Metrics::cross_track_rms_m, 0.05,
      1.0},
-    {MetricId::kPathLength, "path_length_m", "path", "m", &Metrics::path_length_m},
+    {MetricId::kPathLength, "path_length_m", "", "m", &Metrics::path_length_m},
     {MetricId::kSpeedDrop, "speed_drop_mps", "drop", "m/s", &Metrics::speed_drop_mps, 0.02, 1.0},
     {MetricId::kSideslip, "sideslip_max_deg", "slip", "deg", &Metrics::sideslip_max_deg, 0.5, 0.0},
     {MetricId::kYawRate, "yaw_rate_max_degps", "yaw", "deg/s", &Metrics::yaw_rate_max_degps},
@@ -78,12 +78,12 @@ inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
      0.05, 0.0},
     {MetricId::kClearance, "clearance_min_m", "clear", "m", &Metrics::clearance_min_m},
     {MetricId::kFinishTime, "finish_time_s", "finish", "s", &Metrics::finish_time_s, 0.1, 1.0},
-    {MetricId::kEnergyMech, "energy_mech", "", "m", &Metrics::energy_mech, 0.05, 1.0},
+    {MetricId::kEnergyMech, "energy_mech", "energy", "m", &Metrics::energy_mech, 0.05, 1.0},
     {MetricId::kEnergyElectric, "energy_electric", "", "s", &Metrics::energy_electric, 0.5, 0.0},
     {MetricId::kSaturation, "saturation_s", "", "s", &Metrics::saturation_s, 0.1, 0.0},
     {MetricId::kSteeringTravel, "steering_travel_deg", "", "deg", &Metrics::steering_travel_deg,
      5.0, 0.0},
-    {MetricId::kTyreWork, "tyre_work", "", "m", &Metrics::tyre_work, 0.01, 1.0},
+    {MetricId::kTyreWork, "tyre_work", "tyres", "m", &Metrics::tyre_work, 0.01, 1.0},
     {MetricId::kElectricWork, "electric_work_j", "", "J", &Metrics::electric_work_j, 1.0, 0.0},
 }};
 

@@ -90,6 +90,7 @@ std::string share_text(const RankedMode& other) {
 std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided,
                        const Preferences& preferences) {
   const RankedMode& best = ranking.front();
+  if (ranking.size() == 1) return best.contender.label() + " is the only one compared";
   std::vector<std::string> first{best.contender.label()};
   first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
   if (first.size() == 1) return first.front() + (is_undecided ? " is ahead here" : " is best");
@@ -167,7 +168,7 @@ std::string decision_text(const Decision& decision) {
   for (const Change& change : decision.changes) {
     if (!is_undecided) {
       words.push_back(in_words(change));
-    } else if (change.first != decision.first) {
+    } else if (!std::ranges::is_permutation(change.first, decision.first)) {
       words.push_back(fmt::format("{} first {}", listed(change.first), in_words(change)));
     }
   }

@@ -69,10 +69,11 @@ void add_draws(const ConstraintContext& context, std::vector<ExaminedLoop>& loop
   }
 }
 
-/// Smallest damping ratio over the modes and the loops.
+/// Smallest damping ratio over the modes and the loops, computed by `damping`.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
                        std::span<const ExaminedLoop> loops, double latency_s,
-                       double motor_time_constant_s) {
+                       double motor_time_constant_s,
+                       double (*damping)(const SampledHeadingLoop&) = damping_ratio) {
   constexpr YawMode kAll[] = {YawMode::kDifferential, YawMode::kCombined, YawMode::kSteering};
   const auto modes = context.mode ? std::span(&*context.mode, 1)
                                   : std::span(kAll).first(context.has_steering ? 3 : 1);
@@ -83,7 +84,7 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
           heading_loop(gains, context, *examined.plant, examined.rate_radps, mode);
       loop.motor_time_constant_s = motor_time_constant_s;
       loop.command_delay_s = latency_s;
-      worst = std::min(worst, damping_ratio(loop));
+      worst = std::min(worst, damping(loop));
     }
   }
   return worst;
@@ -235,9 +236,12 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
     add_draws(context, loops);
     const double lag_s = context.motor_time_constant_s;
     worst.push_back(at_least(
-        "late damping", heading_damping(gains, context, loops, context.latency_s, lag_s),
+        "late damping",
+        heading_damping(gains, context, loops, context.latency_s, lag_s, dominant_damping_ratio),
         context.limits.late_damping,
-        "smallest damping ratio of the heading loop with latency and motor lag >= required"));
+        "smallest damping ratio of the slow poles of the heading loop with latency and motor lag "
+        ">= "
+        "required"));
     const double doubled_s = 2.0 * context.latency_s + context.sample_time_s;
     worst.push_back(at_least("delay margin",
                              heading_damping(gains, context, ends, doubled_s, lag_s),

@@ -1,6 +1,7 @@
 /// Constraints of the gains that are computed from formulas, without simulation. Private to tune/.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "awmr/core/units.h"
@@ -40,7 +41,9 @@ struct ConstraintContext {
   double fastest_radps = radians(60.0);  ///< highest yaw rate of the runs, > 0
   TuningLimits limits = {};              ///< absent steering_rate_rms_degps: no limit of the
                                          ///< steering rate
-  Interval wheel_force{-1.0, 1.0};       ///< range of F', the force of one wheel divided by F_max
+  /// Highest rate of the steering servo, deg/s. Infinite without steering.
+  double servo_rate_degps = std::numeric_limits<double>::infinity();
+  Interval wheel_force{-1.0, 1.0};  ///< range of F', the force of one wheel divided by F_max
   double heading_noise_rad = radians(1.0);     ///< standard deviation of the noise, >= 0
   double yaw_rate_noise_radps = radians(0.5);  ///< standard deviation of the noise, >= 0
   double heading_correlation = 0.0;      ///< correlation of the heading noise between two samples

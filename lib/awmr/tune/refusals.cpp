@@ -31,10 +31,26 @@ std::string in_words(const Gains<double>& g) {
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
+/// Text such as " 32 % of the runs settle with these gains. This change lets the runs settle: ...".
+/// Empty if enough runs settle.
+std::string unsettled_text(const Objective& objective, const ConstraintContext& context,
+                           const Gains<double>& gains) {
+  ObjectiveSetting setting = on_few_vehicles(objective.setting());
+  setting.goals.clear();
+  const double share = settled_share(setting, gains);
+  if (share >= kSettledShare) return {};
+  const std::vector<SettlingChange> changes =
+      changes_that_settle(setting, context, gains, kSettledShare);
+  return fmt::format(
+      " {:.0f} % of the runs settle with these gains. {}.", 100.0 * share,
+      changes.empty() ? no_change_settles("the runs") : describe(changes, "the runs"));
+}
+
 /// Error that names the goal which the gains nearest to the limits miss most. Empty if these gains
 /// meet all goals.
 std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, const Evaluation& e,
                                                  const Objective& objective,
+                                                 const ConstraintContext& context,
                                                  const TuneOptions& requested) {
   const std::vector<GoalInMode> goals = by_mode(objective.goals(), objective.modes());
   std::size_t worst = goals.size();
@@ -51,10 +67,10 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
       ErrorCode::kNoGains,
       fmt::format(
           "no gains within the bounds reach the goal \"{}\": of {} evaluated, the nearest ({}) "
-          "need {:.3g} times its limits. Make the goal soft, raise its limits, or increase "
+          "need {:.3g} times its limits.{} Make the goal soft, raise its limits, or increase "
           "local_evaluations{}",
           goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
-          e.goal_quantile[worst],
+          e.goal_quantile[worst], unsettled_text(objective, context, found.nearest.gains),
           is_rate_limited ? "; one default scenario is slow, because it limits the heading rate to "
                             "the measured one: " +
                                 option_text("heading_rate_limit") + " none removes that scenario"
@@ -93,9 +109,9 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
 }
 
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,
-                                const TuneOptions& requested) {
+                                const ConstraintContext& context, const TuneOptions& requested) {
   const Evaluation e = objective(found.nearest.gains);
-  if (auto missed = goal_missed(found, e, objective, requested)) return *missed;
+  if (auto missed = goal_missed(found, e, objective, context, requested)) return *missed;
   const std::string gains = in_words(found.nearest.gains);
   if (!e.valid) {
     return refused_at(

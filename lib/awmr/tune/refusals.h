@@ -20,7 +20,7 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
 /// Error if no gains meet the limits that need simulated runs: names the goal, activity limit or
 /// constraint that the gains with the smallest violation violate most.
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,
-                                const TuneOptions& requested);
+                                const ConstraintContext& context, const TuneOptions& requested);
 
 /// Error if gains meet every limit but none of the `runs` runs settles: names the `changes` with
 /// which runs settle.

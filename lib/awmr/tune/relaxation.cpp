@@ -125,19 +125,24 @@ std::string pointer_to(const std::string& constraint) {
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context) {
   constexpr double kShares[] = {0.25, 0.5, 0.75, 1.0};
   constexpr double kFactors[] = {1.2, 2.0, 5.0, 20.0};
+  constexpr double kOfServo = 2.0;
   ConstraintContext given = context;
   ConstraintContext by_default;
   std::vector<std::vector<RelaxedLimit>> all;
   for (const Limit& limit : limits()) {
     std::vector<RelaxedLimit> numbers;
     const auto add = [&](double number) {
-      numbers.push_back({.key = limit.key, .number = number, .context = context});
+      numbers.push_back({.key = limit.key,
+                         .number = number,
+                         .is_steering_rate = sets(limit, kSteeringRate),
+                         .context = context});
       limit.of(numbers.back().context) = number;
     };
     if (sets(limit, kSteeringRate)) {
       const auto& rate = context.limits.steering_rate_rms_degps;
       for (const double factor : kFactors) {
-        if (rate && context.steers()) add(std::ceil(factor * *rate));
+        const bool is_possible = rate && factor * *rate <= kOfServo * context.servo_rate_degps;
+        if (is_possible && context.steers()) add(std::ceil(factor * *rate));
       }
     } else {
       const double strict = limit.of(given);

@@ -21,12 +21,14 @@ std::string pointer_to(const std::string& constraint);
 struct RelaxedLimit {
   const char* key;            ///< "limits/damping"
   double number;              ///< the new value of the limit
+  bool is_steering_rate;      ///< the limit is limits/steering_rate_rms_degps
   ConstraintContext context;  ///< the context in which the limit has this value
 };
 
 /// For each limit of the context that can be relaxed, some less strict values, strictest first:
 ///   - limits that are stricter than their default: up to the default
-///   - the limit of the steering rate: up to 20 times the present one
+///   - the limit of the steering rate: up to 20 times the present one, and up to twice the rate of
+///     the servo
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);
 
 /// Changes of one limit, of one requested bound or of `form`, each of which alone permits gains

@@ -19,12 +19,16 @@
 namespace awmr {
 namespace {
 
-/// Damping ratio of s = ln(z)/T_s.
-double damping_of(const std::complex<double>& z) {
-  if (std::abs(z) < kGoneWithinASample) return 1.0;
+/// A pole of the continuous loop times the sample time: s T_s = ln(z).
+struct Pole {
+  double decay = 0.0;    ///< sigma T_s = -Re(s) T_s; negative: unstable
+  double damping = 0.0;  ///< zeta = sigma/|s|
+};
+Pole pole_of(const std::complex<double>& z) {
+  if (std::abs(z) < kGoneWithinASample) return {-std::log(kGoneWithinASample), 1.0};
   const std::complex<double> s = std::log(z);
   const double magnitude = std::abs(s);
-  return magnitude > 0.0 ? -s.real() / magnitude : 0.0;
+  return {-s.real(), magnitude > 0.0 ? -s.real() / magnitude : 0.0};
 }
 
 /// States psi, r, w_servo, w_motor and the held input w.
@@ -124,7 +128,24 @@ Eigen::MatrixXd closed_loop(const SampledHeadingLoop& loop) {
 double damping_ratio(const SampledHeadingLoop& loop) {
   const Eigen::VectorXcd poles = eigenvalues(closed_loop(loop));
   double worst = 1.0;
-  for (const std::complex<double>& z : poles) worst = std::min(worst, damping_of(z));
+  for (const std::complex<double>& z : poles) worst = std::min(worst, pole_of(z).damping);
+  return worst;
+}
+
+double dominant_damping_ratio(const SampledHeadingLoop& loop) {
+  constexpr double kQuick = 20.0;
+  std::vector<Pole> poles;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& z : eigenvalues(closed_loop(loop))) {
+    poles.push_back(pole_of(z));
+    slowest = std::min(slowest, poles.back().decay);
+  }
+  double worst = 1.0;
+  for (const Pole& pole : poles) {
+    const double counted =
+        slowest > 0.0 ? std::max(pole.damping, pole.decay / (kQuick * slowest)) : pole.damping;
+    worst = std::min(worst, counted);
+  }
   return worst;
 }
 

@@ -195,13 +195,13 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   AWMR_RETURN_IF_ERROR(check_baseline(all, baseline));
   const Objective some(searched(setting, options), baseline.gains);
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, some, all, starts));
-  SettledGains settled{.gains = found.nearest.gains};
+  SettledGains settled{found.nearest.gains, {}, {}};
   if (found.best) settled = settle(options, context, some, all, *found.best);
   if (auto observed =
           with_needed_observer(model, setting, context, requested, held_out, settled.gains)) {
     return *std::move(observed);
   }
-  if (!found.best) return not_found(found, all, requested);
+  if (!found.best) return not_found(found, all, context, requested);
   return tuning_of({model, setting, context, options, baseline, all, some, found, settled},
                    held_out);
 }

@@ -67,9 +67,11 @@ bool poles_settle(const ObjectiveSetting& setting, const ConstraintContext& cont
   });
 }
 
-std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
-                                          const ConstraintContext& context,
-                                          const Gains<double>& gains, double share) {
+/// Bandwidth, rad/s, of an observer with which, and with gains by pole placement, the runs settle.
+/// Empty if there is none.
+std::optional<double> settling_bandwidth_radps(const ObjectiveSetting& setting,
+                                               const ConstraintContext& context,
+                                               const Gains<double>& gains, double share) {
   if (gains.observer.is_on()) return std::nullopt;
   const Plant<double>& plant = context.plant;
   const double authority_m = turning_authority_m(context.own(), context.speed_mps);
@@ -80,9 +82,30 @@ std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
     if (bandwidth_radps * context.sample_time_s >= 1.0) break;
     const ObserverGains<double> observer{bandwidth_radps, kObserverShare * authority_m,
                                          kObserverShare * thrust};
-    if (!poles_settle(setting, context, share, observer)) continue;
-    return SettlingChange{"/observer", fmt::format("{} (confirmed with a bandwidth of {:g} rad/s)",
-                                                   option_text("observer"), bandwidth_radps)};
+    if (poles_settle(setting, context, share, observer)) return bandwidth_radps;
+  }
+  return std::nullopt;
+}
+
+/// An observer; if it does not suffice, together with a relaxed limit of the steering rate.
+std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
+                                          const ConstraintContext& context,
+                                          const Gains<double>& gains, double share) {
+  const auto change = [](double bandwidth_radps, const std::string& more) {
+    return SettlingChange{"/observer",
+                          fmt::format("{}{} (confirmed with a bandwidth of {:g} rad/s)",
+                                      option_text("observer"), more, bandwidth_radps)};
+  };
+  if (const auto bandwidth = settling_bandwidth_radps(setting, context, gains, share)) {
+    return change(*bandwidth, "");
+  }
+  for (const std::vector<RelaxedLimit>& numbers : relaxed_limits(context)) {
+    for (const RelaxedLimit& limit : numbers) {
+      if (!limit.is_steering_rate) continue;
+      if (const auto bandwidth = settling_bandwidth_radps(setting, limit.context, gains, share)) {
+        return change(*bandwidth, fmt::format(" together with `{}` {:g}", limit.key, limit.number));
+      }
+    }
   }
   return std::nullopt;
 }
@@ -152,7 +175,8 @@ bool observer_settles_more(const ObjectiveSetting& setting, const ConstraintCont
     for (const YawMode mode : setting.modes()) {
       const ObjectiveSetting runs = runs_in(setting, scenario.name, mode);
       if (settled_share(runs, gains) >= kSettledShare) continue;
-      if (an_observer(on_few_vehicles(runs), context, gains, kSettledShare)) return true;
+      if (settling_bandwidth_radps(on_few_vehicles(runs), context, gains, kSettledShare))
+        return true;
     }
   }
   return false;

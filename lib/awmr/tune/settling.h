@@ -34,7 +34,8 @@ bool observer_settles_more(const ObjectiveSetting& setting, const ConstraintCont
 /// setting settle:
 ///   - 2 or 4 times the time of the scenarios and their headings
 ///   - no heading-rate limit, if there is one
-///   - an observer, if the gains have none, with gains by pole placement
+///   - an observer, if the gains have none, with gains by pole placement; if it does not suffice,
+///     together with a relaxed limit of the steering rate
 ///   - gains for one mode only, by pole placement, if several modes are tuned
 ///   - a relaxed limit (relaxed_limits()), with the same gains or those by pole placement
 std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,

@@ -129,7 +129,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   context.yaw_rate_correlation = noise_correlation(c.yaw_rate_correlation_s, context.sample_time_s);
   context.latency_s = std::max(c.heading_latency_s, c.yaw_rate_latency_s);
   context.motor_time_constant_s = c.motor_time_constant_s;
-  limit_steering_rate(model.vehicle, context);
+  limit_steering_rate(context);
   AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
   AWMR_RETURN_IF_ERROR(evaluate_candidates(model, setting, options, candidates_of(tuning), robust));

@@ -67,9 +67,10 @@ struct TuningLimits {
   ///   - 0.9 of the servo's rate limit, which counts as at most 2 d_max/T, T its time constant;
   ///   - 1.25 times the rate that the feed-forward g3(r) of a noisy yaw rate causes by itself.
   std::optional<double> steering_rate_rms_degps = {};
-  double damping = 0.7;           ///< smallest damping ratio of the heading loop without latency
-                                  ///< and motor lag, [1e-6, 1]
-  double late_damping = 0.25;     ///< smallest damping ratio with latency and motor lag, [1e-6, 1]
+  double damping = 0.7;  ///< smallest damping ratio of the heading loop without latency
+                         ///< and motor lag, [1e-6, 1]
+  double late_damping =
+      0.25;  ///< smallest dominant_damping_ratio() with latency and motor lag, [1e-6, 1]
   double delayed_damping = 0.05;  ///< smallest damping ratio with motor lag and twice the latency
                                   ///< plus one sample, [1e-6, 1]
   /// Largest share of the largest yaw moment of the weaker mode (turning_authority_m()) that

@@ -47,6 +47,11 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
                             .fastest_radps = kSlowest_radps,
                             .limits = options.limits,
                             .wheel_force = vehicle.wheel_force};
+  if (context.has_steering) {
+    context.servo_rate_degps =
+        std::min(vehicle.steering_max_rate_degps,
+                 2.0 * degrees(plant.steering_max_rad) / plant.steering_time_constant_s);
+  }
   for (const Scenario& s : scenarios) {
     context.speed_mps = std::max(context.speed_mps, s.speed_mps);
     context.step_rad = std::max(context.step_rad, largest_step_rad(s));
@@ -59,20 +64,17 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
   return context;
 }
 
-void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context) {
+void limit_steering_rate(ConstraintContext& context) {
   if (context.limits.steering_rate_rms_degps || !context.steers()) return;
   constexpr double kShareOfServo = 0.9;
   constexpr double kOverFeedForward = 1.25;
-  const double servo_degps =
-      std::min(vehicle.steering_max_rate_degps, 2.0 * degrees(context.plant.steering_max_rad) /
-                                                    context.plant.steering_time_constant_s);
   const Gains<double> none{{0.0, 0.0, 1.0}, {0.0, 1.0}};
   // The default is computed without Coulomb friction: with_friction_width() keeps the noise that
   // friction adds within the limit.
   ConstraintContext without_friction = context;
   without_friction.plant.yaw.coulomb = 0.0;
   context.limits.steering_rate_rms_degps =
-      std::max(kShareOfServo * servo_degps,
+      std::max(kShareOfServo * context.servo_rate_degps,
                kOverFeedForward * steering_rate_rms_degps(none, without_friction));
 }
 

@@ -19,7 +19,7 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
                              const Vehicle& vehicle, const std::vector<Scenario>& scenarios);
 
 /// Sets the limit of the steering rate to its default, if it is absent (TuningLimits).
-void limit_steering_rate(const Vehicle& vehicle, ConstraintContext& context);
+void limit_steering_rate(ConstraintContext& context);
 
 /// Sets the default limits of an observer. Errors (input): at the speed of the scenarios, the
 /// wheels have no force left to compensate a disturbance.

@@ -51,8 +51,9 @@ Vector4 held(const Loop& loop, const Geometry& g, Vector4 x, double command, dou
 
 /// Smallest damping ratio of the sampled loop, from the eigenvalues of its transition matrix over
 /// one sample. Modes that decay to less than a tenth of their amplitude within a sample are
-/// ignored.
-double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
+/// ignored. With latency, a mode that decays n times as fast as the slowest one counts with a
+/// damping ratio of at least n/20.
+double damping(const Loop& loop, const Geometry& g, const LawGains& k, bool counts_decay) {
   const double k_s = k.mu / k.epsilon;
   // Delayed commands, the oldest first: the oldest acts in the first part of the sample, the next
   // one after it.
@@ -76,17 +77,22 @@ double damping(const Loop& loop, const Geometry& g, const LawGains& k) {
     if (n > 4) map(n - 1, i) = ordered;
   }
   const Eigen::VectorXcd poles = Eigen::EigenSolver<Eigen::MatrixXd>(map, false).eigenvalues();
+  double slowest = 1e300;
+  for (const std::complex<double>& z : poles) slowest = std::min(slowest, -std::log(std::abs(z)));
   double least = 1.0;
   for (const std::complex<double>& z : poles) {
     if (std::abs(z) < 0.1) continue;
     const std::complex<double> s = std::log(z);
-    if (std::abs(s) > 0.0) least = std::min(least, -s.real() / std::abs(s));
+    if (!(std::abs(s) > 0.0)) continue;
+    double ratio = -s.real() / std::abs(s);
+    if (counts_decay && slowest > 0.0) ratio = std::max(ratio, -s.real() / slowest / 20.0);
+    least = std::min(least, ratio);
   }
   return least;
 }
 
 double least_damping(const Controls& c, const Geometry& g, const Body& body, double rate,
-                     double latency_s, double motor_s) {
+                     double latency_s, double motor_s, bool counts_decay = false) {
   Loop loop{.own_rate = body.yaw.slope(rate) / body.inertia,
             .known_rate = c.fed_forward == FedForward::kMeasured
                               ? c.known.yaw.slope(rate) / c.known.inertia
@@ -95,11 +101,11 @@ double least_damping(const Controls& c, const Geometry& g, const Body& body, dou
             .by_forces = 1.0,
             .motor_s = motor_s,
             .latency_s = latency_s};
-  double least = damping(loop, g, c.gains);
+  double least = damping(loop, g, c.gains, counts_decay);
   if (!(g.servo_s > 0.0)) return least;
   for (const double share : {0.5, 0.0}) {
     loop.by_forces = share;
-    least = std::min(least, damping(loop, g, c.gains));
+    least = std::min(least, damping(loop, g, c.gains, counts_decay));
   }
   return least;
 }
@@ -200,7 +206,7 @@ double excess(const Controls& c, const Geometry& g, const SensorErrors& errors,
       const double r = std::max(share * examined.fastest_radps, slowest);
       take(below(least_damping(c, g, *body, r, 0.0, 0.0), limits.damping));
       if (share > 0.5 || share < 0.05) {
-        take(below(least_damping(c, g, *body, r, latency_s, g.motor_s), limits.late_damping));
+        take(below(least_damping(c, g, *body, r, latency_s, g.motor_s, true), limits.late_damping));
         take(below(least_damping(c, g, *body, r, 2.0 * latency_s + g.sample_s, g.motor_s),
                    limits.delayed_damping));
       }

@@ -31,6 +31,7 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
   ASSERT_TRUE(scenarios) << to_text(scenarios.error());
   TuneOptions options;
   options.evaluation_draws = 0;
+  options.adds_observer = false;  // the independent simulator has no observer
   const auto start = std::chrono::steady_clock::now();
   const Result<Tuning> tuning = tune(model, options);
   const double took_s =
