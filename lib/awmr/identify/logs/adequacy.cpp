@@ -93,7 +93,7 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     if (!noise.of_the_model()) continue;
     std::string advice = possible_causes(channel);
     if (channel == LogChannel::kSpeed && try_families) {
-      advice = try_alternatives(best_family(logs, power_law, chosen, {.only_candidates = false}),
+      advice = try_alternatives(best_family(logs, power_law, chosen, {.open = {}, .only_candidates = false}),
                                 chosen, adequacy)
                    .value_or(advice);
     }

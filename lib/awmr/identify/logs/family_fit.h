@@ -41,6 +41,11 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
                    const FamilyFit& inner, Family surge, Family yaw,
                    const std::vector<FreeTerm>& more = {});
 
+/// fit_roughly() under the families `surge` and `yaw`, starting from the curves nearest to those of
+/// `inner`.
+FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                           const FamilyFit& inner, Family surge, Family yaw);
+
 /// Fits the logs with Coulomb, linear and Stribeck friction of the yaw rate (`of_yaw`) or the
 /// speed, starting from the optimum of `inner`, a usable fit of other families.
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
