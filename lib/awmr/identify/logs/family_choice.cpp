@@ -36,11 +36,14 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
 }
 
 /// True if a family with more terms may be better. One of these reasons suffices: the score test of
-/// a term predicts a large decrease of -2 ln L; the errors have a slow drift, which can hide a
-/// missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for terms of surge.
+/// a term predicts a large decrease of -2 ln L; no term was tested; the errors have a slow drift,
+/// which can hide a missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
-  if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
+  if (!fit.usable || fit.candidate_gain.empty() ||
+      largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) {
+    return true;
+  }
   const auto drifts = [&](LogChannel channel) {
     const auto noise = fit.noise.find(channel);
     return noise != fit.noise.end() && noise->second.has_slow_drift();
@@ -91,9 +94,8 @@ std::optional<Finding> power_law_inadequate(const std::string& file, const BestF
     const std::string with = families_in_words(best.surge, best.yaw);
     const std::string without = families_in_words(power->surge, power->yaw);
     reasons.push_back(
-        power->fit.usable
-            ? fmt::format("the AIC of {} is lower by {:.0f} than that of {}", with,
-                          aic_lead(best.fit, power->fit), without)
+        power->fit.usable ? fmt::format("the AIC of {} is lower by {:.0f} than that of {}", with,
+                                        aic_lead(best.fit, power->fit), without)
         : power->fit.gave_up
             ? fmt::format("the errors of {} are {:.2g} times those of {}", without,
                           std::sqrt(power->fit.first_error / best.fit.first_error), with)
@@ -242,7 +244,7 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
 /// if its fit had other delays, lags or command errors than `best`: with wrong terms, the true
 /// family can lose by any amount.
 std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
-                                        std::vector<FamilyFit>& others) {
+                                       std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);
   const std::set<std::string> terms = names_of_terms(best.fit);
   std::vector<Families> again;
@@ -275,14 +277,12 @@ std::vector<Finding> undecided_axes(const std::string& file, const BestFamily& r
   return findings;
 }
 
-/// True if other yaw families (`of_yaw`) or surge families are to be fitted, according to `first`.
-bool is_contested(const LogFitOptions& power_law, const FamilyFit& first,
+/// True if other yaw families (`of_yaw`) or surge families are to be fitted, according to `fit`.
+bool is_contested(const LogFitOptions& power_law, const FamilyFit& fit,
                   const FamilyContest& contest, bool of_yaw) {
   if (!contest.open.has(of_yaw)) return false;
-  const bool is_power_law = (!contest.open.surge || first.surge == Family::kPower) &&
-                            (!contest.open.yaw || first.yaw == Family::kPower);
-  return !contest.only_candidates || !is_power_law ||
-         suspicious(first.fit, power_law.candidate_terms, of_yaw);
+  return !contest.only_candidates || (of_yaw ? fit.yaw : fit.surge) != Family::kPower ||
+         suspicious(fit.fit, power_law.candidate_terms, of_yaw);
 }
 
 }  // namespace
@@ -345,9 +345,8 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};
   BestFamily& result = comparison.result;
   for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {
-    // If another family than the power law is selected on one axis, the other axis is compared too.
-    // Reasons: the errors of a wrong law of one axis can hide those of the other, and if the
-    // friction of one axis is not a power law, that of the other is probably not one either.
+    // Whether an axis is compared is decided again after a change of the other axis, because the
+    // errors of a wrong law of one axis can hide those of the other.
     if (comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;
     if (!is_contested(power_law, result.best, contest, of_yaw)) continue;
     comparison.compare(of_yaw, other_families(comparison.families(), of_yaw));

@@ -51,9 +51,9 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const FamilyFit& inner, bool of_yaw);
 
-/// If `alternative` is better than `first`, repeats the search for the families of `first` from the
-/// optimum of `alternative`, so that `first` does not lose only because its search failed. Returns
-/// `first` or, if better, the repeated fit.
+/// If the AIC of `alternative` is lower than that of `first` by more than 2, repeats the search for
+/// the families of `first` from the optimum of `alternative`, so that `first` does not lose only
+/// because its search failed. Returns `first` or, if better, the repeated fit.
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 

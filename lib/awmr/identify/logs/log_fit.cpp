@@ -152,8 +152,8 @@ LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& opt
   LogFit fit;
   fit.quantities = rough.model.quantities;
   fit.coordinates = solved.point.coordinates;
-  fit.first_error = solved.usable ? first_error(rough, solved.cost)
-                                  : std::numeric_limits<double>::infinity();
+  fit.first_error =
+      solved.usable ? first_error(rough, solved.cost) : std::numeric_limits<double>::infinity();
   return fit;
 }
 

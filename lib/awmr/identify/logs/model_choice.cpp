@@ -107,8 +107,7 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
     return kind == Kind::kSteeringDelay || kind == Kind::kSteeringDeadBand ||
            kind == Kind::kSteeringAsymmetry;
   });
-  const FamilyFit follows =
-      fit_family(with_measured_steering(logs), from, first.surge, first.yaw);
+  const FamilyFit follows = fit_family(with_measured_steering(logs), from, first.surge, first.yaw);
   // A servo lag together with equally late time stamps also describes measured angles, but needs
   // two more terms. A lower AIC of the model without these terms therefore suffices.
   const double threshold = late_stamps_s > 0.0 ? 0.0 : kFamilyAicThreshold;
