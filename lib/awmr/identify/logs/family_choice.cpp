@@ -228,7 +228,6 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
   std::erase_if(options.terms,
                 [](const FreeTerm& term) { return !term.quantity.is_stribeck_or_slope(); });
   options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
-  options.candidate_terms = power_law.candidate_terms;
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
   if (is_over(power_law)) {
     result.is_out_of_time = true;

@@ -131,7 +131,6 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
   options.initial_guess = fitted_values(fit.options, fit.fit);
   options.guessed.clear();
   options.also_from.clear();
-  options.candidate_terms.clear();
   options.finds_delays = false;
   return options;
 }

@@ -20,7 +20,7 @@ struct FamilyFit {
 bool is_over(const LogFitOptions& options);
 
 /// Returns the options for a fit that starts only at the optimum of `fit`. The new fit has the
-/// delays and command errors of `fit`, searches no others and tests no candidate terms.
+/// delays and command errors of `fit` and searches no others.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
 /// Fits the logs under the families `surge` and `yaw`. Precondition: `options` already frees the

@@ -50,7 +50,6 @@ FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power
                  const FamilyFit& rough) {
   LogFitOptions options = from_optimum(rough.options, rough);
   options.finds_delays = power_law.finds_delays;
-  options.candidate_terms = power_law.candidate_terms;
   return fit_with(logs, std::move(options), rough.surge, rough.yaw);
 }
 
