@@ -216,18 +216,35 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions po
   }
 }
 
-/// Searches delays, lags and command errors again for the best families. Reason: terms that were
-/// found with other families may only have compensated for a wrong resistance. Keeps the new fit if
-/// it is better.
+/// True if the errors of the fit are those of the sensors, and each of its delays, lags and command
+/// errors is significant.
+bool has_right_terms(const LogFit& fit) {
+  constexpr double kErrorOfSensors = 1.2;
+  if (!(fit.first_error < kErrorOfSensors)) return false;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const FreeQuantity& q = fit.quantities[i];
+    const bool is_term =
+        q.kind != FreeQuantity::Kind::kParameter && q.kind != FreeQuantity::Kind::kBias;
+    if (is_term && q.scale == Scale::kLinear && !q.is_form() && !fit.is_significant(i))
+      return false;
+  }
+  return true;
+}
+
+/// Searches delays, lags and command errors again for the best families; from the beginning unless
+/// has_right_terms(). Reason: terms that were found with other families may only have compensated
+/// for a wrong resistance. Keeps the new fit if it is better.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         BestFamily& result) {
   FamilyFit& best = result.best;
   if (!best.fit.usable || result.is_out_of_time) return;
   LogFitOptions options = from_optimum(best.options, best);
   options.finds_delays = true;
-  std::erase_if(options.terms,
-                [](const FreeTerm& term) { return !term.quantity.is_stribeck_or_slope(); });
-  options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
+  if (!has_right_terms(best.fit)) {
+    std::erase_if(options.terms,
+                  [](const FreeTerm& term) { return !term.quantity.is_stribeck_or_slope(); });
+    options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
+  }
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
   if (is_over(power_law)) {
     result.is_out_of_time = true;
