@@ -180,11 +180,14 @@ ceres::Solver::Options solver_options(double function_tolerance) {
   return options;
 }
 
-/// Ends a search after two failed steps in a row whose predicted decrease of -ln L is below 0.05,
-/// which corresponds to a third of a standard error. On this scale the cost is rough, because
-/// Runge-Kutta steps cross the kink of the resistance wherever the speed or the yaw rate changes
-/// sign. Smaller steps would only find local minima.
-class EndAtRoughness : public ceres::IterationCallback {
+/// Ends a search that makes no progress, in two cases:
+///   - two steps in a row fail whose predicted decrease of -ln L is below 0.05, which corresponds to
+///     a third of a standard error. On this scale the cost is rough, because Runge-Kutta steps cross
+///     the kink of the resistance wherever the speed or the yaw rate changes sign. Smaller steps
+///     would only find local minima.
+///   - eight steps together decrease -ln L by less than 0.01: the search creeps along a direction
+///     that the logs do not determine.
+class EndWithoutProgress : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) final {
     constexpr double kLittle = 0.05;
@@ -192,11 +195,21 @@ class EndAtRoughness : public ceres::IterationCallback {
     const double promised = step.cost_change / step.relative_decrease;
     const bool failed = step.iteration > 0 && step.step_is_valid && !step.step_is_successful;
     failures_ = failed && promised < kLittle ? failures_ + 1 : 0;
-    return failures_ < kFailures ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    if (failures_ >= kFailures || creeps(step.cost)) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    return ceres::SOLVER_CONTINUE;
   }
 
  private:
+  /// True if the last kSteps steps decreased the cost by less than kLittle in total.
+  bool creeps(double cost) {
+    constexpr std::size_t kSteps = 8;
+    constexpr double kLittle = 0.01;
+    costs_.push_back(cost);
+    return costs_.size() > kSteps && costs_[costs_.size() - 1 - kSteps] - cost < kLittle;
+  }
+
   int failures_ = 0;
+  std::vector<double> costs_;
 };
 
 /// Ends a search at the limit of effort. Used only for searches that run one after the other, so
@@ -217,13 +230,13 @@ class EndAtLimit : public ceres::IterationCallback {
 
 /// Sets the stop reason of a search, and whether the search converged and is usable.
 void report_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solved) {
-  const bool rough = summary.termination_type == ceres::USER_SUCCESS && !at_limit;
+  const bool stalled = summary.termination_type == ceres::USER_SUCCESS && !at_limit;
   solved.cost = summary.final_cost;
-  solved.converged = rough || converged(summary);
+  solved.converged = stalled || converged(summary);
   solved.usable = summary.IsSolutionUsable();
-  solved.stop_reason = at_limit ? "the limit of computation was reached"
-                       : rough  ? "converged: further steps improve -ln L by less than 0.05"
-                                : stop_reason(summary);
+  solved.stop_reason = at_limit  ? "the limit of computation was reached"
+                       : stalled ? "converged: further steps improve -ln L by less than 0.05"
+                                 : stop_reason(summary);
 }
 
 /// Treatment of search steps to points at which the simulation is not finite.
@@ -259,8 +272,8 @@ Solved search_from(const LogProblem& problem, SearchPoint from, double function_
   options.linear_solver_ordering = ordering;
   if (line_search == LineSearch::kOff) options.max_num_line_search_step_size_iterations = 0;
   if (problem.deadline) options.max_solver_time_in_seconds = seconds_until(*problem.deadline);
-  EndAtRoughness end_at_roughness;
-  options.callbacks.push_back(&end_at_roughness);
+  EndWithoutProgress end_without_progress;
+  options.callbacks.push_back(&end_without_progress);
   EndAtLimit end_at_limit(problem);
   options.callbacks.push_back(&end_at_limit);
   ceres::Solver::Summary summary;

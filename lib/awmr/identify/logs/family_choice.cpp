@@ -1,9 +1,11 @@
 #include "awmr/identify/logs/family_choice.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -34,11 +36,14 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
 }
 
 /// True if a family with more terms may be better. One of these reasons suffices: the score test of
-/// a term predicts a large decrease of -2 ln L; the errors have a slow drift, which can hide a
-/// missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for terms of surge.
+/// a term predicts a large decrease of -2 ln L; no term was tested; the errors have a slow drift,
+/// which can hide a missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
-  if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
+  if (!fit.usable || fit.candidate_gain.empty() ||
+      largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) {
+    return true;
+  }
   const auto drifts = [&](LogChannel channel) {
     const auto noise = fit.noise.find(channel);
     return noise != fit.noise.end() && noise->second.has_slow_drift();
@@ -63,15 +68,44 @@ std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit&
   return largest;
 }
 
-Finding taken(const std::string& file, const FamilyFit& best, const LogFit& power_law) {
-  const std::string families = families_in_words(best.surge, best.yaw);
-  const std::string why =
-      power_law.usable
-          ? fmt::format("the AIC of {} is lower by {:.0f}", families, aic_lead(best.fit, power_law))
-          : fmt::format("its fit did not converge, but that of {} did", families);
-  return {file, 0, Severity::kWarning, "power-law-inadequate",
-          "another resistance family is used, because a power law does not describe these logs: " +
-              why};
+/// The best of the fits with a power law on one axis (yaw if `of_yaw`, else surge); of fits that gave
+/// up, that with the smallest error. Null if there is none.
+const FamilyFit* with_power_law(const std::vector<FamilyFit>& fits, bool of_yaw) {
+  const FamilyFit* best = nullptr;
+  for (const FamilyFit& one : fits) {
+    if ((of_yaw ? one.yaw : one.surge) != Family::kPower) continue;
+    const bool is_better =
+        !best || aic_lead(one.fit, best->fit) > 0.0 ||
+        (one.fit.gave_up && best->fit.gave_up && one.fit.first_error < best->fit.first_error);
+    if (is_better) best = &one;
+  }
+  return best;
+}
+
+/// The finding `power-law-inadequate` if another family replaces the power law on an axis.
+std::optional<Finding> power_law_inadequate(const std::string& file, const BestFamily& result,
+                                            const OpenAxes& open) {
+  const FamilyFit& best = result.best;
+  std::vector<std::string> reasons;
+  for (const bool of_yaw : {false, true}) {
+    if (!open.has(of_yaw) || (of_yaw ? best.yaw : best.surge) == Family::kPower) continue;
+    const FamilyFit* power = with_power_law(result.others, of_yaw);
+    if (!power || !(aic_lead(best.fit, power->fit) > kFamilyAicThreshold)) continue;
+    const std::string with = families_in_words(best.surge, best.yaw);
+    const std::string without = families_in_words(power->surge, power->yaw);
+    reasons.push_back(
+        power->fit.usable ? fmt::format("the AIC of {} is lower by {:.0f} than that of {}", with,
+                                        aic_lead(best.fit, power->fit), without)
+        : power->fit.gave_up
+            ? fmt::format("the errors of {} are {:.2g} times those of {}", without,
+                          std::sqrt(power->fit.first_error / best.fit.first_error), with)
+            : fmt::format("the fit of {} did not converge, but that of {} did", without, with));
+  }
+  if (reasons.empty()) return std::nullopt;
+  return Finding{file, 0, Severity::kWarning, "power-law-inadequate",
+                 fmt::format("another resistance family is used, because a power law does not "
+                             "describe these logs: {}",
+                             fmt::join(reasons, "; "))};
 }
 
 /// The finding `family-undecided` if the alternative has a lower AIC than the selected family, but
@@ -110,55 +144,52 @@ Finding terms_not_searched(const std::string& file, const FamilyFit& best) {
               families_in_words(best.surge, best.yaw), option_text("family surge=..."))};
 }
 
-struct Contender {
-  Family surge;
-  Family yaw;
-};
+/// Fits whose errors are larger than those of the best fit by more than this are not refined: ratio
+/// of LogFit::first_error.
+constexpr double kFarWorse = 1.5;
 
-/// The pairs of families that differ from `first` in the yaw family (`of_yaw`) or the surge family.
-std::vector<Contender> contenders(const FamilyFit& first, bool of_yaw) {
-  std::vector<Contender> found;
-  for (const Family family : values_in(kFamilyNames)) {
-    if (of_yaw && family == Family::kDeadZone) continue;  // wheels have dead zones, yaw has none
-    const Contender c = of_yaw ? Contender{first.surge, family} : Contender{family, first.yaw};
-    if (c.surge != first.surge || c.yaw != first.yaw) found.push_back(c);
+/// The index of the selected fit: that with the lowest AIC, or a power law of the axis if its AIC is
+/// higher by at most `lead`.
+std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lead) {
+  std::size_t best = 0;
+  std::optional<std::size_t> power;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (aic_lead(fits[i].fit, fits[best].fit) > 0.0) best = i;
+    if ((of_yaw ? fits[i].yaw : fits[i].surge) == Family::kPower && fits[i].fit.usable) power = i;
   }
-  return found;
+  return power && aic_lead(fits[best].fit, fits[*power].fit) <= lead ? *power : best;
 }
 
-/// Fits the families `others`. The best of them replaces the fit in `result.best` if its AIC is
-/// lower by more than `lead`. Returns the fit of the families that were in `result.best` before;
-/// the search for it is repeated if an alternative is better (searched_again()).
-LogFit compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-               const std::vector<Contender>& others, double lead, BestFamily& result) {
-  FamilyFit first = std::move(result.best);
-  std::vector<FamilyFit> alternatives;
+/// Fits the families `others` of one axis (yaw if `of_yaw`, else surge) and selects one of them or
+/// that of `result.best`. If one of the others is better, the search for the latter is repeated
+/// (searched_again()).
+void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool of_yaw,
+             const std::vector<Families>& others, double lead, BestFamily& result) {
+  std::vector<FamilyFit> fits;
+  fits.push_back(std::move(result.best));
   std::size_t best = 0;
-  for (const Contender& other : others) {
+  const auto limit = [&] {
+    const LogFit& fit = fits[best].fit;
+    if (fit.usable) {
+      power_law.give_up_above =
+          std::min(power_law.give_up_above, kFarWorse * std::max(1.0, fit.first_error));
+    }
+  };
+  for (const Families& other : others) {
     if (is_over(power_law)) break;
-    const FamilyFit& from = alternatives.empty() ? first : alternatives[best];
-    alternatives.push_back(fit_from(logs, power_law, from, other.surge, other.yaw));
-    if (aic_lead(alternatives.back().fit, alternatives[best].fit) > 0.0)
-      best = alternatives.size() - 1;
+    limit();
+    fits.push_back(fit_from(logs, power_law, fits[best], other.surge, other.yaw));
+    if (aic_lead(fits.back().fit, fits[best].fit) > 0.0) best = fits.size() - 1;
   }
-  if (!alternatives.empty()) {
-    first = searched_again(logs, power_law, std::move(first), alternatives[best]);
-  }
+  limit();
+  fits.front() = searched_again(logs, power_law, std::move(fits.front()), fits[best]);
   if (is_over(power_law)) {
     result.is_out_of_time = true;
-    result.findings.push_back(not_compared(logs.front().file, first));
+    result.findings.push_back(not_compared(logs.front().file, fits.front()));
   }
-  if (alternatives.empty()) {
-    result.best = std::move(first);
-    return result.best.fit;
-  }
-  const LogFit of_first = first.fit;
-  if (aic_lead(alternatives[best].fit, first.fit) > lead) {
-    std::swap(first, alternatives[best]);
-  }
-  result.best = std::move(first);
-  for (FamilyFit& alternative : alternatives) result.others.push_back(std::move(alternative));
-  return of_first;
+  std::swap(fits.front(), fits[selected(fits, of_yaw, lead)]);
+  result.best = std::move(fits.front());
+  std::move(fits.begin() + 1, fits.end(), std::back_inserter(result.others));
 }
 
 /// Names of the free delays, lags, command errors and offsets of a fit.
@@ -173,9 +204,11 @@ std::set<std::string> names_of_terms(const LogFit& fit) {
 /// Fits Stribeck friction of one axis (yaw if `of_yaw`, else surge) in addition to Coulomb and
 /// linear friction. Keeps this fit if it is significantly better than `result.best`. (A power with
 /// Coulomb friction resembles Stribeck friction so much that a score test does not show it.)
-void compete_with_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                            bool of_yaw, BestFamily& result) {
-  if (!result.best.fit.usable || result.is_out_of_time) return;
+  const LogFit& best = result.best.fit;
+  if (!best.usable || result.is_out_of_time) return;
+  power_law.give_up_above = kFarWorse * std::max(1.0, best.first_error);
   FamilyFit stribeck = fit_stribeck(logs, power_law, result.best, of_yaw);
   if (aic_lead(stribeck.fit, result.best.fit) > kFamilyAicThreshold) {
     std::swap(stribeck, result.best);
@@ -183,19 +216,35 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, const LogFitOpti
   }
 }
 
-/// Searches delays, lags and command errors again for the best families. Reason: terms that were
-/// found with other families may only have compensated for a wrong resistance. Keeps the new fit if
-/// it is better.
+/// True if the errors of the fit are those of the sensors, and each of its delays, lags and command
+/// errors is significant.
+bool has_right_terms(const LogFit& fit) {
+  constexpr double kErrorOfSensors = 1.2;
+  if (!(fit.first_error < kErrorOfSensors)) return false;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const FreeQuantity& q = fit.quantities[i];
+    const bool is_term =
+        q.kind != FreeQuantity::Kind::kParameter && q.kind != FreeQuantity::Kind::kBias;
+    if (is_term && q.scale == Scale::kLinear && !q.is_form() && !fit.is_significant(i))
+      return false;
+  }
+  return true;
+}
+
+/// Searches delays, lags and command errors again for the best families; from the beginning unless
+/// has_right_terms(). Reason: terms that were found with other families may only have compensated
+/// for a wrong resistance. Keeps the new fit if it is better.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         BestFamily& result) {
   FamilyFit& best = result.best;
   if (!best.fit.usable || result.is_out_of_time) return;
   LogFitOptions options = from_optimum(best.options, best);
   options.finds_delays = true;
-  std::erase_if(options.terms,
-                [](const FreeTerm& term) { return !term.quantity.is_stribeck_or_slope(); });
-  options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
-  options.candidate_terms = power_law.candidate_terms;
+  if (!has_right_terms(best.fit)) {
+    std::erase_if(options.terms,
+                  [](const FreeTerm& term) { return !term.quantity.is_stribeck_or_slope(); });
+    options.terms.insert(options.terms.end(), power_law.terms.begin(), power_law.terms.end());
+  }
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
   if (is_over(power_law)) {
     result.is_out_of_time = true;
@@ -210,17 +259,17 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
 /// above that of `winner` by less than `best` has improved on `winner`. It is also compared again
 /// if its fit had other delays, lags or command errors than `best`: with wrong terms, the true
 /// family can lose by any amount.
-std::vector<Contender> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
-                                        std::vector<FamilyFit>& others) {
+std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
+                                       std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);
   const std::set<std::string> terms = names_of_terms(best.fit);
-  std::vector<Contender> again;
+  std::vector<Families> again;
   std::erase_if(others, [&](const FamilyFit& other) {
     const bool is_of_axis = of_yaw ? other.yaw != best.yaw : other.surge != best.surge;
-    if (!is_of_axis || !other.fit.usable) return false;
-    const bool is_close = aic_lead(winner, other.fit) < improved;
+    if (!is_of_axis || !(other.fit.usable || other.fit.gave_up)) return false;
+    const bool is_close = other.fit.usable && aic_lead(winner, other.fit) < improved;
     if (!is_close && names_of_terms(other.fit) == terms) return false;
-    again.push_back(of_yaw ? Contender{best.surge, other.yaw} : Contender{other.surge, best.yaw});
+    again.push_back(of_yaw ? Families{best.surge, other.yaw} : Families{other.surge, best.yaw});
     return true;
   });
   return again;
@@ -244,11 +293,12 @@ std::vector<Finding> undecided_axes(const std::string& file, const BestFamily& r
   return findings;
 }
 
-/// True if other yaw families (`of_yaw`) or surge families are to be fitted.
-bool is_contested(const LogFitOptions& power_law, const FamilyFit& first,
+/// True if other yaw families (`of_yaw`) or surge families are to be fitted, according to `fit`.
+bool is_contested(const LogFitOptions& power_law, const FamilyFit& fit,
                   const FamilyContest& contest, bool of_yaw) {
-  if (!(of_yaw ? contest.yaw : contest.surge)) return false;
-  return !contest.only_candidates || suspicious(first.fit, power_law.candidate_terms, of_yaw);
+  if (!contest.open.has(of_yaw)) return false;
+  return !contest.only_candidates || (of_yaw ? fit.yaw : fit.surge) != Family::kPower ||
+         suspicious(fit.fit, power_law.candidate_terms, of_yaw);
 }
 
 }  // namespace
@@ -269,24 +319,13 @@ std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& fir
                             const FamilyContest& contest) {
   std::size_t count = 0;
   for (const bool of_yaw : {false, true}) {
-    if (is_contested(power_law, first, contest, of_yaw)) count += contenders(first, of_yaw).size();
+    if (!is_contested(power_law, first, contest, of_yaw)) continue;
+    count += other_families({first.surge, first.yaw}, of_yaw).size();
   }
   return count;
 }
 
 namespace {
-
-/// Adds the findings about undecided families, and about families that replace the power law.
-/// `power_fit`: the best fit of the first families.
-void add_findings(const std::string& file, const LogFit& power_fit, BestFamily& result) {
-  for (Finding& finding : undecided_axes(file, result)) {
-    result.findings.push_back(std::move(finding));
-  }
-  const bool other = result.best.surge != Family::kPower || result.best.yaw != Family::kPower;
-  if (other && aic_lead(result.best.fit, power_fit) > kFamilyAicThreshold) {
-    result.findings.push_back(taken(file, result.best, power_fit));
-  }
-}
 
 /// The comparison of families in progress.
 struct FamilyComparison {
@@ -294,23 +333,20 @@ struct FamilyComparison {
   const LogFitOptions& power_law;
   const FamilyContest& contest;
   BestFamily result;
-  LogFit power_fit;                 ///< the best fit under the families of `start`
-  std::pair<Family, Family> start;  ///< first families: surge, yaw
-  std::map<bool, LogFit> winners;   ///< key true: yaw; fits before delays were searched again
+  std::map<bool, LogFit> winners;  ///< key true: yaw; fits before delays were searched again
 
-  std::pair<Family, Family> families() const { return {result.best.surge, result.best.yaw}; }
+  Families families() const { return {result.best.surge, result.best.yaw}; }
 
   /// Fits the families `others` of an axis. If the best fit changes, the terms are searched again.
-  void compare(bool of_yaw, const std::vector<Contender>& others) {
-    const auto before = families();
+  void compare(bool of_yaw, const std::vector<Families>& others) {
+    const Families before = families();
     const std::set<std::string> terms = names_of_terms(result.best.fit);
-    LogFit of_first = compete(logs, power_law, others, contest.lead, result);
+    compete(logs, power_law, of_yaw, others, contest.lead, result);
     if (winners.try_emplace(of_yaw, result.best.fit).second) {
       compete_with_stribeck(logs, power_law, of_yaw, result);
     }
     const bool is_changed = families() != before || names_of_terms(result.best.fit) != terms;
     if (is_changed) search_terms_again(logs, power_law, result);
-    if (before == start) power_fit = std::move(of_first);
   }
 };
 
@@ -318,26 +354,18 @@ struct FamilyComparison {
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  const std::map<bool, bool> is_suspect{{false, is_contested(power_law, first, contest, false)},
-                                        {true, is_contested(power_law, first, contest, true)}};
   // The axis (surge or yaw) whose score tests have the larger gain goes first, because a wrong
   // resistance law of one axis also causes errors in the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
-  const std::pair start{first.surge, first.yaw};
-  LogFit power_fit = first.fit;
-  BestFamily alone{std::move(first), {}, {}, false};
-  FamilyComparison comparison{logs,  power_law, contest, std::move(alone), std::move(power_fit),
-                              start, {}};
+  FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};
   BestFamily& result = comparison.result;
   for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {
-    // After a change of one axis, the other axis is compared too. Reasons: the errors of a wrong
-    // law of one axis can hide those of the other, and if the friction of one axis is not a power
-    // law, that of the other is probably not one either.
-    const bool is_open = is_suspect.at(of_yaw) || (comparison.families() != comparison.start &&
-                                                   (of_yaw ? contest.yaw : contest.surge));
-    if (!is_open || comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;
-    comparison.compare(of_yaw, contenders(result.best, of_yaw));
+    // Whether an axis is compared is decided again after a change of the other axis, because the
+    // errors of a wrong law of one axis can hide those of the other.
+    if (comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;
+    if (!is_contested(power_law, result.best, contest, of_yaw)) continue;
+    comparison.compare(of_yaw, other_families(comparison.families(), of_yaw));
   }
   for (const bool of_yaw : {yaw_first, !yaw_first}) {
     const auto winner = comparison.winners.find(of_yaw);
@@ -345,7 +373,13 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
     const auto others = to_compare_again(winner->second, of_yaw, result.best, result.others);
     if (!others.empty()) comparison.compare(of_yaw, others);
   }
-  add_findings(logs.front().file, comparison.power_fit, result);
+  const std::string& file = logs.front().file;
+  for (Finding& finding : undecided_axes(file, result)) {
+    result.findings.push_back(std::move(finding));
+  }
+  if (auto finding = power_law_inadequate(file, result, contest.open)) {
+    result.findings.push_back(*std::move(finding));
+  }
   return std::move(result);
 }
 

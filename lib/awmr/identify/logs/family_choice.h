@@ -3,18 +3,17 @@
 
 #include <vector>
 
-#include "awmr/identify/logs/family_fit.h"
+#include "awmr/identify/logs/family_screen.h"
 
 namespace awmr {
 
 /// Options of best_family(), which compares other families with those of a fit `first`.
 struct FamilyContest {
-  bool surge = true;  ///< true: compares all surge families; false: keeps that of `first`
-  bool yaw = false;   ///< true: compares all yaw families; false: keeps that of `first`
-  double lead = 0.0;  ///< a family replaces that of `first` if its AIC is lower by more than this
+  OpenAxes open;      ///< the other axes keep the family of `first`
+  double lead = 0.0;  ///< a family replaces a power law if its AIC is lower by more than this
   /// True: fits other families of an axis (surge or yaw) only for one of these reasons: a score
-  /// test or a slow drift suggests a missing term, `first` did not converge, or another family was
-  /// selected for the other axis.
+  /// test or a slow drift suggests a missing term, no term was tested, the fit did not converge, or
+  /// the axis has another family than the power law.
   bool only_candidates = true;
 };
 

@@ -95,6 +95,14 @@ void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Fam
   }
 }
 
+/// The options for the families `surge` and `yaw`, with the curves nearest to those of `inner` as
+/// initial guess. `at_optimum`: the result of without_terms().
+LogFitOptions near_options(const std::vector<DrivingLog>& logs, LogFitOptions at_optimum,
+                           const FamilyFit& inner, Family surge, Family yaw) {
+  begin_near(logs, inner, surge, yaw, at_optimum.initial_guess);
+  return with_families(std::move(at_optimum), surge, yaw);
+}
+
 }  // namespace
 
 FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, Family surge,
@@ -104,6 +112,7 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
   result.fit.report.family = families_in_words(surge, yaw);
   if (result.options.frees(ParameterId::kBackEmf)) result.fit.report.family += ", back-EMF";
   if (result.fit.usable) result.fit.report.aicc = aic_under(result.fit.noise, result.fit);
+  result.options.give_up_above = LogFitOptions{}.give_up_above;
   return result;
 }
 
@@ -122,7 +131,6 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {
   options.initial_guess = fitted_values(fit.options, fit.fit);
   options.guessed.clear();
   options.also_from.clear();
-  options.candidate_terms.clear();
   options.finds_delays = false;
   return options;
 }
@@ -138,11 +146,17 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
   if (!inner.fit.usable) return fit_family(logs, power_law, surge, yaw);
   LogFitOptions at_optimum = without_terms(power_law, inner, surge, yaw);
   at_optimum.terms.insert(at_optimum.terms.end(), more.begin(), more.end());
-  LogFitOptions near = at_optimum;
-  begin_near(logs, inner, surge, yaw, near.initial_guess);
-  LogFitOptions options = with_families(std::move(near), surge, yaw);
+  LogFitOptions options = near_options(logs, at_optimum, inner, surge, yaw);
   options.also_from = {at_optimum.initial_guess};
   return fit_with(logs, std::move(options), surge, yaw);
+}
+
+FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                           const FamilyFit& inner, Family surge, Family yaw) {
+  LogFitOptions options =
+      near_options(logs, without_terms(power_law, inner, surge, yaw), inner, surge, yaw);
+  const LogFit fit = fit_roughly(logs, options);
+  return {surge, yaw, std::move(options), fit};
 }
 
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
@@ -161,7 +175,8 @@ FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions&
 
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative) {
-  if (!(aic_lead(alternative.fit, first.fit) > 0.0)) return first;
+  constexpr double kWorthSearching = 2.0;  // of AIC
+  if (!(aic_lead(alternative.fit, first.fit) > kWorthSearching)) return first;
   FamilyFit again = fit_from(logs, power_law, alternative, first.surge, first.yaw);
   return aic_lead(again.fit, first.fit) > 0.0 ? std::move(again) : std::move(first);
 }

@@ -20,7 +20,7 @@ struct FamilyFit {
 bool is_over(const LogFitOptions& options);
 
 /// Returns the options for a fit that starts only at the optimum of `fit`. The new fit has the
-/// delays and command errors of `fit`, searches no others and tests no candidate terms.
+/// delays and command errors of `fit` and searches no others.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
 /// Fits the logs under the families `surge` and `yaw`. Precondition: `options` already frees the
@@ -41,14 +41,19 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
                    const FamilyFit& inner, Family surge, Family yaw,
                    const std::vector<FreeTerm>& more = {});
 
+/// fit_roughly() under the families `surge` and `yaw`, starting from the curves nearest to those of
+/// `inner`.
+FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                           const FamilyFit& inner, Family surge, Family yaw);
+
 /// Fits the logs with Coulomb, linear and Stribeck friction of the yaw rate (`of_yaw`) or the
 /// speed, starting from the optimum of `inner`, a usable fit of other families.
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const FamilyFit& inner, bool of_yaw);
 
-/// If `alternative` is better than `first`, repeats the search for the families of `first` from the
-/// optimum of `alternative`, so that `first` does not lose only because its search failed. Returns
-/// `first` or, if better, the repeated fit.
+/// If the AIC of `alternative` is lower than that of `first` by more than 2, repeats the search for
+/// the families of `first` from the optimum of `alternative`, so that `first` does not lose only
+/// because its search failed. Returns `first` or, if better, the repeated fit.
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 

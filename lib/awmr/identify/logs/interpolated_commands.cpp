@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "awmr/identify/logs/family_score.h"
-#include "awmr/identify/logs/model_choice.h"
 #include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/trials/held_signal.h"
 
@@ -94,7 +93,7 @@ std::vector<DrivingLog> interpolated(const std::vector<DrivingLog>& logs) {
 }
 
 bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                         const FamilyFit& first, const IdentifyOptions& options) {
+                         const FamilyFit& first) {
   constexpr double kAlike = 10.0;  // of AIC
   const auto is_smooth = [](const DrivingLog& log) {
     return !log.has_interpolated_commands && !log.has_held_set_points && changes_often(log);
@@ -106,7 +105,7 @@ bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOption
     return term.quantity.kind == FreeQuantity::Kind::kDelay;
   });
   from.terms.push_back({input_delay(), 0.0});
-  const FamilyFit lines = fit_first_family(interpolated(logs), from, options);
+  const FamilyFit lines = fit_family(interpolated(logs), from, first.surge, first.yaw);
   return lines.fit.usable &&
          aic_lead(lines.fit, first.fit) > (has_late_commands ? -kAlike : kFamilyAicThreshold);
 }

@@ -19,7 +19,7 @@ namespace awmr {
 /// whose effect resembles that of lines, the AIC may even be higher by up to 10. `power_law`:
 /// options of `first`.
 bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                         const FamilyFit& first, const IdentifyOptions& options);
+                         const FamilyFit& first);
 
 /// Returns the logs with additional rows between their rows. The additional rows have no
 /// measurements, and the commands follow straight lines between the logged ones. A gap in the log

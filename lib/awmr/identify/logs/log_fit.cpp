@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -73,20 +74,40 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
+/// LogFit::first_error of a cost.
+double first_error(const LogProblem& problem, double cost) {
+  return 2.0 * cost / problem.readings();
+}
+
+/// Result of a fit that gave up at this point.
+LogFit given_up(const NoiseIteration& at) {
+  LogFit fit = without_solution("not refined, because the errors are too large", {});
+  fit.quantities = at.problem.model.quantities;
+  fit.coordinates = at.point.coordinates;
+  fit.first_error = first_error(at.problem, at.first_cost);
+  fit.gave_up = true;
+  return fit;
+}
+
 /// Fits the logs by a search from these coordinates. Empty if the simulation of the logs is not
 /// finite at the end of the search.
 std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
                                const LogFitOptions& options) {
   LogProblem problem = guess;
   problem.model.longest_step_s = step_s_at(problem.model, coordinates);
-  NoiseIteration settled =
-      settle_noise(std::move(problem), from_measured(guess, coordinates), options.loss);
+  const double largest_cost = 0.5 * options.give_up_above * guess.readings();
+  NoiseIteration settled = settle_noise(std::move(problem), from_measured(guess, coordinates),
+                                        options.loss, kNoiseRounds, largest_cost);
+  if (settled.first_cost > largest_cost) return given_up(settled);
+  const double error = first_error(guess, settled.first_cost);
   if (options.finds_delays) settled = find_delays_and_errors(std::move(settled), options.loss);
   const Solved solved = solve(settled.problem, settled.point, kFine);
   const std::vector<WindowSums> sums =
       sums_at(settled.problem, solved.point, block_length_s(settled.problem.model.noise));
   if (!all_finite(sums)) return std::nullopt;
-  return fit_at(settled.problem, solved, sums, options);
+  LogFit fit = fit_at(settled.problem, solved, sums, options);
+  fit.first_error = error;
+  return fit;
 }
 
 }  // namespace
@@ -96,8 +117,7 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   if (guess.windows.empty() || guess.initial.empty()) {
     return without_solution("there are no measurements, or no parameter is free", {});
   }
-  int readings = 0;
-  for (const auto& [channel, noise] : guess.model.noise) readings += noise.count;
+  const int readings = guess.readings();
   if (readings <= static_cast<int>(guess.unknowns())) {
     return without_solution(
         fmt::format("{} readings are too few for {} unknowns (parameters, and the initial state of "
@@ -124,6 +144,17 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
   }
   fit->report.starts = std::move(search.starts);
   return *std::move(fit);
+}
+
+LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
+  const LogProblem rough = rough_problem(log_problem(logs, options));
+  const Solved solved = solve(rough, from_measured(rough, rough.initial), kRough);
+  LogFit fit;
+  fit.quantities = rough.model.quantities;
+  fit.coordinates = solved.point.coordinates;
+  fit.first_error =
+      solved.usable ? first_error(rough, solved.cost) : std::numeric_limits<double>::infinity();
+  return fit;
 }
 
 LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options) {

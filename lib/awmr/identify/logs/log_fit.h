@@ -31,6 +31,12 @@ struct LogFit {
   double widened = 1.0;    ///< largest widening factor: Identifiability::widened()
   EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
   bool usable = false;     ///< true if the final search converged
+  /// Mean square error after the first round of settle_noise(), relative to the noise by
+  /// sensor_noise(): about 1 if the model is right. It can be compared between fits of the same logs.
+  double first_error = 0.0;
+  /// True if `first_error` exceeded LogFitOptions::give_up_above. The fit is then not usable, and of
+  /// its results only `quantities`, `coordinates` and `report` are set.
+  bool gave_up = false;
 
   /// Standard error of coordinate i.
   double error_of(std::size_t i) const {
@@ -48,6 +54,11 @@ struct LogFit {
 /// no quantities if nothing is measured or free, if there are not more readings than unknowns, or
 /// if all searches fail. Its report then states the reason.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
+
+/// Fits the logs by one rough search from the initial guess (rough_problem()), to rank models. Of
+/// the result, only `quantities`, `coordinates` and `first_error` are set. The latter is infinite if
+/// the search fails.
+LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Returns the options with the delays and command errors of `fit` as the free terms, starting at
 /// their fitted values. Unchanged if `fit` has no quantities.

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -54,6 +55,8 @@ struct LogFitOptions {
   std::optional<Interval> only_s;
   /// Further initial guesses, for example the optimum of another family.
   std::vector<ParameterValues<double>> also_from;
+  /// The fit gives up after the first round if LogFit::first_error exceeds this.
+  double give_up_above = std::numeric_limits<double>::infinity();
   Loss loss = Loss::kSquared;  ///< use a robust loss if a sensor has outliers
   std::uint64_t seed = 1;      ///< seed of the multistart and of the bootstrap
   int multistart = 6;          ///< number of random initial guesses in addition to the given one

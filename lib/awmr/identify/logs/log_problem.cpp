@@ -62,6 +62,12 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return problem;
 }
 
+int LogProblem::readings() const {
+  int readings = 0;
+  for (const auto& [channel, noise] : model.noise) readings += noise.count;
+  return readings;
+}
+
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates) {
   return {std::move(coordinates), measured_initial_states(problem.windows, problem.model.initial)};
 }

@@ -31,6 +31,8 @@ struct LogProblem {
   std::shared_ptr<Effort> effort;                                 ///< work of all searches
   bool ends_at_limit = true;  ///< true: a search stops at the limit of effort
 
+  /// Number of measurements of all channels, for which `model.noise` was estimated.
+  int readings() const;
   /// Number of unknowns: the quantities, and the free initial states of all windows.
   std::size_t unknowns() const {
     return model.quantities.size() + model.initial.size() * windows.size();

@@ -178,17 +178,16 @@ struct ReadAgain {
 /// set-points, straight lines between the rows, or measured steering angles. Empty if there is
 /// none.
 std::optional<ReadAgain> read_again(const std::vector<DrivingLog>& logs,
-                                    const LogFitOptions& power_law, const FamilyFit& first,
-                                    const IdentifyOptions& options) {
+                                    const LogFitOptions& power_law, const FamilyFit& first) {
   const std::string& file = logs.front().file;
   auto held = with_held_set_points(logs);
-  if (held && are_set_points_held(*held, power_law, first, options)) {
+  if (held && are_set_points_held(*held, power_law, first)) {
     return ReadAgain{*std::move(held), interpolated_set_points_finding(file)};
   }
-  if (are_commands_smooth(logs, power_law, first, options)) {
+  if (are_commands_smooth(logs, power_law, first)) {
     return ReadAgain{interpolated(logs), interpolated_commands_finding(file)};
   }
-  if (is_steering_measured(logs, power_law, first, options)) {
+  if (is_steering_measured(logs, power_law, first)) {
     return ReadAgain{with_measured_steering(logs), measured_steering_finding(file)};
   }
   return std::nullopt;
@@ -204,7 +203,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   LogFitOptions power_law = log_setup(vehicle, logs, options, requested, model, stage.reasons);
   AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), logs.front().file));
   FamilyFit first = fit_first_family(logs, power_law, options);
-  if (const auto other = read_again(logs, power_law, first, options)) {
+  if (const auto other = read_again(logs, power_law, first)) {
     Result<LogStage> again =
         run_log_stage(vehicle, other->logs, options, requested, model, overrule);
     if (again) again->findings.push_back(other->finding);

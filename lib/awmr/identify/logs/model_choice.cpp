@@ -18,6 +18,12 @@ bool is_open(const FamilyChoice& choice) {
   return !choice.family || (!choice.requested && choice.family == Family::kPower);
 }
 
+/// Axes whose family the user did not select.
+OpenAxes open_axes(const LogFitOptions& power_law, const IdentifyOptions& options) {
+  return {.surge = is_open(options.surge_family),
+          .yaw = is_open(options.yaw_family) && power_law.frees(ParameterId::kYawAlpha)};
+}
+
 /// Calls options.notice if the step `what` may take more than 10 s on one processor. `numbers`:
 /// approximate work of the step (Effort).
 void announce(const IdentifyOptions& options, double numbers, const std::string& what) {
@@ -42,6 +48,9 @@ double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOpt
   return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
 }
 
+/// LogFit::first_error above which the family of resistance is probably wrong.
+constexpr double kErrorOfModel = 1.5;
+
 }  // namespace
 
 void show_step(const IdentifyOptions& options, std::string_view what) {
@@ -52,8 +61,17 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
                            const IdentifyOptions& options) {
   show_step(options, "fitting the logs");
   announce(options, numbers_of_first_fit(logs, power_law), "fitting logs of this length");
-  return fit_family(logs, power_law, options.surge_family.family.value_or(Family::kPower),
-                    options.yaw_family.family.value_or(Family::kPower));
+  const Family surge = options.surge_family.family.value_or(Family::kPower);
+  const Family yaw = options.yaw_family.family.value_or(Family::kPower);
+  const OpenAxes open = open_axes(power_law, options);
+  if (!open.any()) return fit_family(logs, power_law, surge, yaw);
+  LogFitOptions first = power_law;
+  first.give_up_above = kErrorOfModel;
+  FamilyFit fit = fit_family(logs, first, surge, yaw);
+  if (!fit.fit.gave_up) return fit;
+  FamilyFit refined = refine(logs, power_law, likely_families(logs, power_law, fit, open));
+  refined.fit.report.starts = std::move(fit.fit.report.starts);
+  return refined;
 }
 
 std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
@@ -66,7 +84,7 @@ std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
 }
 
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
-                          const FamilyFit& first, const IdentifyOptions& options) {
+                          const FamilyFit& first) {
   constexpr double kOfRow = 0.5;
   const auto is_command = [](const DrivingLog& log) {
     return log.steering_command_rad && !log[LogChannel::kSteering];
@@ -89,7 +107,7 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
     return kind == Kind::kSteeringDelay || kind == Kind::kSteeringDeadBand ||
            kind == Kind::kSteeringAsymmetry;
   });
-  const FamilyFit follows = fit_first_family(with_measured_steering(logs), from, options);
+  const FamilyFit follows = fit_family(with_measured_steering(logs), from, first.surge, first.yaw);
   // A servo lag together with equally late time stamps also describes measured angles, but needs
   // two more terms. A lower AIC of the model without these terms therefore suffices.
   const double threshold = late_stamps_s > 0.0 ? 0.0 : kFamilyAicThreshold;
@@ -116,19 +134,15 @@ struct Chosen {
 /// fit_first_family().
 Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const IdentifyOptions& options, FamilyFit first) {
-  const FamilyChoice& surge = options.surge_family;
-  const FamilyChoice& yaw = options.yaw_family;
-  const bool surge_open = is_open(surge);
-  const bool yaw_open = is_open(yaw) && power_law.frees(ParameterId::kYawAlpha);
+  const OpenAxes open = open_axes(power_law, options);
   Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
   chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
-  if (!surge_open && !yaw_open) return chosen;
+  if (!open.any()) return chosen;
   // Unless the user requests the best family (`--family auto`), another family has to be
   // significantly better than the power law.
   show_step(options, "trying families of resistance");
-  const bool is_family_requested = !surge.family || !yaw.family;
-  const FamilyContest contest{.surge = surge_open,
-                              .yaw = yaw_open,
+  const bool is_family_requested = !options.surge_family.family || !options.yaw_family.family;
+  const FamilyContest contest{.open = open,
                               .lead = is_family_requested ? 0.0 : kFamilyAicThreshold,
                               .only_candidates = !is_family_requested};
   const auto contenders =

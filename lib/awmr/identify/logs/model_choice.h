@@ -14,7 +14,9 @@ namespace awmr {
 /// Calls options.doing, if there is one, with the step that begins.
 void show_step(const IdentifyOptions& options, std::string_view what);
 
-/// Fits the families that the options name, by default power laws.
+/// Fits the families that the options name, by default power laws. If an axis is open (no family was
+/// requested) and the errors after the first round are far above the sensor noise, fits the
+/// families by likely_families() instead.
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options);
 
@@ -27,7 +29,7 @@ std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs);
 /// spacing; and a fit that uses the column as the angle is significantly better (if the time stamps
 /// are late: has any lower AIC).
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
-                          const FamilyFit& first, const IdentifyOptions& options);
+                          const FamilyFit& first);
 
 /// The finding `steering-measured` for logs for which is_steering_measured() is true.
 Finding measured_steering_finding(const std::string& file);

@@ -18,23 +18,6 @@ std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t
   return some;
 }
 
-/// Problem that ranks initial guesses: up to twelve parts of 2.5 s, spread over all logs, with
-/// longer integration steps.
-LogProblem rough_problem(const LogProblem& problem) {
-  constexpr std::size_t kParts = 12;
-  constexpr double kPart_s = 2.5;
-  LogProblem rough = problem;
-  rough.model.longest_step_s = rough_step_s(problem.model);
-  rough.threads = 1;  // the searches run in parallel with each other
-  rough.ends_at_limit = false;
-  std::vector<FitWindow> parts;
-  for (const FitWindow& window : spread(problem.windows, kParts)) {
-    std::ranges::move(parts_of(window, kPart_s), std::back_inserter(parts));
-  }
-  rough.windows = spread(parts, kParts);
-  return rough;
-}
-
 /// Random initial guess. Each parameter in `guessed` with a logarithmic coordinate is multiplied by
 /// a factor in [e^-2, e^2]. An exponent in `guessed` is drawn from [0.3, 1.3] and limited to its
 /// range. Terms of a family do not change. Draws one random number for every quantity, also for
@@ -76,8 +59,22 @@ std::vector<std::vector<double>> places(const LogProblem& problem, const LogFitO
 
 }  // namespace
 
+LogProblem rough_problem(const LogProblem& problem) {
+  constexpr std::size_t kParts = 12;
+  constexpr double kPart_s = 2.5;
+  LogProblem rough = problem;
+  rough.model.longest_step_s = rough_step_s(problem.model);
+  rough.threads = 1;  // the searches run in parallel with each other
+  rough.ends_at_limit = false;
+  std::vector<FitWindow> parts;
+  for (const FitWindow& window : spread(problem.windows, kParts)) {
+    std::ranges::move(parts_of(window, kPart_s), std::back_inserter(parts));
+  }
+  rough.windows = spread(parts, kParts);
+  return rough;
+}
+
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options) {
-  constexpr double kRough = 1e-4;
   constexpr std::size_t kReasonLength = 60;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   const std::vector<std::vector<double>> from = places(problem, options);

@@ -16,6 +16,13 @@ struct Multistart {
   std::vector<SearchStart> starts;
 };
 
+/// Problem of rough searches: up to twelve parts of 2.5 s, spread over all logs, with longer
+/// integration steps.
+LogProblem rough_problem(const LogProblem& problem);
+
+/// Relative change of the cost at which rough searches end.
+inline constexpr double kRough = 1e-4;
+
 /// If other trials gave the whole initial guess and `also_from` is empty, returns only the initial
 /// guess. Otherwise runs rough searches from the initial guess and from each guess in `also_from`.
 /// If some parameters have only a guess of their order of magnitude, also searches from random

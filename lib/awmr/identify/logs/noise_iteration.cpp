@@ -126,15 +126,20 @@ void weigh(LogProblem& problem, const std::vector<WindowErrors>& errors, Loss lo
 
 }  // namespace
 
-NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss, int rounds) {
+NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss, int rounds,
+                            double give_up_above) {
   constexpr double kSettled = 0.01;
   constexpr double kMiddling = 1e-6;
   const double fine_step_s = problem.model.longest_step_s;
   const double first_step_s = rough_step_s(problem.model);
+  double first_cost = 0.0;
   for (int round = 0; round < rounds; ++round) {
     problem.model.longest_step_s = round == 0 ? first_step_s : fine_step_s;
-    point = solve(problem, std::move(point), kMiddling).point;
+    Solved solved = solve(problem, std::move(point), kMiddling);
+    point = std::move(solved.point);
     problem.model.longest_step_s = fine_step_s;
+    if (round == 0) first_cost = solved.cost;
+    if (first_cost > give_up_above) break;
     const std::vector<WindowErrors> errors = errors_at(problem, point);
     if (!all_finite(errors)) break;  // fit_logs() then refuses the fit
     const NoiseLevels levels = noise_levels(problem, errors, loss);
@@ -143,7 +148,7 @@ NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss, in
     weigh(problem, errors, loss);
     if (change < kSettled && round > 0) break;
   }
-  return {std::move(problem), std::move(point)};
+  return {std::move(problem), std::move(point), first_cost};
 }
 
 }  // namespace awmr

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "awmr/identify/logs/family_score.h"
-#include "awmr/identify/logs/model_choice.h"
 #include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
@@ -130,7 +129,7 @@ std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<Dr
 }
 
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
-                         const FamilyFit& first, const IdentifyOptions& options) {
+                         const FamilyFit& first) {
   using Kind = FreeQuantity::Kind;
   constexpr double kAlike = 10.0;  // of AIC
   LogFitOptions from = from_optimum(power_law, first);
@@ -138,7 +137,7 @@ bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOption
     const Kind kind = term.quantity.kind;
     return kind == Kind::kDelay || kind == Kind::kSteeringDelay || kind == Kind::kMotorLag;
   });
-  const FamilyFit steps = fit_first_family(held, from, options);
+  const FamilyFit steps = fit_family(held, from, first.surge, first.yaw);
   return steps.fit.usable && aic_lead(steps.fit, first.fit) > -kAlike;
 }
 

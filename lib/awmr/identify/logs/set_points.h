@@ -28,7 +28,7 @@ std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<Dr
 /// lower, because straight lines of equal length are hardly ever real commands. `power_law`:
 /// options of `first`.
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
-                         const FamilyFit& first, const IdentifyOptions& options);
+                         const FamilyFit& first);
 
 /// The warning `interpolated-set-points`.
 Finding interpolated_set_points_finding(const std::string& file);
