@@ -79,7 +79,8 @@ std::string braced(const std::vector<float>& values) {
   return fmt::format("{{{}}}", fmt::join(literals, ", "));
 }
 
-/// Texts of mission.h: constants, and statements that pil_set_up() executes once after awmr_init().
+/// C text for the header of the firmware, mission_header(): `constants` defines objects, `calls` are
+/// statements that pil_set_up() executes once after awmr_init().
 struct SetUp {
   std::string constants;
   std::string calls;

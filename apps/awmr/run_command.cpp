@@ -132,9 +132,9 @@ Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Pr
     add_faults(read_scenario(path), faults);
     if (stems.insert(path.stem().string()).second) continue;
     faults.push_back({ErrorCode::kGivenTwice, command.project.string() + ":/compare/scenarios",
-                      fmt::format("two scenarios have the file name {}, which would also name "
+                      fmt::format("two scenarios are called {}, which would also be the name of "
                                   "their runs; rename one",
-                                  path.filename().string())});
+                                  path.stem().string())});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
   std::vector<fs::path> inputs = inputs_of(command, project, tune);

@@ -145,7 +145,7 @@ TEST_F(DataLoss, RefusesTwoScenariosWithOneFileName) {
                 "compare": {"scenarios": ["s.json", "d/s.json", "missing.json"]}})");
   const ProcessResult result = awmr(fmt::format("run {} -o {}", path("project.json"), path("out")));
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("two scenarios have the file name s.json"));
+  EXPECT_THAT(result.err, HasSubstr("two scenarios are called s,"));
   EXPECT_THAT(result.err, HasSubstr("missing.json"));  // reported before any step
   EXPECT_FALSE(fs::exists(path("out")));
 }

@@ -42,8 +42,7 @@ TEST(GuidanceClaims, TheTimedPathIsTooTightForSteering) {
 
 TEST(GuidanceClaims, CombinedIsNotTheOnlyBestMode) {
   EXPECT_FALSE(claim_of("C12").reproduced);
-  EXPECT_THAT(claim_of("C12").why,
-              HasSubstr("differential is as close to the least cross-track RMS"));
+  EXPECT_THAT(claim_of("C12").why, HasSubstr("differential is close to the least cross-track RMS"));
 }
 
 TEST(GuidanceClaims, AVehicleThatCannotTurnFails) {

@@ -315,8 +315,9 @@ std::optional<Finding> turn_mismatch(const DrivingLog& log,
   }
   return scale_finding(
       log,
-      fmt::format("by the positions, the vehicle turns {:.3f} +- {:.3f} times the angle of {}: "
-                  "wrong scale (track width of the odometry, or gyroscope). Map with {}",
+      fmt::format("according to the positions, the vehicle turns {:.3f} +- {:.3f} times as far as "
+                  "according to {}: wrong scale (track width of the odometry, or gyroscope). "
+                  "Correct it with {}",
                   scale->value, scale->std_error, fmt::join(columns, " and "),
                   fmt::join(options, " and ")));
 }

@@ -46,9 +46,8 @@ struct ClaimSetting {
   BatchArithmetic arithmetic;   ///< arithmetic of the runs
   ControlOptions control = {};  ///< control options of every scenario
 
-  /// Simulates the scenario in all three modes. Precondition: the model has every parameter. Each
-  /// parameter in the scenario's `corner` (a parameter at an end of its interval) has a 95 %
-  /// interval.
+  /// Simulates the scenario in all three modes. Preconditions: the model has every parameter, and a
+  /// 95 % interval for each parameter in the scenario's `corner`, which is set to an end of it.
   ModeRuns run(const Scenario& scenario) const;
 };
 /// ClaimSetting::run() for each setting, simulated together in one batch. Precondition: all

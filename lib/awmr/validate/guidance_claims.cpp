@@ -235,21 +235,21 @@ Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
   };
   const bool differential_close = is_best(points, YawMode::kDifferential, cross_track_m) &&
                                   is_best(path, YawMode::kDifferential, cross_track_m);
-  return {.id = "C12",
-          .statement = "combined is best for waypoints and paths, differential for speed",
-          .reproduced = at_waypoints && along_line && speed,
-          .figure = "waypoints: " + figure(points) + "; polyline: " + figure(path),
-          .tolerance = fmt::format("combined within {0:.0f} % of the least finishing time and "
-                                   "cross-track RMS on both paths, differential within {0:.0f} % "
-                                   "of the least speed drop on both",
-                                   100.0 * kAsGoodShare),
-          .why = fmt::format(
-              "combined is {} on waypoints and {} on the polyline{}; differential is {} for the "
-              "speed. `awmr compare` gives intervals",
-              place(at_waypoints), place(along_line),
-              differential_close ? "; differential is as close to the least cross-track RMS on both"
-                                 : "",
-              speed ? "best" : "not best: its forces make the whole turn and saturate first")};
+  return {
+      .id = "C12",
+      .statement = "combined is best for waypoints and paths, differential for speed",
+      .reproduced = at_waypoints && along_line && speed,
+      .figure = "waypoints: " + figure(points) + "; polyline: " + figure(path),
+      .tolerance = fmt::format("combined within {0:.0f} % of the least finishing time and "
+                               "cross-track RMS on both paths, differential within {0:.0f} % "
+                               "of the least speed drop on both",
+                               100.0 * kAsGoodShare),
+      .why = fmt::format(
+          "combined is {} on waypoints and {} on the polyline{}; differential is {} for the "
+          "speed. `awmr compare` gives intervals",
+          place(at_waypoints), place(along_line),
+          differential_close ? "; differential is close to the least cross-track RMS on both" : "",
+          speed ? "best" : "not best: its forces make the whole turn and saturate first")};
 }
 
 }  // namespace

@@ -131,9 +131,9 @@ Claim check_straight_run(const Model& model, const Plant<double>& plant,
   const double settled_mps = run.rows.back().state.u_mps;
   const double steady_mps = std::pow(kFullThrust / plant.surge.alpha, 1.0 / plant.surge.beta);
   const bool settles = std::abs(settled_mps - steady_mps) <= kSteadyTolerance * steady_mps;
-  claim.figure = fmt::format("simulated {:.4f} m/s, solved from g1(u) = 2 {:.4f} m/s", settled_mps,
-                             steady_mps);
-  claim.tolerance = fmt::format("within {} % of the solved speed", 100.0 * kSteadyTolerance);
+  claim.figure = fmt::format("simulated {:.4f} m/s; the solution of g1(u) = 2 is {:.4f} m/s",
+                             settled_mps, steady_mps);
+  claim.tolerance = fmt::format("within {} % of the solution", 100.0 * kSteadyTolerance);
 
   const TrialPoint* fastest = fastest_trial(model);
   const bool at_full_thrust = fastest && std::abs(fastest->input - kFullThrust) < 1e-9;
