@@ -737,7 +737,7 @@ TEST(Tune, AddsAnObserverIfAGoalIsMissedWithoutIt) {
   TuneOptions options = short_options();
   options.nominal = false;
   options.draws = 1;
-  options.evaluation_draws = 0;
+  options.evaluation_draws = 2;
   options.global_evaluations = 40;
   options.local_evaluations = 30;
   options.mode = YawMode::kSteering;
