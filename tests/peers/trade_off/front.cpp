@@ -77,27 +77,28 @@ Means means_of(const Case& one, const std::vector<Trial>& trials, const Controls
         sum.variation += f.variation;
         sum.overshoot_deg += f.overshoot_deg;
         sum.steering_rms_degps += f.steering_rms_degps;
+        sum.speed_itae_ms += f.speed_itae_ms;
       }
     }
   }
   const auto runs = static_cast<double>(trials.size() * one.modes.size() * one.courses.size());
   return {sum.settling_s / runs, sum.variation / runs, sum.overshoot_deg / runs,
-          sum.steering_rms_degps / runs};
+          sum.steering_rms_degps / runs, sum.speed_itae_ms / runs};
 }
 
 LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const LawGains& near,
-                        FedForward fed_forward, double most_variation, double most_overshoot_deg,
-                        const FrontOptions& options) {
+                        FedForward fed_forward, const Means& most, const FrontOptions& options) {
   std::mt19937_64 random(options.seed);
   const Vector centre = logarithms(near);
   const std::size_t dimensions = one.model.yaw.coulomb > 0.0 ? 7 : 5;
   const auto look = [&](const Vector& x) -> Member {
     const Controls c{one.model, gains_at(x), fed_forward};
     const Means m = means_of(one, trials, c);
-    // Gains that exceed the permitted control variation or overshoot rank behind all others,
-    // ordered by how much they exceed it.
+    // Gains that exceed the permitted control variation, overshoot or error of the speed rank behind
+    // all others, ordered by how much they exceed it.
     const double over =
-        std::max(m.variation / most_variation, m.overshoot_deg / most_overshoot_deg);
+        std::max({m.variation / most.variation, m.overshoot_deg / most.overshoot_deg,
+                  m.speed_itae_ms / most.speed_itae_ms});
     return {x, over > 1.0 ? 1e3 * over : m.settling_s};
   };
   const auto is_admissible = [&](const Vector& x) {

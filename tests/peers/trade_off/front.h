@@ -32,7 +32,8 @@ std::vector<Trial> with_noise(const Case& one, const std::vector<Body>& bodies, 
 
 /// Metrics averaged over trials, modes and courses.
 struct Means {
-  double settling_s = 0.0, variation = 0.0, overshoot_deg = 0.0, steering_rms_degps = 0.0;
+  double settling_s = 0.0, variation = 0.0, overshoot_deg = 0.0, steering_rms_degps = 0.0,
+         speed_itae_ms = 0.0;
 };
 Means means_of(const Case& one, const std::vector<Trial>& trials, const Controls& controls,
                double step_s = 2e-3);
@@ -44,12 +45,12 @@ struct FrontOptions {
   std::uint64_t seed = 1;
 };
 
-/// Finds the gains with the shortest settling time that meet every limit, have at most the control
-/// variation `most_variation` and overshoot by at most `most_overshoot_deg` on the trials. Draws
+/// Finds the gains with the shortest settling time that meet every limit and whose control variation,
+/// overshoot and error of the speed (ITAE) on the trials are at most those of `most`. Draws
 /// gains within a factor of 30 of `near` (speed gains: 5), then refines the best few and `near` by
 /// an evolution strategy.
 LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const LawGains& near,
-                        FedForward fed_forward, double most_variation, double most_overshoot_deg,
+                        FedForward fed_forward, const Means& most,
                         const FrontOptions& options = {});
 
 }  // namespace awmr::peers

@@ -180,7 +180,8 @@ class Meter {
     is_out_ = false;
     begun_ = true;
   }
-  void add(double t, double error, const Commands& c) {
+  void add(double t, double error, double u_mps, const Commands& c) {
+    figures_.speed_itae_ms += g_.sample_s * t * std::abs(course_.speed_mps - u_mps);
     const double deg = error * kDeg;
     const bool out = std::abs(deg) > std::max(0.02 * std::abs(size_), 0.5);
     if (is_out_ && !out) settled_ = t - start_;
@@ -269,7 +270,7 @@ RunFigures drive(const Body& body, const Geometry& vehicle, const SensorErrors& 
     const double error = wrapped(goal - state.psi);
     if (now != step) meter.begin_step(t, error);
     step = now;
-    meter.add(t, error, c);
+    meter.add(t, error, state.u, c);
     move(body, vehicle, c, steps, state);
   }
   return meter.result(static_cast<double>(readings - 1) * ts);

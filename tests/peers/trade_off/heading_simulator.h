@@ -80,6 +80,7 @@ struct RunFigures {
   double overshoot_deg = 0.0;  ///< largest travel beyond a commanded heading
   double variation = 0.0;      ///< total variation of the commands over their limits, 1/s
   double steering_rms_degps = 0.0;  ///< RMS rate of the steering command
+  double speed_itae_ms = 0.0;       ///< integral of t |u_d - u|, m s
 };
 
 /// Simulates one run. `step_s`: step of the integrator; a run with half of it shows the
