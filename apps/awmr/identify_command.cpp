@@ -127,7 +127,7 @@ Result<Outcome> execute(const IdentifyCommand& command) {
                  .closing = fmt::format("wrote {}\n", command.output.string()),
                  .brief = parameter_table_text(model),
                  .findings = model.record.findings,
-                 .refused = !identified.refused.empty(),
+                 .refused = !identified.refused.empty() || identified.has_refused_terms,
                  .document = std::move(document),
                  .written = {command.output}};
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "awmr/core/csv_cell.h"
+#include "awmr/core/nearest.h"
 
 namespace awmr::cli {
 namespace {
@@ -56,6 +57,33 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   return {};
 }
 
+namespace {
+
+/// Error for a name that --fit does not accept. `names`: the names that it accepts.
+tl::unexpected<Error> unknown_request(std::string_view name,
+                                      const std::vector<std::string>& names) {
+  const std::vector<std::string> automatic = automatic_terms();
+  if (std::ranges::find(automatic, name) != automatic.end()) {
+    return input_error(ErrorCode::kUnknownName, "--fit",
+                       fmt::format("'{}' cannot be requested: a fit of logs estimates it by itself "
+                                   "if the logs indicate it",
+                                   name));
+  }
+  const auto id = parameter_by_name(name);
+  if (id) {
+    return input_error(
+        ErrorCode::kUnknownName, "--fit",
+        fmt::format("'{}' is a term of a resistance family; request it by --family", name));
+  }
+  const std::string near = nearest(name, names);
+  const std::string remedy = near.empty() ? fmt::format("the names are {}", fmt::join(names, ", "))
+                                          : fmt::format("did you mean '{}'?", near);
+  return input_error(ErrorCode::kUnknownName, "--fit",
+                     fmt::format("no parameter is called '{}'; {}", name, remedy));
+}
+
+}  // namespace
+
 Status add_requested(std::string_view name, IdentifyOptions& options) {
   if (name == "all") {
     options.requested_all = true;
@@ -64,16 +92,11 @@ Status add_requested(std::string_view name, IdentifyOptions& options) {
     }
     return {};
   }
-  if (name == kInputDelayName) {
-    options.fit_input_delay = true;
-    return {};
-  }
   std::vector<std::string> names;
   for (const ParameterInfo& p : parameter_table()) {
     if (can_be_requested(p)) names.emplace_back(p.name);
   }
   names.emplace_back("all");
-  names.emplace_back(kInputDelayName);
   for (const LogChannel channel : kChannels) {
     const std::string bias = fmt::format("{}{}", kBiasPrefix, info(channel).name);
     if (name == bias) {
@@ -82,12 +105,15 @@ Status add_requested(std::string_view name, IdentifyOptions& options) {
     }
     names.push_back(bias);
   }
-  const auto id = parameter_by_name(name);
-  if (!id || !can_be_requested(info(*id))) {
-    return input_error(
-        ErrorCode::kUnknownName, "--fit",
-        fmt::format("no parameter is called '{}'; the names are {}", name, fmt::join(names, ", ")));
+  for (const std::string& term : requestable_terms()) {
+    if (name == term) {
+      options.terms.push_back(term);
+      return {};
+    }
+    names.push_back(term);
   }
+  const auto id = parameter_by_name(name);
+  if (!id || !can_be_requested(info(*id))) return unknown_request(name, names);
   options.requested.push_back(*id);
   return {};
 }
@@ -131,7 +157,7 @@ std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions
       {"loss", std::string(name_in(kLossNames, options.loss))}};
   if (options.joint) words.emplace_back("joint", "true");
   for (const ParameterId id : options.requested) words.emplace_back("fit", info(id).name);
-  if (options.fit_input_delay) words.emplace_back("fit", kInputDelayName);
+  for (const std::string& term : options.terms) words.emplace_back("fit", term);
   for (const LogChannel channel : options.biases) {
     words.emplace_back("fit", fmt::format("{}{}", kBiasPrefix, info(channel).name));
   }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
+#include "awmr/core/text.h"
 #include "awmr/trials/column_guess.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
@@ -92,7 +94,8 @@ std::string text_of(const MapCommand& command, const std::vector<ColumnGuess>& g
   return awmr::to_text(json);
 }
 
-std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>& guesses) {
+std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>& guesses,
+                       const FileSample& sample) {
   std::string text = fmt::format("{}: guessed columns, to be confirmed\n", command.file.string());
   for (const ColumnGuess& guess : guesses) {
     text += fmt::format("  {:<6} {:<17} {}  ({})\n", name_in(kConfidenceNames, guess.confidence),
@@ -103,6 +106,9 @@ std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>
     text += fmt::format(
         "  open   {:<17} no column is a good match; to identify, give --column {}=EXPRESSION{}\n",
         name, name, name == "steering_cmd_deg" ? " (only if the vehicle steers)" : "");
+  }
+  if (const auto unused = unused_columns(sample, guesses); !unused.empty()) {
+    text += fmt::format("  unused {}\n", shortened(fmt::format("{}", fmt::join(unused, ", "))));
   }
   if (command.output) {
     text += fmt::format("wrote {}: correct it, then give it to identify as --columns-file\n",
@@ -121,7 +127,7 @@ Result<Outcome> execute(const MapCommand& command) {
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files({command.file}));
   std::vector<std::pair<std::string, std::string>> options{
       {"trial", std::string(name_in(kTrialKindNames, command.trial))}};
-  Outcome outcome{.summary = summary_of(command, guesses),
+  Outcome outcome{.summary = summary_of(command, guesses, sample),
                   .document = text_of(command, guesses, sample,
                                       {"map", std::move(options), std::move(inputs)})};
   if (!command.output) return outcome;

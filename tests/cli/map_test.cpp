@@ -22,7 +22,7 @@ class Map : public ::testing::Test {
         read_all(std::string(AWMR_SOURCE_DIR) + "/datasets/synthetic/drive_1.csv"));
     std::string text =
         "time_ms;duty_left;duty_right;steering_setpoint_deg;pos_x_m;pos_y_m;heading;v (km/h);"
-        "gyro_z_radps\n";
+        "gyro_z_radps;battery_v\n";
     for (std::string line; std::getline(lines, line);) {
       if (line.empty() || line[0] == '#' || line[0] == 't') continue;
       std::istringstream cells(line);
@@ -36,7 +36,7 @@ class Map : public ::testing::Test {
         for (char& c : shown) c = c == '.' ? ',' : c;
         text += (column == 0 ? "" : ";") + shown;
       }
-      text += "\n";
+      text += ";12\n";
     }
     write_all(path("foreign.csv"), text);
   }
@@ -49,6 +49,7 @@ TEST_F(Map, WritesGuessesThatIdentifyTakesBack) {
   ASSERT_EQ(mapped.exit_code, 0) << mapped.err;
   EXPECT_THAT(mapped.out, HasSubstr("likely speed_mps         `v (km/h)`*0.2777778"));
   EXPECT_THAT(mapped.out, Not(HasSubstr("open")));
+  EXPECT_THAT(mapped.out, HasSubstr("  unused battery_v\n"));
   const std::string identify = "identify --vehicle configs/paper/vehicle.json --log ";
   const ProcessResult foreign = awmr(identify + path("foreign.csv") + " --columns-file " +
                                      path("map.json") + " --verbose -o " + path("foreign.json"));

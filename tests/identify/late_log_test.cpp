@@ -183,6 +183,45 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
 }
 INSTANTIATE_TEST_SUITE_P(ByARecursiveFilter, SmoothedSpeed, ::testing::Bool());
 
+/// Filters the speed by T^2 d2y/dt2 + 2 zeta T dy/dt + y = u, in steps of a fiftieth of a row with
+/// the speed on a straight line between rows.
+DrivingLog with_speed_of_second_order(DrivingLog log, double lag_s, double damping) {
+  constexpr int kSteps = 50;
+  std::vector<double> all(log.rows());
+  replay<double>(LogSignals(log), 0, log.rows(), plant(kTruths[1]), nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& state) { all[row] = state.u_mps; });
+  const double h = kStep_s / kSteps;
+  double y = all.front();
+  double rate = 0.0;
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    for (int k = 0; k < kSteps; ++k) {
+      const double u = all[i - 1] + (k + 0.5) / kSteps * (all[i] - all[i - 1]);
+      rate += h * ((u - y) / lag_s - 2.0 * damping * rate) / lag_s;  // symplectic Euler
+      y += h * rate;
+    }
+    log[LogChannel::kSpeed]->value[i] += y - all[i];
+  }
+  return log;
+}
+
+class SpeedOfSecondOrder : public ::testing::TestWithParam<double> {};
+
+TEST_P(SpeedOfSecondOrder, IsAllowedFor) {
+  constexpr double kLag_s = 0.12;
+  const Truth& t = kTruths[1];
+  TrialData data;
+  data.logs = {with_speed_of_second_order(drive(t, 8, {.duration_s = 40.0}), kLag_s, GetParam())};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  const auto lag = estimated(*result, "lag.speed_mps");
+  ASSERT_TRUE(lag && lag->std_error);
+  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  EXPECT_TRUE(has_finding(*result, "sensor-lag", "second order"));
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+}
+INSTANTIATE_TEST_SUITE_P(CriticallyDampedOrButterworth, SpeedOfSecondOrder,
+                         ::testing::Values(1.0, 0.70710678));
+
 TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
   constexpr double kLag_s = 0.2;
   const Truth& t = kTruths[1];

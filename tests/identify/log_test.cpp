@@ -140,7 +140,7 @@ TEST(Log, FindsADelayAndABias) {
   TrialData data;
   data.logs = {log};
   IdentifyOptions options;
-  options.fit_input_delay = true;
+  options.terms = {"input_delay_s"};
   options.biases = {LogChannel::kYawRate};
   const auto result = identify(robot(), data, options, {});
   ASSERT_TRUE(result);
@@ -333,7 +333,7 @@ TEST(Log, ReportsTheActuatorsIfAllSensorsAreDelayed) {
   ASSERT_TRUE(delay && delay->std_error);
   EXPECT_NEAR(delay->value, 0.06, 4.5 * *delay->std_error);
   IdentifyOptions with_delay = power_law();
-  with_delay.fit_input_delay = true;
+  with_delay.terms = {"input_delay_s"};
   const auto delayed = identify(robot(), data, with_delay, {});
   ASSERT_TRUE(delayed);
   EXPECT_TRUE(has_finding(*delayed, "actuator-lag", "s after its commands"));

@@ -131,5 +131,17 @@ TEST(GuessColumns, TwoTimesAreAmbiguous) {
   EXPECT_THAT(guesses_of("time_ms,gps_timestamp_us\n1,2\n"), ElementsAre("unsure t_s="));
 }
 
+TEST(GuessColumns, ColumnsThatNoGuessUsesAreListed) {
+  FileSample sample;
+  sample.names = {"time_ms", "duty_left", "v (km/h)", "battery", "count no. 2", "gz_dps"};
+  sample.values.assign(sample.names.size(), {1.0, 2.0});
+  sample.texts.assign(sample.names.size(), "1");
+  EXPECT_THAT(unused_columns(sample, guess_columns(sample, TrialKind::kLog)),
+              ElementsAre("battery", "count no. 2"));
+  const std::vector<ColumnGuess> one{{.column = "speed_mps", .expression = "v (km/h)*0.2777778+1"}};
+  EXPECT_THAT(unused_columns(sample, one),
+              ElementsAre("time_ms", "duty_left", "battery", "count no. 2", "gz_dps"));
+}
+
 }  // namespace
 }  // namespace awmr::testing::column_guess_test

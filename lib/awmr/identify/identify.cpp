@@ -75,6 +75,11 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
                        fmt::format("the method trajectory needs a driving log; give one with {}",
                                    option_text("log")));
   }
+  if (!options.terms.empty() && data.logs.empty()) {
+    return input_error(ErrorCode::kMissing, option_text("fit"),
+                       fmt::format("{} needs a driving log; give one with {}",
+                                   options.terms.front(), option_text("log")));
+  }
   if (options.joint && (!data.surge || data.curves.empty())) {
     return input_error(ErrorCode::kMissing, option_text("joint"),
                        "needs surge runs and a coast-down curve; give both, or remove this option");
@@ -240,6 +245,9 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
   }
   reasons.inadmissible = take_out_inadmissible(model);
   model.record.trials = trials_as_used(data, model);
+  result.has_refused_terms = std::ranges::any_of(model.record.findings, [](const Finding& finding) {
+    return finding.code == "not-identifiable" && finding.severity == Severity::kError;
+  });
   result.refused = refuse_what_is_missing(data, reasons, requested, model);
   return result;
 }

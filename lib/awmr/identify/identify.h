@@ -13,6 +13,7 @@ namespace awmr {
 struct Identification {
   Model model;
   std::vector<ParameterId> refused;  ///< requested parameters that the data do not identify
+  bool has_refused_terms = false;  ///< true: the logs do not identify one of IdentifyOptions::terms
 };
 
 /// Identifies the model of a vehicle. `findings`: findings from reading the data, which come first

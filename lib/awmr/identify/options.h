@@ -73,6 +73,14 @@ inline bool can_be_requested(const ParameterInfo& parameter) {
   return !parameter.term || parameter.id == ParameterId::kBackEmf;
 }
 
+/// Names of the quantities that --fit accepts for logs in addition to parameters and biases, such as
+/// "motor.time_constant_s" or "delay.speed_mps". They are those of /estimates in model.json.
+std::vector<std::string> requestable_terms();
+
+/// Names in /estimates of quantities that --fit does not accept, because a fit estimates them only
+/// if the logs indicate them.
+std::vector<std::string> automatic_terms();
+
 struct IdentifyOptions {
   /// Absent: trajectory if there are logs. Without logs: nonlinear if another family or a robust
   /// loss is requested, else log-linear.
@@ -92,7 +100,7 @@ struct IdentifyOptions {
   /// the servo's, without steering) are then ignored. If false, requesting such a parameter is an
   /// input error.
   bool requested_all = false;
-  bool fit_input_delay = false;         ///< logs: estimates one common delay of all commands, s
+  std::vector<std::string> terms = {};  ///< logs: further quantities to fit, of requestable_terms()
   std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
   std::uint64_t seed = 1;               ///< seed of the multistart and of the bootstrap
   /// Logs: number of random initial guesses, >= 0, in addition to the one from the logs. Not used

@@ -6,6 +6,7 @@
 #include "read_table.h"
 #include "repeated_rows.h"
 #include "rest_limits.h"
+#include "rounded_times.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -143,7 +144,7 @@ std::vector<CoastCurve> read_bins(TrialReader& reader) {
 
 /// Reads curves. Consecutive rows with the same value of `run` are a curve; without that column the
 /// file is one curve.
-std::vector<CoastCurve> read_curves(TrialReader& reader) {
+std::vector<CoastCurve> read_curves(TrialReader& reader, std::vector<Finding>& findings) {
   std::vector<CoastCurve> curves;
   std::optional<double> run;
   for (std::size_t i = 0; i < reader.table().rows(); ++i) {
@@ -163,6 +164,10 @@ std::vector<CoastCurve> read_curves(TrialReader& reader) {
     curves.back().speed_mps.push_back(*reader.cell(i, "speed_mps"));
   }
   check_length(reader, curves);
+  if (!reader.faults().empty()) return curves;
+  for (CoastCurve& curve : curves) {
+    replace_rounded_times(curve.t_s, curve.file, curve.line, findings);
+  }
   return curves;
 }
 
@@ -179,7 +184,7 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
   note_format(reader, findings);
   CoastdownSet set;
   if (is_curve(reader)) {
-    set = read_curves(reader);
+    set = read_curves(reader, findings);
   } else if (is_binned(reader)) {
     set = read_bins(reader);
   } else {

@@ -6,11 +6,13 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <span>
 #include <utility>
 
+#include "awmr/core/column_expression.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/time_column.h"
 #include "awmr/core/units.h"
@@ -309,6 +311,23 @@ std::vector<ColumnGuess> likely_columns(const std::vector<ColumnGuess>& guesses)
     if (is_new && guess.confidence != Confidence::kUnsure) first.push_back(guess);
   }
   return first;
+}
+
+std::vector<std::string> unused_columns(const FileSample& sample,
+                                        const std::vector<ColumnGuess>& guesses) {
+  std::set<std::string> used;
+  for (const ColumnGuess& guess : guesses) {
+    // In the form SOURCE*SCALE+OFFSET, the name of the source may have any characters.
+    for (const std::string& name : sample.names) {
+      if (guess.expression == name || guess.expression.starts_with(name + "*")) used.insert(name);
+    }
+    const auto formula = ColumnExpression::parse(guess.expression);
+    if (formula) used.insert(formula->names().begin(), formula->names().end());
+  }
+  std::vector<std::string> unused;
+  std::ranges::copy_if(sample.names, std::back_inserter(unused),
+                       [&](const std::string& name) { return !used.contains(name); });
+  return unused;
 }
 
 }  // namespace awmr

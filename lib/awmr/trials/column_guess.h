@@ -52,4 +52,8 @@ std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind)
 /// Returns the first guess for each of awmr's columns; omits columns whose first guess is kUnsure.
 std::vector<ColumnGuess> likely_columns(const std::vector<ColumnGuess>& guesses);
 
+/// Returns the columns of the file that no guess uses, in the file's order.
+std::vector<std::string> unused_columns(const FileSample& sample,
+                                        const std::vector<ColumnGuess>& guesses);
+
 }  // namespace awmr

@@ -9,6 +9,7 @@
 #include "awmr/trials/log_consistency.h"
 #include "awmr/trials/steady.h"
 #include "awmr/trials/trial_columns.h"
+#include "repeated_logs.h"
 #include "table_consistency.h"
 
 namespace awmr {
@@ -67,34 +68,6 @@ void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
       faults.insert(faults.end(), sound.error().faults.begin(), sound.error().faults.end());
     }
     trials.data.logs.push_back(std::move(log));
-  }
-}
-
-bool is_same_recording(const DrivingLog& a, const DrivingLog& b) {
-  const auto same_values = [&](std::size_t channel) {
-    const std::optional<Measured>& one = a.measured[channel];
-    const std::optional<Measured>& other = b.measured[channel];
-    return one.has_value() == other.has_value() && (!one || one->value == other->value);
-  };
-  bool is_same = a.t_s == b.t_s && a.force_left == b.force_left && a.force_right == b.force_right;
-  for (std::size_t channel = 0; is_same && channel < kChannelCount; ++channel) {
-    is_same = same_values(channel);
-  }
-  return is_same;
-}
-
-/// Adds a fault for each log that was given twice, because a copy would wrongly narrow confidence
-/// intervals by sqrt(2).
-void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>& faults) {
-  for (std::size_t i = 0; i < logs.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (!is_same_recording(logs[i], logs[k])) continue;
-      faults.push_back({ErrorCode::kGivenTwice, logs[i].file,
-                        fmt::format("the same recording as {}, row by row, which would count "
-                                    "twice; remove one of the two files",
-                                    logs[k].file)});
-      break;
-    }
   }
 }
 
@@ -183,6 +156,7 @@ Result<Trials> load_trials(const TrialFiles& files) {
     if (logs) add_logs(path, std::move(*logs), options, trials, faults);
   }
   check_repeated_logs(data.logs, faults);
+  check_repeated_curves(data.curves, faults);
   const std::vector<std::filesystem::path> paths = paths_of(files);
   if (!faults.empty()) {
     const std::vector<Fault> unusable = unusable_mappings(options, paths);

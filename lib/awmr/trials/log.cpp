@@ -19,6 +19,7 @@
 #include "course_at_rest.h"
 #include "log_channels.h"
 #include "read_table.h"
+#include "rounded_times.h"
 #include "trial_reader.h"
 
 namespace awmr {
@@ -355,6 +356,8 @@ void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> spe
 DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,
                   std::vector<Finding>& findings) {
   DrivingLog log = commands_of(reader, rows);
+  // The rows of a joined log are not evenly spaced.
+  if (!log.joined) replace_rounded_times(log.t_s, log.file, log.line.front(), findings);
   if (reader.has("latitude_deg")) add_geographic(reader, rows, log, findings);
   if (!reader.faults().empty()) return log;
   const std::vector<double> speed_mps = last_speeds(reader, rows);

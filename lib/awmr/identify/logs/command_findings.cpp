@@ -101,9 +101,13 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
        found_terms(fit, FreeQuantity::Kind::kSensorLag)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "sensor-lag",
-         fmt::format("{} is low-pass filtered with a time constant of {:.3f} +- {:.3f} s; the fit "
-                     "compensates this. Log the unfiltered reading, or make the filter faster",
-                     info(quantity.channel).name, value_s, error_s)});
+         fmt::format(
+             "{} is low-pass filtered with a time constant of {:.3f} +- {:.3f} s{}; the fit "
+             "compensates this. Log the unfiltered reading, or make the filter faster",
+             info(quantity.channel).name, value_s, error_s,
+             quantity.damping > 0.0
+                 ? fmt::format(" (second order, damping {:.2g})", quantity.damping)
+                 : "")});
   }
   for (const auto& [quantity, variance_s2, error_s2] :
        found_terms(fit, FreeQuantity::Kind::kSmoothing)) {

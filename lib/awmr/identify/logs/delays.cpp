@@ -39,21 +39,28 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   return found;
 }
 
-/// Considers a low-pass filter of each channel in `lags_s`, with the lag as initial guess: the
-/// better one of a continuous filter and a filter with one step per row. Keeps a filter only if its
+/// Considers a low-pass filter of each channel in `lags_s`, the delay, as initial guess: the best one
+/// of a continuous filter, a filter with one step per row and two of second order. Keeps a filter only if its
 /// AIC is lower than that of the best fit so far by more than kLikelierFilter.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {
   constexpr double kLikelierFilter = 10.0;
+  constexpr double kButterworth = 0.70710678;
   // With the speed as the only channel, its filter has the same effect as a motor lag, which is
   // more common.
   if (settled.problem.model.noise.size() <= 1) return;
   for (const auto& [channel, lag_s] : lags_s) {
-    NoiseIteration continuous = tried(settled, {{sensor_lag_of(channel), lag_s}}, loss);
-    NoiseIteration at_rows = tried(settled, {{sensor_lag_of(channel, true), lag_s}}, loss);
-    const bool is_at_rows = akaike_of(at_rows) < akaike_of(continuous);
-    lowest.consider(std::move(is_at_rows ? at_rows : continuous), kLikelierFilter);
+    NoiseIteration best = tried(settled, {{sensor_lag_of(channel), lag_s}}, loss);
+    // The delay of slow signals is T, or 2 zeta T for a filter of second order.
+    for (const FreeTerm& other :
+         {FreeTerm{sensor_lag_of(channel, true), lag_s},
+          FreeTerm{second_order_lag_of(channel, 1.0), lag_s / 2.0},
+          FreeTerm{second_order_lag_of(channel, kButterworth), lag_s / (2.0 * kButterworth)}}) {
+      NoiseIteration fit = tried(settled, {other}, loss);
+      if (akaike_of(fit) < akaike_of(best)) best = std::move(fit);
+    }
+    lowest.consider(std::move(best), kLikelierFilter);
   }
 }
 

@@ -1,7 +1,11 @@
-/// Simulation of a sensor's first-order low-pass filter, with derivatives. Private to identify/.
+/// Simulation of a sensor's low-pass filter of first or second order, with derivatives. Private to
+/// identify/.
 #pragma once
 
+#include <complex>
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "awmr/identify/logs/command_path.h"
@@ -10,23 +14,64 @@ namespace awmr {
 
 /// The filter of a sensor.
 struct SensorFilter {
-  DelayColumn lag;  ///< time constant T, s
-  bool is_at_rows;  ///< true: one step for each row of the log; false: continuous
+  DelayColumn lag;       ///< time constant T, s
+  bool is_at_rows;       ///< true: one step for each row of the log; false: continuous
+  double damping = 0.0;  ///< zeta, (0, 1], of a filter of second order; 0: of first order
 };
 
-/// Output y of a filter with the input u and the time constant T, and its derivatives by the
-/// columns of the fit (linear_stepper.h). With rows h apart and e = exp(-h/T),
+/// Output y of a filter of first order with the input u and the time constant T, and its
+/// derivatives by the columns of the fit (linear_stepper.h). With rows h apart and e = exp(-h/T),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///     q = (T/h)(1 - e)   continuous, T dy/dt = u - y, u linear between rows
 ///     q = e              at the rows, y(t + h) = e y(t) + (1 - e) u(t + h)
 ///
-/// y starts at the first reading of the window. The effect of that reading's noise decays with the
-/// time constant T.
+/// `Scalar`: double, or complex for one of the two stages of a filter of second order.
+template <class Scalar>
+class FilterStage {
+ public:
+  /// `direction`: derivative of this stage's time constant by that of the filter. The output begins
+  /// at `first`, with the derivatives `by_column`.
+  FilterStage(const SensorFilter& filter, Scalar direction, Scalar first,
+              std::vector<Scalar> by_column)
+      : lag_s_(direction * filter.lag.delay_s),
+        direction_(direction),
+        column_(filter.lag.column),
+        is_at_rows_(filter.is_at_rows),
+        y_(first),
+        by_column_(std::move(by_column)) {}
+
+  /// Advances the filter by h_s seconds to the input u. `by`: derivatives of u, one per column.
+  void next(Scalar u, const Scalar* by, double h_s, std::size_t columns);
+  Scalar value() const { return y_; }
+  const std::vector<Scalar>& by_column() const { return by_column_; }
+
+ private:
+  void move(Scalar u, const Scalar* by, double h_s, std::size_t columns);
+
+  Scalar lag_s_;
+  Scalar direction_;
+  std::size_t column_;
+  bool is_at_rows_;
+  Scalar y_;
+  Scalar u_before_ = 0.0;
+  bool has_before_ = false;
+  std::vector<Scalar> by_column_;
+  std::vector<Scalar> by_before_;
+};
+
+/// A filter of first order, or of second order:
+///
+///     T^2 d2y/dt2 + 2 zeta T dy/dt + y = u
+///
+/// The latter is two stages in series with the complex time constants T exp(i phi) and
+/// T exp(-i phi), cos phi = zeta. y starts at the first reading of the window, whose noise decays
+/// with the time constant T. The output of the first of two stages starts as if the input had risen
+/// steadily.
 class FilteredChannel {
  public:
-  /// `first`: first reading of the window, the initial y. `columns`: number of columns of the fit,
-  /// by which y is differentiated; 0: only y is computed.
+  /// `first`: first reading of the window. `columns`: number of columns of the fit, by which y is
+  /// differentiated; 0: only y is computed.
   FilteredChannel(const SensorFilter& filter, double first, std::size_t columns)
       : filter_(filter), y_(first), by_column_(columns, 0.0) {}
 
@@ -36,14 +81,15 @@ class FilteredChannel {
   const std::vector<double>& by_column() const { return by_column_; }
 
  private:
-  void move(double u, const double* by, double h_s, std::size_t columns);
+  using Complex = std::complex<double>;
+  void start_pair(double u, const std::vector<Complex>& by);
+  void next_of_pair(double u, const double* by, double h_s, std::size_t columns);
 
   SensorFilter filter_;
   double y_;
-  double u_before_ = 0.0;
-  bool has_before_ = false;
   std::vector<double> by_column_;
-  std::vector<double> by_before_;
+  std::optional<FilterStage<double>> single_;
+  std::vector<FilterStage<Complex>> pair_;
 };
 
 }  // namespace awmr

@@ -8,6 +8,7 @@
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/initial_guess.h"
+#include "awmr/identify/logs/requested_terms.h"
 #include "awmr/trials/calibration_checks.h"
 #include "awmr/trials/log_consistency.h"
 
@@ -108,7 +109,9 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   // If the commands were logged too slowly, the time of each change is known only to about one row
   // interval. The delay of the commands is therefore estimated.
   const bool is_interpolated = std::ranges::any_of(logs, &DrivingLog::has_interpolated_commands);
-  if (options.fit_input_delay || is_interpolated) fit.terms = {{input_delay(), 0.0}};
+  fit.terms = requested_terms(options.terms);
+  const bool has_delay = std::ranges::find(options.terms, kInputDelayName) != options.terms.end();
+  if (is_interpolated && !has_delay) fit.terms.push_back({input_delay(), 0.0});
   fit.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
                          ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
                          ParameterId::kYawQuadratic};

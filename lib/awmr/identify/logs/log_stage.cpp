@@ -124,6 +124,34 @@ Finding impossible_servo_finding(const std::string& file) {
                       kSlowestServo_s, option_text("starts"))};
 }
 
+/// The finding `not-identifiable` for each term that has no value: an error if `requested` has its
+/// name, else a note. Forms of other terms are left out.
+std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::string>& requested,
+                                   const std::string& file) {
+  std::vector<Finding> findings;
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const FreeQuantity& q = fit.quantities[i];
+    found.push_back(q.name());
+    if (fit.refusal_reason[i].empty() || q.kind == FreeQuantity::Kind::kParameter || q.is_form())
+      continue;
+    const bool is_requested = std::ranges::find(requested, q.name()) != requested.end();
+    findings.push_back(
+        {file, 0, is_requested ? Severity::kError : Severity::kNote, "not-identifiable",
+         fmt::format("{} {}: {}", q.name(),
+                     is_requested ? "cannot be identified" : "is in the fit, but has no value",
+                     fit.refusal_reason[i])});
+  }
+  for (const std::string& name : requested) {
+    if (std::ranges::find(found, name) != found.end()) continue;
+    findings.push_back({file, 0, Severity::kError, "not-identifiable",
+                        fmt::format("{} cannot be identified: other terms describe these logs "
+                                    "better and replace it (/estimates lists them)",
+                                    name)});
+  }
+  return findings;
+}
+
 /// Copies the parameters that the fit identifies to `stage`. A parameter with a value from other
 /// trials is copied only if `overrule` is true.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
@@ -136,10 +164,6 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
     if (!fit.refusal_reason[i].empty()) {
       if (parameter) stage.reasons[q.id] = fit.refusal_reason[i];
       if (q.is(ParameterId::kBackEmf)) stage.is_back_emf_open = true;
-      if (!parameter && !q.is_form()) {
-        stage.findings.push_back({file, 0, Severity::kWarning, "not-identifiable",
-                                  fmt::format("{}: {}", q.name(), fit.refusal_reason[i])});
-      }
       continue;
     }
     if (!parameter || stage.reasons.contains(q.id)) continue;
@@ -231,6 +255,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     return stage;
   }
   take(chosen.fit, model, overrule, file, stage);
+  append(stage.findings, refused_terms(chosen.fit, options.terms, file));
   append(stage.findings, speed_control_findings(vehicle, logs, stage, set_point_mps));
   check_inertia(vehicle, logs, model, stage);
   return stage;

@@ -243,6 +243,12 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows) {
           .is_at_rows = is_at_rows};
 }
 
+FreeQuantity second_order_lag_of(LogChannel channel, double damping) {
+  FreeQuantity quantity = sensor_lag_of(channel);
+  quantity.damping = damping;
+  return quantity;
+}
+
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean) {
   return {.kind = FreeQuantity::Kind::kSmoothing,
           .channel = channel,

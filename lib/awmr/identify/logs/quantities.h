@@ -57,6 +57,7 @@ struct FreeQuantity {
   double full_command = 1.0;  ///< for kForceSaturation: F'm of force_saturation(), > 0
   double fastest = 1.0;       ///< for a Stribeck speed: largest speed (m/s or rad/s) of the logs
   bool is_at_rows = false;    ///< for kSensorLag: true: one filter step per row of a log
+  double damping = 0.0;       ///< for kSensorLag: of a filter of second order; 0: first order
   bool is_mean = false;       ///< for kSmoothing: true: moving average, false: Gaussian kernel
   bool is_ratio = false;      ///< for kWheelSlip: true: slip ratio, see WheelSlip::is_ratio
 
@@ -152,6 +153,10 @@ FreeQuantity extra_force(ExtraForce force);
 /// filter with one step for each row of the log, y(row) = e y(row - 1) + (1 - e) u(row), in place
 /// of a continuous filter (filtered_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
+
+/// Time constant T of a continuous filter of second order that smooths a channel, s. `damping`: zeta,
+/// 1 for two equal filters in series, 0.707 for a Butterworth filter (filtered_channel.h).
+FreeQuantity second_order_lag_of(LogChannel channel, double damping);
 
 /// Variance of a symmetric kernel that smooths a channel over the rows of the log, s^2. `is_mean`:
 /// a moving average in place of a Gaussian kernel (smoothing_kernel.h). Central differences,

@@ -83,7 +83,7 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
   const std::size_t c = at(q.channel);
   switch (q.kind) {
     case Kind::kSensorLag:
-      sensors.lag[c] = {{number, i}, q.is_at_rows};
+      sensors.lag[c] = {{number, i}, q.is_at_rows, q.damping};
       break;
     case Kind::kSmoothing:
       sensors.smoothing[c] = smoothing_at(window, q, number, i);
