@@ -30,7 +30,7 @@ Status add_excluded(std::string_view text, TrialOptions& trials);
 /// Checks the span of time in which the logs are used. Errors (input): `--until` is not after
 /// `--from`.
 Status check_used(const TrialOptions& trials);
-/// Calls check_used(), and add_excluded() for each text of `excluded`. Errors: as these.
+/// Calls check_used(), and add_excluded() for each text of `excluded`. Errors: those of both.
 Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials);
 
 /// Returns the options as pairs of name and value for the model's provenance.

@@ -23,7 +23,7 @@ struct CsvHead {
 };
 
 /// Reads the header and up to `most_rows` rows as text. The names in `columns` and `mappings`
-/// distinguish the header from titles above it. Errors: as find_header() (csv_header.h).
+/// distinguish the header from titles above it. Errors: those of find_header() (csv_header.h).
 Result<CsvHead> csv_head(std::string_view bytes, const std::string& file,
                          std::span<const CsvColumn> columns,
                          std::span<const ColumnMapping> mappings, std::size_t most_rows);

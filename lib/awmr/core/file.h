@@ -30,7 +30,7 @@ using ReadBack = std::function<Status(std::string_view bytes, const std::string&
 /// that another program reads either the whole old file or the whole new one. Pipes and terminals
 /// are written directly. A symbolic link is kept, and its target written, even if the target is
 /// missing. The directory must exist. Also removes temporary files (`.awmr-PID-XXXXXX`) that killed
-/// programs left in this directory. Errors: as check_output(); the disk is full; (fault)
+/// programs left in this directory. Errors: those of check_output(); the disk is full; (fault)
 /// `read_back` rejects the bytes, and the old file is kept.
 Status write_file(const std::filesystem::path& path, std::string_view bytes,
                   const ReadBack& read_back = {});
@@ -54,7 +54,7 @@ Status write_files(std::span<const OutputFile> files);
 Status check_output(const std::filesystem::path& path,
                     std::span<const std::filesystem::path> inputs = {});
 
-/// Makes the directory `path` and its missing parents. Errors: as check_output_directory().
+/// Makes the directory `path` and its missing parents. Errors: those of check_output_directory().
 Status make_directory(const std::filesystem::path& path);
 
 /// Maximum time to wait for a program at the other end of a pipe, s.
@@ -64,7 +64,7 @@ inline constexpr double kPipeWait_s = 5.0;
 /// (input): the name cannot be looked up (a directory without search permission, a loop of links, a
 /// name that is too long).
 Result<bool> path_exists(const std::filesystem::path& path);
-/// True if a directory has this name. Errors: as path_exists().
+/// True if a directory has this name. Errors: those of path_exists().
 Result<bool> directory_exists(const std::filesystem::path& path);
 /// True if a regular file has this name. Errors (input): as path_exists(); a pipe, a device or a
 /// directory has this name.

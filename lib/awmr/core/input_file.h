@@ -18,7 +18,7 @@ Result<std::string> read_input(const std::filesystem::path& path,
                                std::size_t max_bytes = kMaxFileBytes);
 
 /// The name of the file, and the hash of the bytes last read from it by read_input(). Reads the
-/// file if it was not read yet. Errors: as read_file().
+/// file if it was not read yet. Errors: those of read_file().
 Result<InputFile> input_file(const std::filesystem::path& path);
 
 }  // namespace awmr

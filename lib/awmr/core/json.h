@@ -23,7 +23,7 @@ namespace awmr {
 
 using Json = nlohmann::ordered_json;
 
-/// Parses a file. Errors: as read_input() and read_json_text().
+/// Parses a file. Errors: those of read_input() and read_json_text().
 Result<Json> read_json_file(const std::filesystem::path& path);
 
 class JsonShape;

@@ -21,11 +21,11 @@ inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< number of values 
 Result<Json> read_json_text(std::string_view text, const std::string& file);
 
 /// ReadBack (file.h) for JSON files whose keys no reader checks: checks only that the text can be
-/// parsed. Errors: as read_json_text().
+/// parsed. Errors: those of read_json_text().
 Status check_json_text(std::string_view text, const std::string& file);
 
 /// Checks a JSON text with `read(JsonObject&)`, the function that reads such files, for a ReadBack
-/// (file.h). Errors: as read_json_text(); all faults that `read` finds.
+/// (file.h). Errors: those of read_json_text(); all faults that `read` finds.
 template <class Read>
 Status check_json_object(std::string_view text, const std::string& file, const Read& read) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(text, file));

@@ -54,7 +54,7 @@ auto payload_of(const Json& shard_json, const Read& read) {
   return read(json);
 }
 
-/// Reads the table of a part. Errors: as read_file(); (input) the hash of the table differs from
+/// Reads the table of a part. Errors: those of read_file(); (input) the hash of the table differs from
 /// the one in shard.json.
 Result<std::string> read_table(const ShardKind& kind, const Part& part);
 

@@ -42,13 +42,13 @@ struct PartText {
 /// Names of the files of a part, shard.json first.
 std::vector<std::string> part_files(const ShardKind& kind);
 
-/// Writes a part into the directory, which is made if necessary. Errors: as make_directory() and
+/// Writes a part into the directory, which is made if necessary. Errors: those of make_directory() and
 /// write_files().
 Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                   const PartText& part);
 
 /// The value of the key `schema` in the directory's shard.json, which identifies the kind of the
-/// part; empty if shard.json has no such key. Errors: as read_json_file().
+/// part; empty if shard.json has no such key. Errors: those of read_json_file().
 Result<std::string> schema_of_part(const std::filesystem::path& directory);
 
 /// JSON Schema of shard.json, derived from its reader.

@@ -151,7 +151,7 @@ struct AutopilotParameters {
   std::uint32_t crc = 0;  ///< crc32_of_parameters(), over block, tables, rest and observer
 };
 
-/// Computes the firmware's numbers for this model and these gains. Errors: as params_header();
+/// Computes the firmware's numbers for this model and these gains. Errors: those of params_header();
 /// (input) small-angle allocation, front-wheel drive, or kPowf for a resistance other than the
 /// power law; (refused) no table is within options.table_error.
 Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
@@ -170,7 +170,7 @@ struct EmittedFile {
 
 /// Creates an Arduino library: awmr_params.h, library.properties, src/ with the C interface and the
 /// unchanged control sources, examples/. It also works with PlatformIO and with plain avr-gcc and
-/// -I src. The same inputs give the same bytes. Errors: as autopilot_parameters.
+/// -I src. The same inputs give the same bytes. Errors: those of autopilot_parameters().
 Result<std::vector<EmittedFile>> firmware_library(const Model& model, const Gains<double>& gains,
                                                   const EmitInputs& inputs,
                                                   const EmitOptions& options);

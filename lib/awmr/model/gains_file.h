@@ -15,7 +15,7 @@
 namespace awmr {
 
 /// Reads `/heading`, `/speed` and, if present, `/observer`; other keys of the format are ignored.
-/// Errors: as read_json_file; unknown keys; gains that are missing or out of range (ranges.h).
+/// Errors: those of read_json_file(); unknown keys; gains that are missing or out of range (ranges.h).
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
 /// Reads `/certificate`; absent in files without tuning results and in older files. Errors: as
@@ -23,7 +23,7 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path);
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
 /// Checks a text of gains.json before it is written: the ReadBack (core/file.h) of this format.
-/// Errors: as read_gains.
+/// Errors: those of read_gains().
 Status check_gains_text(std::string_view text, const std::string& file);
 
 /// As read_gains(), but also checks that the gains suit a controller with this sample time. Errors:
@@ -32,7 +32,7 @@ Status check_gains_text(std::string_view text, const std::string& file);
 Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s);
 
 /// Writes a file with gains only. Tuned gains are written by gains_text() in tune/tune.h.
-/// Errors: as write_file.
+/// Errors: those of write_file().
 Status write_gains(const Gains<double>& gains, const std::filesystem::path& path);
 
 }  // namespace awmr

@@ -132,7 +132,7 @@ struct Model {
   /// these parameters with the trial that identifies it.
   Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
 
-  /// The plant for all motions that the trials in `record` have measured. Errors: as plant().
+  /// The plant for all motions that the trials in `record` have measured. Errors: those of plant().
   Result<Plant<double>> plant_of_trials() const;
 
   /// The plant without checks. Parameters without a value are replaced: a resistance by 0, an

@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// Reads model.json. Errors: as read_json_file(); unknown or missing keys; values that are out of
+/// Reads model.json. Errors: those of read_json_file(); unknown or missing keys; values that are out of
 /// range (ranges.h) or contradict each other, such as a value outside its interval; an implausible
 /// vehicle (plausibility.h) that the user did not accept with `identify --as-is`.
 Result<Model> read_model(const std::filesystem::path& path);
@@ -20,13 +20,13 @@ Result<Model> read_model_as_is(const std::filesystem::path& path);
 /// As read_model(), from a text in memory; `file`: its name in errors.
 Result<Model> model_from_text(std::string_view text, const std::string& file);
 /// Checks a text of model.json before it is written: the ReadBack (core/file.h) of this format.
-/// Errors: as model_from_text().
+/// Errors: those of model_from_text().
 Status check_model_text(std::string_view text, const std::string& file);
 
 /// Text of model.json.
 std::string model_text(const Model& model);
 
-/// Writes model.json. Errors: as write_file().
+/// Writes model.json. Errors: those of write_file().
 Status write_model(const Model& model, const std::filesystem::path& path);
 
 /// The JSON Schema of model.json, derived from its reader.

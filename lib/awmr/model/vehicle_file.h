@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// Reads vehicle.json. Errors: as read_json_file(); unknown or missing keys; values out of range
+/// Reads vehicle.json. Errors: those of read_json_file(); unknown or missing keys; values out of range
 /// (ranges.h).
 Result<Vehicle> read_vehicle(const std::filesystem::path& path);
 
