@@ -54,8 +54,8 @@ auto payload_of(const Json& shard_json, const Read& read) {
   return read(json);
 }
 
-/// Reads the table of a part. Errors: those of read_file(); (input) the hash of the table differs from
-/// the one in shard.json.
+/// Reads the table of a part. Errors: those of read_file(); (input) the hash of the table differs
+/// from the one in shard.json.
 Result<std::string> read_table(const ShardKind& kind, const Part& part);
 
 /// Checks that the `rows` rows of a part's table are those of the part's items: all items in order,

@@ -42,8 +42,8 @@ struct PartText {
 /// Names of the files of a part, shard.json first.
 std::vector<std::string> part_files(const ShardKind& kind);
 
-/// Writes a part into the directory, which is made if necessary. Errors: those of make_directory() and
-/// write_files().
+/// Writes a part into the directory, which is made if necessary. Errors: those of make_directory()
+/// and write_files().
 Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                   const PartText& part);
 

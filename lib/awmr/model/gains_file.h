@@ -15,7 +15,8 @@
 namespace awmr {
 
 /// Reads `/heading`, `/speed` and, if present, `/observer`; other keys of the format are ignored.
-/// Errors: those of read_json_file(); unknown keys; gains that are missing or out of range (ranges.h).
+/// Errors: those of read_json_file(); unknown keys; gains that are missing or out of range
+/// (ranges.h).
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
 /// Reads `/certificate`; absent in files without tuning results and in older files. Errors: as

@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// Reads model.json. Errors: those of read_json_file(); unknown or missing keys; values that are out of
-/// range (ranges.h) or contradict each other, such as a value outside its interval; an implausible
+/// Reads model.json. Errors: those of read_json_file(); unknown or missing keys; values that are out
+/// of range (ranges.h) or contradict each other, such as a value outside its interval; an implausible
 /// vehicle (plausibility.h) that the user did not accept with `identify --as-is`.
 Result<Model> read_model(const std::filesystem::path& path);
 /// As read_model(), but any vehicle within the ranges is accepted.

@@ -9,8 +9,8 @@
 
 namespace awmr {
 
-/// Reads vehicle.json. Errors: those of read_json_file(); unknown or missing keys; values out of range
-/// (ranges.h).
+/// Reads vehicle.json. Errors: those of read_json_file(); unknown or missing keys; values out of
+/// range (ranges.h).
 Result<Vehicle> read_vehicle(const std::filesystem::path& path);
 
 /// The JSON Schema of vehicle.json, derived from its reader.
