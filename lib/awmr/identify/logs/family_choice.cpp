@@ -37,7 +37,8 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
 
 /// True if a family with more terms may be better. One of these reasons suffices: the score test of
 /// a term predicts a large decrease of -2 ln L; no term was tested; the errors have a slow drift,
-/// which can hide a missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for terms of surge.
+/// which can hide a missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for
+/// terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
   if (!fit.usable || fit.candidate_gain.empty() ||
