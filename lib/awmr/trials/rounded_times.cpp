@@ -84,7 +84,7 @@ std::optional<RoundedTimes> even_times(std::span<const double> t_s,
     across += number * (t_s[i] - t_s.front() - mean_s);
     along += number * number;
   }
-  RoundedTimes result{.resolution_s = resolution_s, .step_s = across / along};
+  RoundedTimes result{.resolution_s = resolution_s, .step_s = across / along, .even_s = {}};
   double squares = 0.0;
   double largest_s = 0.0;
   for (std::size_t i = 0; i < t_s.size(); ++i) {
