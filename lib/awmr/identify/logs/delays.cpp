@@ -39,9 +39,10 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   return found;
 }
 
-/// Considers a low-pass filter of each channel in `lags_s`, the delay, as initial guess: the best one
-/// of a continuous filter, a filter with one step per row and two of second order. Keeps a filter only if its
-/// AIC is lower than that of the best fit so far by more than kLikelierFilter.
+/// Considers a low-pass filter of each channel in `lags_s`, with the delay as initial guess of its
+/// time constant: the best of a continuous filter, a filter with one step per row and two of second
+/// order. Keeps a filter only if its AIC is lower than that of the best fit so far by more than
+/// kLikelierFilter.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {

@@ -11,7 +11,8 @@ namespace awmr {
 /// Terms that can still be added to the fit:
 ///   - a delay of the commands and of every measured channel (one for x and y together). At least
 ///     one of these signals has no delay, as the time reference of the others;
-///   - symmetric smoothing of the channels that are often filtered, unless a filter or smoothing is estimated;
+///   - symmetric smoothing of the channels that are often filtered, unless a filter or smoothing is
+///     estimated;
 ///   - an additional delay of the steering, if the servo's time constant is free;
 ///   - a steering trim, if the steering moves;
 ///   - a force imbalance, if left and right forces differ;
