@@ -4,17 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "awmr/core/units.h"
 
 namespace awmr {
 namespace {
 
-constexpr std::size_t kMinEqual = 50;  ///< minimum number of equal rows
+constexpr std::size_t kMinEqual = 50;  ///< minimum number of equal rows, except in exact copies
 constexpr double kNearlyAll = 0.95;    ///< minimum fraction of equal rows in the part in common
 constexpr std::size_t kMaxAlike = 8;   ///< rows that occur more often in a log do not align it
 constexpr std::size_t kMinCurve = 20;
@@ -137,8 +140,17 @@ bool is_common_start(const CommonPart& part, const DrivingLog& a, const DrivingL
          std::max(share_of_a, share_of_b) < kNearlyAll;
 }
 
+/// True if the logs have the same rows, apart from the start of the time.
+bool is_copy(const DrivingLog& a, const DrivingLog& b, const std::vector<Pair>& pairs) {
+  if (a.rows() != b.rows()) return false;
+  if (!std::ranges::all_of(pairs, [](const Pair& pair) { return pair.a == pair.b; })) return false;
+  const double span_s = a.t_s.back() - a.t_s.front();
+  return std::abs(b.t_s.back() - b.t_s.front() - span_s) <= 1e-6 * span_s;
+}
+
 std::optional<CommonPart> common_part(const DrivingLog& a, const DrivingLog& b) {
   const std::vector<Pair> pairs = shared_values(a, b);
+  if (is_copy(a, b, pairs)) return CommonPart{0, a.rows() - 1, 0, b.rows() - 1};
   std::vector<double> resolutions;
   for (const Pair& pair : pairs) {
     resolutions.push_back(std::max(resolution_of(pair.a), resolution_of(pair.b)));
@@ -158,9 +170,7 @@ std::optional<CommonPart> common_part(const DrivingLog& a, const DrivingLog& b) 
     is_equal.push_back(of_a.rows[other] == of_b.rows[row]);
     if (is_equal.back()) equal.emplace_back(other, row);
   }
-  const auto changing = static_cast<std::size_t>(
-      std::min(std::ranges::count(of_a.changes, true), std::ranges::count(of_b.changes, true)));
-  if (equal.empty() || equal.size() < std::min(kMinEqual, changing)) return std::nullopt;
+  if (equal.size() < kMinEqual) return std::nullopt;
   // Rows before the first and after the last equal row are not in the common part.
   const auto first = std::ranges::find(is_equal, true);
   const auto last = std::find(is_equal.rbegin(), is_equal.rend(), true).base();
@@ -176,6 +186,11 @@ std::optional<CommonPart> common_part(const DrivingLog& a, const DrivingLog& b) 
          of_a.rows[part.a_begin - 1] == of_b.rows[part.b_begin - 1]) {
     --part.a_begin;
     --part.b_begin;
+  }
+  while (part.a_end + 1 < a.rows() && part.b_end + 1 < b.rows() &&
+         of_a.rows[part.a_end + 1] == of_b.rows[part.b_end + 1]) {
+    ++part.a_end;
+    ++part.b_end;
   }
   return part;
 }

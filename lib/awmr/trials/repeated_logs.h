@@ -5,7 +5,7 @@
 /// coarser of its two resolutions, so that a copy with fewer digits or columns, other names or
 /// another start of the time is found too. The offset of the times at which most rows agree is
 /// tested: the logs have a part in common if 95 % of the rows there agree. Only rows in which a
-/// measurement changes count, and at least 50 of them, or all rows of the shorter log.
+/// measurement changes count, and at least 50 of them. Exact copies are found at any length.
 #pragma once
 
 #include <vector>

@@ -25,7 +25,7 @@ constexpr double kMatters = 0.01;
 constexpr double kCoarse = 0.2;
 constexpr std::int64_t kCoarse_ticks = 5000;
 /// Fraction of unequal steps below which steps that are multiples of the usual one are missing rows.
-constexpr double kMissingRows = 0.05;
+constexpr double kMissingRows = 0.2;
 
 /// Rounding of the times of a file.
 struct RoundedTimes {

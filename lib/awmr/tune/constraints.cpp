@@ -72,8 +72,7 @@ void add_draws(const ConstraintContext& context, std::vector<ExaminedLoop>& loop
 /// Smallest damping ratio over the modes and the loops, computed by `damping`.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
                        std::span<const ExaminedLoop> loops, double latency_s,
-                       double motor_time_constant_s,
-                       double (*damping)(const SampledHeadingLoop&) = damping_ratio) {
+                       double motor_time_constant_s, double (*damping)(const SampledHeadingLoop&)) {
   constexpr YawMode kAll[] = {YawMode::kDifferential, YawMode::kCombined, YawMode::kSteering};
   const auto modes = context.mode ? std::span(&*context.mode, 1)
                                   : std::span(kAll).first(context.has_steering ? 3 : 1);
@@ -169,7 +168,7 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
               strict),
       at_least(
           "heading damping",
-          heading_damping(gains, context, at_all_rates(plant, context), 0.0, 0.0),
+          heading_damping(gains, context, at_all_rates(plant, context), 0.0, 0.0, damping_ratio),
           context.limits.damping,
           "smallest damping ratio of the sampled heading loop with hold and servo >= required"),
       speed_gain(speed, context.sample_time_s),
@@ -244,7 +243,7 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
         "required"));
     const double doubled_s = 2.0 * context.latency_s + context.sample_time_s;
     worst.push_back(at_least("delay margin",
-                             heading_damping(gains, context, ends, doubled_s, lag_s),
+                             heading_damping(gains, context, ends, doubled_s, lag_s, damping_ratio),
                              context.limits.delayed_damping,
                              "smallest damping ratio of the heading loop with motor lag and twice "
                              "the latency plus one sample >= required"));

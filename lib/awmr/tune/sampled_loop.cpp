@@ -132,14 +132,34 @@ double damping_ratio(const SampledHeadingLoop& loop) {
   return worst;
 }
 
+namespace {
+
+/// The loop with lags that do not act on the heading replaced by negligible ones. Their poles are
+/// real, so that the damping ratio is the same.
+SampledHeadingLoop with_acting_lags(SampledHeadingLoop loop) {
+  constexpr double kNegligible = 0.1;  // of the sample time
+  if (!(loop.direct_share < 1.0)) loop.servo_time_constant_s = kNegligible * loop.sample_time_s;
+  if (!(loop.direct_share > 0.0)) loop.motor_time_constant_s = 0.0;
+  return loop;
+}
+
+std::vector<Pole> poles_of(const SampledHeadingLoop& loop) {
+  std::vector<Pole> poles;
+  for (const std::complex<double>& z : eigenvalues(closed_loop(loop))) poles.push_back(pole_of(z));
+  return poles;
+}
+
+}  // namespace
+
 double dominant_damping_ratio(const SampledHeadingLoop& loop) {
   constexpr double kQuick = 20.0;
-  std::vector<Pole> poles;
-  double slowest = std::numeric_limits<double>::infinity();
-  for (const std::complex<double>& z : eigenvalues(closed_loop(loop))) {
-    poles.push_back(pole_of(z));
-    slowest = std::min(slowest, poles.back().decay);
-  }
+  const SampledHeadingLoop acting = with_acting_lags(loop);
+  const std::vector<Pole> poles = poles_of(acting);
+  SampledHeadingLoop unobserved = acting;
+  unobserved.observer_radps = 0.0;
+  const double slowest =
+      std::ranges::min(acting.observer_radps > 0.0 ? poles_of(unobserved) : poles, {}, &Pole::decay)
+          .decay;
   double worst = 1.0;
   for (const Pole& pole : poles) {
     const double counted =

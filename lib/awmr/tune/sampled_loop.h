@@ -56,7 +56,9 @@ double damping_ratio(const SampledHeadingLoop& loop);
 /// Like damping_ratio(), but poles that decay much faster than the slowest one count less, because
 /// they are hardly seen: the smallest max(zeta, sigma/(20 sigma_slowest)) over the poles, with
 /// sigma = -Re(s). A value of 0.25 therefore permits poles with zeta < 0.25 that decay at least five
-/// times as fast as the slowest one. A latency of many samples adds such poles.
+/// times as fast as the slowest one. A latency of many samples adds such poles. The slowest pole is
+/// that of the loop without observer, and not that of a servo or motor that does not turn the
+/// vehicle in this mode.
 double dominant_damping_ratio(const SampledHeadingLoop& loop);
 
 /// Delay margin: smallest additional delay of the command, s, that makes the loop unstable. 0 if

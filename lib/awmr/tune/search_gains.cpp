@@ -101,7 +101,7 @@ std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSe
   Result<Tuning> observed = search_gains(model, setting, context, options, held_out);
   if (!observed || settled_share(setting, observed->gains) < share + kWorthIt) {
     if (options.notice) {
-      options.notice("the observer does not let more runs settle; the gains without it are kept");
+      options.notice("the observer does not let more runs settle; it is not used");
     }
     return std::nullopt;
   }

@@ -91,6 +91,14 @@ double damping(const Loop& loop, const Geometry& g, const LawGains& k, bool coun
   return least;
 }
 
+/// damping() without the servo if only the wheel forces turn the vehicle, and without the motors if
+/// only the steering does.
+double damping_of_acting(Loop loop, Geometry g, const LawGains& k, bool counts_decay) {
+  if (loop.by_forces >= 1.0) g.servo_s = 0.0;
+  if (loop.by_forces <= 0.0) loop.motor_s = 0.0;
+  return damping(loop, g, k, counts_decay);
+}
+
 double least_damping(const Controls& c, const Geometry& g, const Body& body, double rate,
                      double latency_s, double motor_s, bool counts_decay = false) {
   Loop loop{.own_rate = body.yaw.slope(rate) / body.inertia,
@@ -101,11 +109,11 @@ double least_damping(const Controls& c, const Geometry& g, const Body& body, dou
             .by_forces = 1.0,
             .motor_s = motor_s,
             .latency_s = latency_s};
-  double least = damping(loop, g, c.gains, counts_decay);
+  double least = damping_of_acting(loop, g, c.gains, counts_decay);
   if (!(g.servo_s > 0.0)) return least;
   for (const double share : {0.5, 0.0}) {
     loop.by_forces = share;
-    least = std::min(least, damping(loop, g, c.gains, counts_decay));
+    least = std::min(least, damping_of_acting(loop, g, c.gains, counts_decay));
   }
   return least;
 }

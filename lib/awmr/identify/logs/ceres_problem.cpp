@@ -193,23 +193,33 @@ class EndWithoutProgress : public ceres::IterationCallback {
     constexpr double kLittle = 0.05;
     constexpr int kFailures = 2;
     const double promised = step.cost_change / step.relative_decrease;
-    const bool failed = step.iteration > 0 && step.step_is_valid && !step.step_is_successful;
-    failures_ = failed && promised < kLittle ? failures_ + 1 : 0;
-    if (failures_ >= kFailures || creeps(step.cost)) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
-    return ceres::SOLVER_CONTINUE;
+    const bool failed = step.iteration > 0 && !step.step_is_successful;
+    const bool fails_near_end = failed && step.step_is_valid && promised < kLittle;
+    failures_ = fails_near_end ? failures_ + 1 : 0;
+    if (!failed || fails_near_end) add(step.cost);
+    if (failures_ >= kFailures) reason_ = "further steps improve -ln L by less than 0.05";
+    if (creeps()) reason_ = "eight steps improved -ln L by less than 0.01";
+    return reason_.empty() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
+  /// Reason for ending the search; empty if it was not ended.
+  const std::string& reason() const { return reason_; }
 
  private:
-  /// True if the last kSteps steps decreased the cost by less than kLittle in total.
-  bool creeps(double cost) {
-    constexpr std::size_t kSteps = 8;
+  static constexpr std::size_t kSteps = 8;
+
+  /// Adds the lowest cost after a step. The cost of a failed step is that of the rejected point.
+  void add(double cost) {
+    lowest_.push_back(lowest_.empty() ? cost : std::min(lowest_.back(), cost));
+  }
+  bool creeps() const {
     constexpr double kLittle = 0.01;
-    costs_.push_back(cost);
-    return costs_.size() > kSteps && costs_[costs_.size() - 1 - kSteps] - cost < kLittle;
+    return lowest_.size() > kSteps &&
+           lowest_[lowest_.size() - 1 - kSteps] - lowest_.back() < kLittle;
   }
 
   int failures_ = 0;
-  std::vector<double> costs_;
+  std::vector<double> lowest_;
+  std::string reason_;
 };
 
 /// Ends a search at the limit of effort. Used only for searches that run one after the other, so
@@ -228,15 +238,17 @@ class EndAtLimit : public ceres::IterationCallback {
   bool has_ended_ = false;
 };
 
-/// Sets the stop reason of a search, and whether the search converged and is usable.
-void report_end(const ceres::Solver::Summary& summary, bool at_limit, Solved& solved) {
-  const bool stalled = summary.termination_type == ceres::USER_SUCCESS && !at_limit;
+/// Sets the stop reason of a search, and whether the search converged and is usable. `stalled`:
+/// EndWithoutProgress::reason().
+void report_end(const ceres::Solver::Summary& summary, bool at_limit, const std::string& stalled,
+                Solved& solved) {
+  const bool is_stalled = !stalled.empty() && !at_limit;
   solved.cost = summary.final_cost;
-  solved.converged = stalled || converged(summary);
+  solved.converged = is_stalled || converged(summary);
   solved.usable = summary.IsSolutionUsable();
-  solved.stop_reason = at_limit  ? "the limit of computation was reached"
-                       : stalled ? "converged: further steps improve -ln L by less than 0.05"
-                                 : stop_reason(summary);
+  solved.stop_reason = at_limit     ? "the limit of computation was reached"
+                       : is_stalled ? "converged: " + stalled
+                                    : stop_reason(summary);
 }
 
 /// Treatment of search steps to points at which the simulation is not finite.
@@ -278,7 +290,7 @@ Solved search_from(const LogProblem& problem, SearchPoint from, double function_
   options.callbacks.push_back(&end_at_limit);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &search, &summary);
-  report_end(summary, end_at_limit.has_ended(), solved);
+  report_end(summary, end_at_limit.has_ended(), end_without_progress.reason(), solved);
   return solved;
 }
 

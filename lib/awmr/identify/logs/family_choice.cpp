@@ -36,15 +36,12 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
 }
 
 /// True if a family with more terms may be better. One of these reasons suffices: the score test of
-/// a term predicts a large decrease of -2 ln L; no term was tested; the errors have a slow drift,
-/// which can hide a missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for
+/// a term predicts a large decrease of -2 ln L; the errors have a slow drift, which can hide a
+/// missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for
 /// terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
-  if (!fit.usable || fit.candidate_gain.empty() ||
-      largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) {
-    return true;
-  }
+  if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
   const auto drifts = [&](LogChannel channel) {
     const auto noise = fit.noise.find(channel);
     return noise != fit.noise.end() && noise->second.has_slow_drift();
@@ -77,7 +74,7 @@ const FamilyFit* with_power_law(const std::vector<FamilyFit>& fits, bool of_yaw)
     if ((of_yaw ? one.yaw : one.surge) != Family::kPower) continue;
     const bool is_better =
         !best || aic_lead(one.fit, best->fit) > 0.0 ||
-        (one.fit.gave_up && best->fit.gave_up && one.fit.first_error < best->fit.first_error);
+        (one.fit.gave_up && best->fit.gave_up && one.fit.relative_error < best->fit.relative_error);
     if (is_better) best = &one;
   }
   return best;
@@ -99,7 +96,7 @@ std::optional<Finding> power_law_inadequate(const std::string& file, const BestF
                                         aic_lead(best.fit, power->fit), without)
         : power->fit.gave_up
             ? fmt::format("the errors of {} are {:.2g} times those of {}", without,
-                          std::sqrt(power->fit.first_error / best.fit.first_error), with)
+                          std::sqrt(power->fit.relative_error / best.fit.relative_error), with)
             : fmt::format("the fit of {} did not converge, but that of {} did", without, with));
   }
   if (reasons.empty()) return std::nullopt;
@@ -146,7 +143,7 @@ Finding terms_not_searched(const std::string& file, const FamilyFit& best) {
 }
 
 /// Fits whose errors are larger than those of the best fit by more than this are not refined: ratio
-/// of LogFit::first_error.
+/// of LogFit::relative_error.
 constexpr double kFarWorse = 1.5;
 
 /// The index of the selected fit: that with the lowest AIC, or a power law of the axis if its AIC is
@@ -173,7 +170,7 @@ void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool 
     const LogFit& fit = fits[best].fit;
     if (fit.usable) {
       power_law.give_up_above =
-          std::min(power_law.give_up_above, kFarWorse * std::max(1.0, fit.first_error));
+          std::min(power_law.give_up_above, kFarWorse * std::max(1.0, fit.relative_error));
     }
   };
   for (const Families& other : others) {
@@ -183,7 +180,9 @@ void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool 
     if (aic_lead(fits.back().fit, fits[best].fit) > 0.0) best = fits.size() - 1;
   }
   limit();
-  fits.front() = searched_again(logs, power_law, std::move(fits.front()), fits[best]);
+  if (best != 0) {
+    fits.front() = searched_again(logs, power_law, std::move(fits.front()), fits[best]);
+  }
   if (is_over(power_law)) {
     result.is_out_of_time = true;
     result.findings.push_back(not_compared(logs.front().file, fits.front()));
@@ -209,7 +208,7 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions po
                            bool of_yaw, BestFamily& result) {
   const LogFit& best = result.best.fit;
   if (!best.usable || result.is_out_of_time) return;
-  power_law.give_up_above = kFarWorse * std::max(1.0, best.first_error);
+  power_law.give_up_above = kFarWorse * std::max(1.0, best.relative_error);
   FamilyFit stribeck = fit_stribeck(logs, power_law, result.best, of_yaw);
   if (aic_lead(stribeck.fit, result.best.fit) > kFamilyAicThreshold) {
     std::swap(stribeck, result.best);
@@ -221,7 +220,7 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions po
 /// errors is significant.
 bool has_right_terms(const LogFit& fit) {
   constexpr double kErrorOfSensors = 1.2;
-  if (!(fit.first_error < kErrorOfSensors)) return false;
+  if (!(fit.relative_error < kErrorOfSensors)) return false;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
     const bool is_term =

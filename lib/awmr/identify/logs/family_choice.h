@@ -12,8 +12,7 @@ struct FamilyContest {
   OpenAxes open;      ///< the other axes keep the family of `first`
   double lead = 0.0;  ///< a family replaces a power law if its AIC is lower by more than this
   /// True: fits other families of an axis (surge or yaw) only for one of these reasons: a score
-  /// test or a slow drift suggests a missing term, no term was tested, the fit did not converge, or
-  /// the axis has another family than the power law.
+  /// test or a slow drift suggests a missing term, the fit did not converge, or the axis has another family than the power law.
   bool only_candidates = true;
 };
 

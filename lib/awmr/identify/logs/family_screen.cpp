@@ -24,7 +24,7 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
   constexpr int kMostChanges = 6;
   FamilyFit best = fit_roughly_from(logs, power_law, first, first.surge, first.yaw);
   std::optional<bool> changed_yaw;  // the axis that was changed last
-  for (int changes = 0; changes < kMostChanges; ++changes) {
+  for (int changes = 0; changes < kMostChanges && !is_over(power_law); ++changes) {
     std::vector<Families> others;
     for (const bool of_yaw : {false, true}) {
       if (!open.has(of_yaw) || changed_yaw == of_yaw) continue;
@@ -36,8 +36,9 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
       fits[i] = fit_roughly_from(logs, power_law, best, others[i].surge, others[i].yaw);
     });
     const auto least = std::ranges::min_element(
-        fits, {}, [](const FamilyFit& other) { return other.fit.first_error; });
-    if (least == fits.end() || !(least->fit.first_error < kClearlyLess * best.fit.first_error)) {
+        fits, {}, [](const FamilyFit& other) { return other.fit.relative_error; });
+    if (least == fits.end() ||
+        !(least->fit.relative_error < kClearlyLess * best.fit.relative_error)) {
       break;
     }
     changed_yaw = least->yaw != best.yaw;

@@ -36,18 +36,36 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   return fit;
 }
 
-/// Score-test estimate of the decrease of -2 ln L by each candidate term.
+/// Score-test estimate of the decrease of -2 ln L by each candidate term; 0 for a term that the fit
+/// estimates already.
 std::vector<double> candidate_gains(const LogProblem& problem, const SearchPoint& point,
                                     const std::vector<ParameterId>& candidate_terms) {
   std::vector<FreeQuantity> terms;
-  terms.reserve(candidate_terms.size());
-  for (const ParameterId id : candidate_terms) terms.push_back(free_parameter(id));
-  std::vector<double> gains;
-  for (const ScoreTest& test : score_test(problem, point, terms)) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < candidate_terms.size(); ++i) {
+    if (place_of(problem.model.quantities, candidate_terms[i])) continue;
+    terms.push_back(free_parameter(candidate_terms[i]));
+    places.push_back(i);
+  }
+  std::vector<double> gains(candidate_terms.size(), 0.0);
+  const std::vector<ScoreTest> tests = score_test(problem, point, terms);
+  for (std::size_t i = 0; i < tests.size(); ++i) {
     // A term cannot be negative, so an estimate below 0 gives no gain.
-    gains.push_back(test.value > 0.0 ? test.gain : 0.0);
+    if (tests[i].value > 0.0) gains[places[i]] = tests[i].gain;
   }
   return gains;
+}
+
+/// Mean square of the errors, relative to the noise of the sensors in `guess`.
+double relative_error_of(const LogProblem& guess, const ErrorsByChannel& errors) {
+  double sum = 0.0;
+  for (const auto& [channel, parts] : errors) {
+    const double std = guess.model.noise.at(channel).std();
+    for (const ErrorSeries& part : parts) {
+      for (const double error : part.error) sum += error * error / (std * std);
+    }
+  }
+  return sum / guess.readings();
 }
 
 /// Returns the fit at `solved`, the end of a search. `sums`: sums of all windows there, finite.
@@ -74,17 +92,12 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
-/// LogFit::first_error of a cost.
-double first_error(const LogProblem& problem, double cost) {
-  return 2.0 * cost / problem.readings();
-}
-
 /// Result of a fit that gave up at this point.
 LogFit given_up(const NoiseIteration& at) {
   LogFit fit = without_solution("not refined, because the errors are too large", {});
   fit.quantities = at.problem.model.quantities;
   fit.coordinates = at.point.coordinates;
-  fit.first_error = first_error(at.problem, at.first_cost);
+  fit.relative_error = 2.0 * at.first_cost / at.problem.readings();
   fit.gave_up = true;
   return fit;
 }
@@ -99,14 +112,13 @@ std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double
   NoiseIteration settled = settle_noise(std::move(problem), from_measured(guess, coordinates),
                                         options.loss, kNoiseRounds, largest_cost);
   if (settled.first_cost > largest_cost) return given_up(settled);
-  const double error = first_error(guess, settled.first_cost);
   if (options.finds_delays) settled = find_delays_and_errors(std::move(settled), options.loss);
   const Solved solved = solve(settled.problem, settled.point, kFine);
   const std::vector<WindowSums> sums =
       sums_at(settled.problem, solved.point, block_length_s(settled.problem.model.noise));
   if (!all_finite(sums)) return std::nullopt;
   LogFit fit = fit_at(settled.problem, solved, sums, options);
-  fit.first_error = error;
+  fit.relative_error = relative_error_of(guess, fit.errors);
   return fit;
 }
 
@@ -152,8 +164,8 @@ LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& opt
   LogFit fit;
   fit.quantities = rough.model.quantities;
   fit.coordinates = solved.point.coordinates;
-  fit.first_error =
-      solved.usable ? first_error(rough, solved.cost) : std::numeric_limits<double>::infinity();
+  fit.relative_error = solved.usable ? 2.0 * solved.cost / rough.readings()
+                                     : std::numeric_limits<double>::infinity();
   return fit;
 }
 

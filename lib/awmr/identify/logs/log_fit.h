@@ -31,11 +31,12 @@ struct LogFit {
   double widened = 1.0;    ///< largest widening factor: Identifiability::widened()
   EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
   bool usable = false;     ///< true if the final search converged
-  /// Mean square error after the first round of settle_noise(), relative to the noise by
-  /// sensor_noise(): about 1 if the model is right. It can be compared between fits of the same logs.
-  double first_error = 0.0;
-  /// True if `first_error` exceeded LogFitOptions::give_up_above. The fit is then not usable, and of
-  /// its results only `quantities`, `coordinates` and `report` are set.
+  /// Mean square of the errors at the optimum, relative to the noise by sensor_noise(): about 1 if
+  /// the model is right. Of a fit that gave up: after the first round of settle_noise().
+  double relative_error = 0.0;
+  /// True if the relative error of the first round exceeded LogFitOptions::give_up_above. The fit is
+  /// then not usable, and of its results only `quantities`, `coordinates`, `relative_error` and
+  /// `report` are set.
   bool gave_up = false;
 
   /// Standard error of coordinate i.
@@ -56,8 +57,8 @@ struct LogFit {
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Fits the logs by one rough search from the initial guess (rough_problem()), to rank models. Of
-/// the result, only `quantities`, `coordinates` and `first_error` are set. The latter is infinite if
-/// the search fails.
+/// the result, only `quantities`, `coordinates` and `relative_error` are set. The latter is infinite
+/// if the search fails.
 LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Returns the options with the delays and command errors of `fit` as the free terms, starting at

@@ -55,7 +55,7 @@ struct LogFitOptions {
   std::optional<Interval> only_s;
   /// Further initial guesses, for example the optimum of another family.
   std::vector<ParameterValues<double>> also_from;
-  /// The fit gives up after the first round if LogFit::first_error exceeds this.
+  /// The fit gives up after the first round of settle_noise() if LogFit::relative_error exceeds this.
   double give_up_above = std::numeric_limits<double>::infinity();
   Loss loss = Loss::kSquared;  ///< use a robust loss if a sensor has outliers
   std::uint64_t seed = 1;      ///< seed of the multistart and of the bootstrap

@@ -63,9 +63,9 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
 }
 
 int LogProblem::readings() const {
-  int readings = 0;
-  for (const auto& [channel, noise] : model.noise) readings += noise.count;
-  return readings;
+  std::size_t readings = 0;
+  for (const FitWindow& window : windows) readings += window.samples().size();
+  return static_cast<int>(readings);
 }
 
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates) {

@@ -31,7 +31,7 @@ struct LogProblem {
   std::shared_ptr<Effort> effort;                                 ///< work of all searches
   bool ends_at_limit = true;  ///< true: a search stops at the limit of effort
 
-  /// Number of measurements of all channels, for which `model.noise` was estimated.
+  /// Number of measurements of all channels in all windows.
   int readings() const;
   /// Number of unknowns: the quantities, and the free initial states of all windows.
   std::size_t unknowns() const {

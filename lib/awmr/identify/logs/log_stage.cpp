@@ -252,6 +252,11 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   const std::string& file = logs.front().file;
   if (!chosen.fit.usable) {
     refuse_all(chosen, file, stage);
+    for (const std::string& name : options.terms) {
+      stage.findings.push_back(
+          {file, 0, Severity::kError, "not-identifiable",
+           name + " cannot be identified: the fit of the logs did not converge"});
+    }
     return stage;
   }
   take(chosen.fit, model, overrule, file, stage);

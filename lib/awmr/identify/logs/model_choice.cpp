@@ -48,7 +48,7 @@ double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOpt
   return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
 }
 
-/// LogFit::first_error above which the family of resistance is probably wrong.
+/// LogFit::relative_error above which the family of resistance is probably wrong.
 constexpr double kErrorOfModel = 1.5;
 
 }  // namespace
@@ -69,9 +69,7 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
   first.give_up_above = kErrorOfModel;
   FamilyFit fit = fit_family(logs, first, surge, yaw);
   if (!fit.fit.gave_up) return fit;
-  FamilyFit refined = refine(logs, power_law, likely_families(logs, power_law, fit, open));
-  refined.fit.report.starts = std::move(fit.fit.report.starts);
-  return refined;
+  return refine(logs, power_law, likely_families(logs, power_law, fit, open));
 }
 
 std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {
@@ -150,7 +148,7 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   announce(options,
            std::min(contenders * static_cast<double>(power_law.effort->spent()),
                     static_cast<double>(power_law.effort->left())),
-           "comparing other families of resistance, as the first one fits poorly,");
+           "comparing families of resistance");
   chosen.found = best_family(logs, power_law, std::move(chosen.found.best), contest);
   return chosen;
 }

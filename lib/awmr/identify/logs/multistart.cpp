@@ -80,7 +80,7 @@ Multistart multistart(const LogProblem& problem, const LogFitOptions& options) {
   const std::vector<std::vector<double>> from = places(problem, options);
   if (from.size() == 1 && options.guessed.empty()) {
     return {{problem.initial},
-            {{values_at(quantities, problem.initial), 0.0, true, "from the other trials"}}};
+            {{values_at(quantities, problem.initial), 0.0, true, "initial guess"}}};
   }
   const LogProblem rough = rough_problem(problem);
   std::vector<Solved> solved(from.size());
