@@ -1,5 +1,5 @@
-/// Identification of m' from coast-downs: exact curves, several runs, an unknown time at which the
-/// motors go off, no surge trial, curves together with stop times.
+/// Identification of m' from coast-downs: exact curves, several runs, motors that go off at an
+/// unknown time, no surge trial, curves together with stop times.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

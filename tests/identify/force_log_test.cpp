@@ -14,7 +14,7 @@
 namespace awmr::testing {
 namespace {
 
-/// The motion of the vehicle by the commands of the log, with these forces.
+/// States of the vehicle under the commands of the log and these forces.
 std::vector<State<double>> motion_with(const DrivingLog& log, const Plant<double>& plant,
                                        const ExtraForces& extra) {
   constexpr double kStepOfMotion_s = 0.001;

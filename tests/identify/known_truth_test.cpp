@@ -1,5 +1,5 @@
-/// Known values are recovered: exactly from exact data, and inside their intervals at the stated
-/// rate.
+/// Known values are recovered: exactly from exact data, and with intervals that contain them as
+/// often as stated.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -88,8 +88,8 @@ TEST(Identify, CovarianceIsSymmetricAndHasNoNegativeDirection) {
 }
 
 TEST(Identify, StopTimeErrorIncludesTheCorrelationOfTheSurgeFit) {
-  // d ln m' = d ln a1 + (-1/(1 - b1) + mean ln u) d b1, with the joint covariance of (a1, b1) if
-  // the errors are on the force.
+  // d ln m' = d ln a1 + (-1/(1 - b1) + mean ln u) d b1. The variance follows with the joint
+  // covariance of (a1, b1), here for errors of the force.
   const auto result = identify(vehicle(), synthetic(kTruths[0], 0.03, 7),
                                {.method = Method::kNonlinear, .noise = ErrorModel::kForce}, {});
   const Model& m = result->model;

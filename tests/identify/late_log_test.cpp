@@ -70,8 +70,8 @@ TEST(LateLog, FindsLateStampsOfTheSteeringAlone) {
   expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
 }
 
-/// Every `every`-th row of a log whose commands act `rows_later` rows (of the original log) after
-/// the row in which they are logged.
+/// Returns every `every`-th row of the log, with the motion of a vehicle on which the commands act
+/// `rows_later` rows (of the original log) after the row in which they are logged.
 DrivingLog with_late_commands(DrivingLog log, const Truth& t, std::size_t every,
                               std::size_t rows_later) {
   const DrivingLog all = log;
@@ -183,8 +183,8 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
 }
 INSTANTIATE_TEST_SUITE_P(ByARecursiveFilter, SmoothedSpeed, ::testing::Bool());
 
-/// Filters the speed by T^2 d2y/dt2 + 2 zeta T dy/dt + y = u, in steps of a fiftieth of a row with
-/// the speed on a straight line between rows.
+/// Filters the speed by T^2 d2y/dt2 + 2 zeta T dy/dt + y = u. Integrates in steps of a fiftieth of
+/// a row. u is the speed, interpolated linearly between rows.
 DrivingLog with_speed_of_second_order(DrivingLog log, double lag_s, double damping) {
   constexpr int kSteps = 50;
   std::vector<double> all(log.rows());
@@ -733,8 +733,8 @@ TEST(LateLog, FindsForcesThatGrowWithAPowerOfTheCommands) {
   EXPECT_FALSE(mass.ci95);
 }
 
-/// The forces saturate as tanh, which the fitted law does not describe exactly. The estimates
-/// therefore differ between logs, and this difference must not be reported.
+/// The motors saturate like tanh, which the fitted saturation does not describe exactly. The
+/// estimates therefore differ between logs. This difference must not be reported.
 TEST(LateLog, DoesNotCompareLogsWithALargeSaturation) {
   TrialData data;
   for (const std::uint64_t seed : {8U, 9U}) {

@@ -1,5 +1,5 @@
-/// Hand-coded derivatives of the motion compared with ceres::Jet, and reduced rows compared with
-/// all rows.
+/// Compares hand-coded derivatives of the motion with those of ceres::Jet, and the reduced rows of
+/// triangle_of() with all rows.
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,8 @@ constexpr std::size_t kSpeedDelay = kParameterCount + 1;
 constexpr std::size_t kFirstState = kParameterCount + 2;
 using Jet = ceres::Jet<double, kColumns>;
 
-/// Resistance with the terms of all families, and b1 below 1, so that there is a chord at rest.
+/// Resistance with the terms of all families. b1 is below 1, so that a straight line (chord)
+/// replaces the resistance near rest.
 constexpr ParameterValues<double> kValues{0.9,  0.75, 0.06, 1.1,  4.0,   0.3,   0.0066,
                                           0.06, 0.05, 0.02, 0.01, 0.003, 0.015, 0.12};
 
@@ -82,7 +83,7 @@ struct ByHand {
 constexpr double kInputDelay_s = 0.033;
 constexpr double kSpeedDelay_s = 0.047;
 
-/// Whether the vehicle has Coulomb friction, which makes it stop in the middle of integration
+/// Coulomb friction of the vehicle. With friction, the vehicle stops in the middle of integration
 /// steps.
 enum class Friction { kNone, kCoulomb };
 
@@ -134,11 +135,10 @@ struct ByJets {
   std::vector<State<Jet>> earlier;
 };
 
-/// State at the time delay_s >= 0 before the last of `states`. `states` are the states at the rows
-/// from `begin` on. Runge-Kutta steps start at the last row before that time; the derivative with
-/// respect to the delay enters through the length of these steps. For a time before the row
-/// `begin`, the first state is extrapolated linearly with its rates. `input_delay_s`: `delay_s` of
-/// replay().
+/// State at the time that is delay_s >= 0 before the last of `states`. `states` are the states at
+/// the rows from `begin` on. Integrates from the last row before that time. The derivative with
+/// respect to the delay enters through the length of these integration steps. For a time before the
+/// row `begin`, extrapolates linearly from the first state. `input_delay_s`: `delay_s` of replay().
 template <class T>
 State<T> earlier_state(const LogSignals& signals, std::size_t begin,
                        const std::vector<State<T>>& states, const Plant<T>& plant, const T& delay_s,
@@ -184,10 +184,10 @@ ByJets by_jets(const DrivingLog& log, double step_s, Drive drive = Drive::kFourW
 }
 
 /// Additional tolerance of the derivative with respect to the delay of the commands. The hand-coded
-/// derivative is computed from the rates at the time at which a command changes, that of the jets
-/// from the lengths of the Runge-Kutta steps. They differ by the integration error of a step in
-/// which the yaw rate passes the kink of its resistance: 8.5e-4 with steps of 4 ms, 8e-6 with 0.25
-/// ms.
+/// derivative is computed from the rates at the time of a command change, that of the jets from the
+/// lengths of the Runge-Kutta steps. The two differ by the integration error of a step in which the
+/// yaw rate passes the kink of its resistance: by 8.5e-4 with steps of 4 ms, by 8e-6 with steps of
+/// 0.25 ms.
 constexpr double kChanges = 1e-3;
 
 /// Expects that the states and derivatives of `jets` and `motions` (hand-coded) are equal.
@@ -336,9 +336,9 @@ TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
   EXPECT_LT(apart, here.size() * kStateSize / 20);
 }
 
-/// Number of errors of the commands: 0 steering trim, rad; 1 force imbalance; 2 saturation of the
-/// forces; 3 logarithm of its sharpness; 4 logarithm of the exponent of the forces; 5 largest rate
-/// of the servo, rad/s; 6 dead band, rad, and 7 asymmetry of the steering.
+/// Number of command errors. Their indices: 0 steering trim, rad; 1 force imbalance; 2 saturation
+/// of the forces; 3 logarithm of its sharpness; 4 logarithm of the exponent of the forces; 5 rate
+/// limit of the servo, rad/s; 6 dead band of the steering, rad; 7 asymmetry of the steering.
 constexpr std::size_t kErrors = 8;
 using CommandErrors = std::array<double, kErrors>;
 
@@ -454,8 +454,8 @@ TEST(WheelSlip, OfAStandingWheelIsZero) {
   EXPECT_EQ(slip_at(at_rest, LogChannel::kSpeed, false).first, 0.0);
 }
 
-/// Values of the extra forces, by ExtraForce; for the speed scales of Stribeck friction the
-/// logarithms.
+/// Values of the extra forces, indexed by ExtraForce. Those of the speed scales of Stribeck
+/// friction are logarithms.
 using ForceCoordinates = std::array<double, kExtraForceCount>;
 
 /// Simulates the log with these extra forces, and derivatives with respect to them only.

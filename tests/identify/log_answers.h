@@ -15,7 +15,8 @@
 
 namespace awmr::testing {
 
-/// Expects the estimate within `deviations` of its own standard errors of the truth.
+/// Expects that the estimate differs from the truth by at most `deviations` of its own standard
+/// errors.
 inline void expect_recovered(const Identification& result, ParameterId id, double truth,
                              double deviations) {
   const Estimate& estimate = result.model[id];
@@ -30,9 +31,9 @@ inline IdentifyOptions power_law() {
   return options;
 }
 
-/// Force of motors with the time constant T = lag_s, averaged from each row to the next. In this
-/// time the command c is constant: F'(t + h) = c + (F'(t) - c) exp(-h/T). `force`: F' at the first
-/// row.
+/// Force of motors with the time constant T = lag_s, averaged from each row to the next. The
+/// command c is constant between rows: F'(t + h) = c + (F'(t) - c) exp(-h/T). `force`: F' at the
+/// first row.
 inline std::vector<double> behind_motors(const DrivingLog& log, const std::vector<double>& command,
                                          double lag_s, double force) {
   std::vector<double> mean = command;
@@ -48,9 +49,10 @@ inline std::vector<double> behind_motors(const DrivingLog& log, const std::vecto
 /// Longest step of the simulated logs, s.
 inline constexpr double kSimulationStep_s = 0.002;
 
-/// The log with the measurements of a vehicle whose motors lag by the time constant `lag_s`. Before
-/// the log, the motors had the force of the first row, or none if it begins `from_rest`. `vehicle`
-/// must be resolved for steps of kSimulationStep_s.
+/// Returns the log with the measurements of a vehicle whose motors have a lag with the time
+/// constant `lag_s`. Before the log begins, the motors have the force of its first row, or no force
+/// if `from_rest`. A `vehicle` with Coulomb friction must be a result of resolved_beside_friction()
+/// for steps of kSimulationStep_s.
 inline DrivingLog measured_behind_lag(DrivingLog log, const Plant<double>& vehicle, double lag_s,
                                       std::uint64_t seed, bool from_rest) {
   const std::map<LogChannel, double> noise{{LogChannel::kX, 0.02},

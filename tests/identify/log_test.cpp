@@ -219,7 +219,7 @@ TEST(Log, SeparatesMotorLagFromADeadTime) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, kTruths[1].a1, 4.5);
 }
 
-/// The motors are switched on with the first row. Speed and yaw rate both look filtered.
+/// The motors are switched on at the first row. The lag makes speed and yaw rate look filtered.
 TEST(Log, FindsALargeMotorLagInALogThatBeginsWithTheMotors) {
   constexpr double kLag_s = 0.3;
   TrialData data;
@@ -312,7 +312,8 @@ TEST(Log, FindsAndCompensatesALatencyOfTheSpeed) {
   }
 }
 
-/// Commands that reach the motors later than logged.
+/// Returns the log with its commands moved to `rows` rows earlier: they reach the motors later than
+/// logged.
 DrivingLog commanded_early(DrivingLog log, std::size_t rows) {
   const auto earlier = [rows](std::vector<double>& values) {
     std::rotate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows), values.end());
@@ -450,7 +451,7 @@ TEST_P(BackEmfOfSeeds, IsRecoveredFromDrivingAndCoastingAndReported) {
     const auto result = identify(robot(), data, {}, {});
     ASSERT_TRUE(result);
     EXPECT_TRUE(has_finding(*result, "back-emf", "AIC")) << seed;
-    // Three parameters, three seeds: 4.5 deviations give a failure probability of 6e-5.
+    // For three parameters and three seeds, 4.5 standard errors give a failure probability of 6e-5.
     expect_recovered(*result, ParameterId::kBackEmf, kBackEmf, 4.5);
     expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
     expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
@@ -670,8 +671,8 @@ TEST(Log, RecognisesDifferencedNoise) {
   }
 }
 
-/// Scores (gradients of the log-likelihood) of `logs` logs, with alternating signs. Their size is
-/// `times` the standard deviation that follows from `information`.
+/// Scores (gradients of -ln L) of `logs` logs, with alternating signs. Their size is `times` the
+/// standard deviation that `information` predicts.
 Scores scattered(int logs, double times, double information) {
   Scores scores;
   const double size = times * std::sqrt(information / logs);
@@ -689,9 +690,9 @@ TEST(Log, WholeLogsThatScatterBeyondChanceWidenTheIntervals) {
                            {free_parameter(ParameterId::kSurgeAlpha)})
         .factor.front();
   };
-  // With m logs, V/C = m/(m - 1) times^2, the variance between the logs (V) over that expected from
-  // the noise (C). For six logs without other scatter it is below chi^2_0.95/5 = 2.21 with a
-  // probability of 95 %. The prior changes the result by 4e-6.
+  // With m logs, V/C = m/(m - 1) times^2: the variance from the scatter of the logs (V) over the
+  // variance that the noise model predicts (C). If only noise scatters six logs, V/C is below
+  // chi^2_0.95/5 = 2.21 with a probability of 95 %. The prior changes the result by 4e-6.
   EXPECT_NEAR(factor(6, 3.0), std::sqrt(1.2) * 3.0, 1e-4);
   EXPECT_EQ(factor(6, 1.3), 1.0);
   EXPECT_EQ(factor(2, 5.0), 1.0) << "two logs are too few";

@@ -1,5 +1,5 @@
-/// Intervals of tables, averaged over the noise models: it is not known whether force, speed or
-/// time has the errors.
+/// Intervals from tables for which it is unknown whether force, speed or time has the errors. They
+/// are averaged over these noise models.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-/// Models identified from surge runs and coast-downs only: usable for planning in part, otherwise
-/// refused by name.
+/// Models identified from surge runs and coast-downs only: planning accepts their identified
+/// parameters and refuses the others by name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Shards of a recovery merge to the bytes of the whole.
+/// Merging all shards of a recovery gives the same bytes as a run on one machine.
 #include "awmr/identify/planning/recover_shard.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-/// Derivatives of the residuals of a log fit by its delays, lags and smoothing, against differences
-/// of the cost.
+/// Derivatives of a log fit's cost with respect to delays, lags and smoothing, compared with finite
+/// differences.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -148,12 +148,12 @@ TEST(Scrub, ReportsTheRangeOfAScrubThatChangesWithTheRate) {
   }
   RecordProperty("held", held);
   EXPECT_EQ(findings, kTables);
-  // Both ends of the reported range must be right. Each is, with a probability of 97.5 %, so both
-  // are in at least 95 % of the tables.
+  // Both ends of the reported range must be right. Each end is right with a probability of 97.5 %,
+  // so both are right in at least 95 % of the tables.
   EXPECT_GT(held / double(kTables), 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / kTables));
 }
 
-/// Of 200 tables with constant scrub, returns the number for which a rate-dependent scrub is
+/// Makes 200 tables with constant scrub and returns the number for which a rate-dependent scrub is
 /// (wrongly) reported. `turn` makes a row from its number and a standard normal deviate.
 template <class MakeTurn>
 int alarms_with(const MakeTurn& turn) {

@@ -42,7 +42,7 @@ TEST(Suggest, ATurnWhileCoastingIsOneThatTyresRoll) {
   ASSERT_TRUE(suggestion && suggestion->coasting);
   const CoastingTurn& turn = *suggestion->coasting;
   EXPECT_GT(turn.speed_mps, 0.0);
-  EXPECT_LE(turn.steering_deg, 10.0 * (1.0 + 1e-12));  // half of the stop
+  EXPECT_LE(turn.steering_deg, 10.0 * (1.0 + 1e-12));  // half of the steering limit
   // r = u tan(d_r)/(2 l_f), and the lateral acceleration u r is at most 0.2 g.
   const double rate = turn.speed_mps * std::tan(radians(turn.steering_deg)) / 0.7;
   EXPECT_NEAR(radians(turn.rolling_yaw_rate_degps), rate, 1e-12);
@@ -64,8 +64,8 @@ TEST(Suggest, ATurningRunDoesNotImproveSurge) {
 }
 
 TEST(Suggest, PredictedErrorOfARepeatedTrialIsThatOfMoreRuns) {
-  // One number, ln u, with noise s from n runs adds n (d ln u/d p)^2/s^2 to the information: four
-  // times the runs give four times the information.
+  // n runs that measure ln u with the noise s add n (d ln u/d p)^2/s^2 to the information about a
+  // parameter p. Four times the runs therefore give four times the information.
   const Model model = some_model(0.05);
   const auto one = suggest(model, {.parameter = "surge.beta", .repeats = 1});
   const auto four = suggest(model, {.parameter = "surge.beta", .repeats = 4});
@@ -82,8 +82,9 @@ TEST(Suggest, PredictedErrorOfARepeatedTrialIsThatOfMoreRuns) {
   const auto fall = [](const SuggestedTrial& t) {
     const double before = t.std_error_before * t.std_error_before;
     const double after = t.std_error_after * t.std_error_after;
-    return before / after -
-           1.0;  // has the form x/(1 + y) in the trial's information x: increases, at most fourfold
+    // This is x/(1 + y), with x and y proportional to the information of the trial. Four times the
+    // information increase it, at most fourfold.
+    return before / after - 1.0;
   };
   EXPECT_GT(fall(b), fall(a));
   EXPECT_LE(fall(b), 4.0 * fall(a));

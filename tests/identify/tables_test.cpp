@@ -44,8 +44,8 @@ IdentifyOptions family(std::optional<Family> family) {
 }
 
 TEST(Families, ExactRunsGiveTheirOwnFamilyBack) {
-  // One law of each family. The speeds are exact, so only rounding remains: 1e-12 of the speeds
-  // times a condition number below 1e4.
+  // One law of each family. The speeds are exact, so only rounding errors remain: 1e-12 of the
+  // speeds, multiplied by a condition number below 1e4.
   const struct {
     Family family;
     Resistance<double> law;
@@ -317,8 +317,8 @@ TEST(Bounds, AFitAtTheEndOfARangeIsTheBestOfTheRemainingCoordinates) {
 }
 
 TEST(Bounds, ATermThatStartsAtItsBoundLeavesItWhereTheCostFallsInwards) {
-  // Convex points do not fit a power law below 1 but a line with a square term: q starts at 0 and
-  // rises.
+  // A power law with an exponent of at most 1 does not fit convex points, but a straight line with
+  // a square term does. The coefficient q of that term starts at its bound 0 and increases.
   const SteadyFit fit = fit_steady(steeper_than_its_range(Family::kCoulombLinearQuadratic),
                                    {std::log(0.05), 1.0, 0.0, 0.0, 0.0});
   EXPECT_TRUE(fit.usable) << fit.stop_reason;

@@ -1,5 +1,5 @@
-/// Tables with one mistake, through every method and family: a fit ends with a value or a refusal
-/// with a message, and all results are finite.
+/// Tables with one mistake, fitted by every method and family: each fit ends with a value or a
+/// refusal with a message, and all results are finite.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -169,9 +169,10 @@ TEST(Typo, RefusesATableThatFallsWithTheForce) {
 
 class TypoInACell : public ::testing::TestWithParam<int> {};
 
-/// Each mutation of each cell is fitted by one of the methods, in turn; all combinations would take
-/// an hour. One in eight is also fitted with the alternative families and leave-one-out. Test
-/// parameter n: only every n-th mutation is used.
+/// Changes one cell at a time (a mutation) and fits the tables. Each mutation is fitted by only one
+/// of the methods, in turn, because all combinations would take an hour. One mutation in eight is
+/// also fitted with the alternative families and leave-one-out. Test parameter n: only every n-th
+/// mutation is used.
 TEST_P(TypoInACell, EndsWithAValueOrARefusalByEveryMethodAndFamily) {
   const TrialData paper = paper_tables();
   const auto all = cells(paper);

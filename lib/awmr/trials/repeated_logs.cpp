@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::size_t kMinEqual = 50;  ///< minimum number of equal rows, except in exact copies
 constexpr double kNearlyAll = 0.95;    ///< minimum fraction of equal rows in the part in common
-constexpr std::size_t kMaxAlike = 8;   ///< rows that occur more often in a log do not align it
+constexpr std::size_t kMaxAlike = 8;   ///< rows that occur more often are not used for the offset
 constexpr std::size_t kMinCurve = 20;
 
-/// One quantity of two logs.
+/// Values of one quantity in two logs.
 struct Pair {
   std::vector<double> a;
   std::vector<double> b;
@@ -35,7 +35,7 @@ std::vector<double> without_turns(std::vector<double> angle_rad) {
 }
 
 /// Commands and measured channels that both logs have. Positions from latitude and longitude are
-/// left out, because they count from the first row.
+/// left out, because the first row of each log is their origin.
 std::vector<Pair> shared_values(const DrivingLog& a, const DrivingLog& b) {
   std::vector<Pair> pairs{{a.force_left, b.force_left}, {a.force_right, b.force_right}};
   for (const LogChannel channel : kChannels) {
@@ -64,7 +64,7 @@ double resolution_of(std::vector<double> values) {
   return smallest;
 }
 
-/// The rows of a log as multiples of the resolutions.
+/// The rows of a log, with each value as a rounded multiple of its resolution.
 struct RoundedRows {
   std::vector<std::vector<std::int64_t>> rows;
   std::vector<bool> changes;  ///< by row: true if a measurement differs from the previous row
@@ -88,7 +88,7 @@ RoundedRows rounded_rows(const std::vector<Pair>& pairs, const std::vector<doubl
   return found;
 }
 
-/// The time difference t_b - t_a, s, with which most rows of the two logs agree.
+/// The offset t_b - t_a, s, between the times of the two logs with which most rows agree.
 std::optional<double> likeliest_offset_s(const DrivingLog& a, const RoundedRows& of_a,
                                          const DrivingLog& b, const RoundedRows& of_b,
                                          double tolerance_s) {
@@ -131,7 +131,7 @@ struct CommonPart {
   std::size_t b_end = 0;
 };
 
-/// True if the part is at the beginning of both logs and does not extend to an end of them.
+/// True if the part is at the beginning of both logs and covers less than 95 % of each.
 bool is_common_start(const CommonPart& part, const DrivingLog& a, const DrivingLog& b) {
   constexpr std::size_t kFirst = 2;
   const double share_of_a = static_cast<double>(part.a_end + 1) / static_cast<double>(a.rows());
@@ -181,7 +181,8 @@ std::optional<CommonPart> common_part(const DrivingLog& a, const DrivingLog& b) 
                   .a_end = equal.back().first,
                   .b_begin = equal.front().second,
                   .b_end = equal.back().second};
-  // The first row of a log does not change, and rows at rest do not.
+  // Extends the part backwards over equal rows that were not compared, because no measurement
+  // changes in them: rows at rest, and the first row of a log.
   while (part.a_begin > 0 && part.b_begin > 0 &&
          of_a.rows[part.a_begin - 1] == of_b.rows[part.b_begin - 1]) {
     --part.a_begin;
@@ -204,7 +205,7 @@ void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>
       if (!part || is_common_start(*part, logs[k], logs[i])) continue;
       faults.push_back(
           {ErrorCode::kGivenTwice, logs[i].file,
-           fmt::format("lines {} to {} are the same recording as lines {} to {} of {}, which would "
+           fmt::format("lines {} to {} are the same recording as lines {} to {} of {}, so it would "
                        "count twice; remove one of the two files, or these lines from one of them",
                        logs[i].line[part->b_begin], logs[i].line[part->b_end],
                        logs[k].line[part->a_begin], logs[k].line[part->a_end], logs[k].file)});
@@ -225,7 +226,7 @@ void check_repeated_curves(const std::vector<CoastCurve>& curves, std::vector<Fa
       faults.push_back(
           {ErrorCode::kGivenTwice, curves[i].file,
            fmt::format("the coast-down from line {} is the same recording as that from "
-                       "line {} of {}, which would count twice; remove one of the two",
+                       "line {} of {}, so it would count twice; remove one of the two",
                        curves[i].line, curves[k].line, curves[k].file)});
       break;
     }

@@ -1,11 +1,13 @@
-/// Detects recordings that were given twice, as copies or as files with a part in common. A copy
-/// makes confidence intervals too narrow, up to sqrt(2) times. Private to this folder.
+/// Detects recordings that were given twice: copies, or files that have a part in common. A
+/// recording that counts twice makes confidence intervals too narrow, by a factor of up to sqrt(2).
+/// Private to this folder.
 ///
-/// Two logs are compared in the measured channels and commands that both have, each rounded to the
-/// coarser of its two resolutions, so that a copy with fewer digits or columns, other names or
-/// another start of the time is found too. The offset of the times at which most rows agree is
-/// tested: the logs have a part in common if 95 % of the rows there agree. Only rows in which a
-/// measurement changes count, and at least 50 of them. Exact copies are found at any length.
+/// Two logs are compared in the commands and measured channels that both have. Each quantity is
+/// rounded to the coarser of its two resolutions. Copies with fewer digits, fewer columns, other
+/// names or another time origin are therefore found too. The test first finds the time offset
+/// between the logs with which most rows agree. Only rows in which a measurement changes count. The
+/// logs have a part in common if at least 50 rows agree, and at least 95 % of the rows between the
+/// first and the last of them. Exact copies are found at any length.
 #pragma once
 
 #include <vector>
@@ -16,8 +18,8 @@
 namespace awmr {
 
 /// Adds a fault (kGivenTwice) for each log that has a part in common with an earlier one. Logs that
-/// agree only from their first row on for some time are separate simulations with the same
-/// commands, and are accepted.
+/// agree only at their beginning are accepted: they are separate simulations that started with the
+/// same commands.
 void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>& faults);
 
 /// Adds a fault (kGivenTwice) for each curve of 20 speeds or more that repeats an earlier one

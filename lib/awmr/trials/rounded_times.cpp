@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kTick_s = 1e-6;  ///< times are compared in multiples of this
 constexpr std::size_t kMinRows = 20;
-/// Minimum number of steps that differ from the usual one. Fewer are single late rows.
+/// Minimum number of steps that differ from the usual one. Fewer such steps are attributed to
+/// single late rows.
 constexpr int kMinUnequal = 10;
 /// Minimum q, as a fraction of the usual step, for which times are replaced.
 constexpr double kMatters = 0.01;
@@ -24,7 +25,8 @@ constexpr double kMatters = 0.01;
 /// reported.
 constexpr double kCoarse = 0.2;
 constexpr std::int64_t kCoarse_ticks = 5000;
-/// Fraction of unequal steps below which steps that are multiples of the usual one are missing rows.
+/// If all steps are multiples of the usual one and fewer than this fraction differ from it, rows
+/// are missing and the times are not rounded.
 constexpr double kMissingRows = 0.2;
 
 /// Rounding of the times of a file.
@@ -68,9 +70,10 @@ std::vector<double> numbers_with_missing_rows(const std::vector<std::int64_t>& s
   return numbers;
 }
 
-/// The line t_0 + n_k h fitted to the times, in s. Empty if its errors are not those of rounding: an
-/// error exceeds q, or their standard deviation exceeds q/sqrt(6). Rounding has q/sqrt(12); if other
-/// errors of the spacing add as much, the rounded times are as good as the line.
+/// The line t_0 + n_k h fitted to the times, in s. Empty if its errors are not those of rounding:
+/// an error exceeds q, or the standard deviation exceeds q/sqrt(6). Rounding alone has q/sqrt(12).
+/// At q/sqrt(6), the true spacing varies as much as the rounding, and the rounded times are as good
+/// as the line.
 std::optional<RoundedTimes> even_times(std::span<const double> t_s,
                                        const std::vector<double>& numbers, double resolution_s) {
   const auto n = static_cast<double>(t_s.size());
@@ -98,8 +101,8 @@ std::optional<RoundedTimes> even_times(std::span<const double> t_s,
   return is_rounding ? std::optional(std::move(result)) : std::nullopt;
 }
 
-/// Finds rounded times. Empty if rounding does not matter: nearly all steps are equal, some rows are
-/// missing, or q is small.
+/// Finds rounded times. Empty if rounding does not matter: nearly all steps are equal, some rows
+/// are missing, or q is small.
 std::optional<RoundedTimes> check_rounding(std::span<const double> t_s) {
   if (t_s.size() < kMinRows) return std::nullopt;
   const std::vector<std::int64_t> steps = steps_in_ticks(t_s);
@@ -133,9 +136,9 @@ void replace_rounded_times(std::vector<double>& t_s, const std::string& file, in
     findings.push_back(
         {file, line, Severity::kWarning, "rounded-times",
          fmt::format("t_s has unequal steps that are multiples of {:g} s: the times are probably "
-                     "rounded, and the rows are not evenly spaced, so errors of the time remain. "
-                     "The fit can mistake them for smoothed or late sensors: write the time with "
-                     "more digits",
+                     "rounded. The rows are not evenly spaced, so the times cannot be corrected. "
+                     "The fit can mistake their errors for smoothed or late sensors; write the "
+                     "time with more digits",
                      rounded->resolution_s)});
     return;
   }

@@ -1,13 +1,14 @@
-/// Times of evenly spaced rows that the file gives rounded, such as 0.00, 0.03, 0.07, 0.10 s for
-/// rows at 30 Hz. Private to this folder.
+/// Corrects the times of evenly spaced rows that are rounded in the file, such as 0.00, 0.03, 0.07,
+/// 0.10 s for rows at 30 Hz. Private to this folder.
 ///
 /// The resolution q is the greatest common divisor of the time steps. Row k of an evenly logged
 /// file has the time
 ///
 ///     t_k = t_0 + n_k h
 ///
-/// with n_k = k if no row is missing. h and t_0 are fitted by least squares. If the remaining errors
-/// are those of rounding, t_0 + n_k h is closer to the true time than the rounded one.
+/// with n_k = k if no row is missing; each missing row increases n_k of all later rows by 1. h and
+/// t_0 are fitted by least squares. If the remaining errors are those of rounding, t_0 + n_k h is
+/// closer to the true time than the rounded one.
 #pragma once
 
 #include <string>
@@ -17,10 +18,10 @@
 
 namespace awmr {
 
-/// Replaces rounded times of evenly spaced rows by t_0 + n_k h (note `rounded-times`). Times that are
-/// rounded to 20 % of the usual step or more, and to 5 ms or more, stay as they are if the rows are
-/// not evenly spaced (warning `rounded-times`). `t_s` must rise strictly. `file` and `line` are the
-/// place of the first row.
+/// Replaces rounded times of evenly spaced rows by t_0 + n_k h (note `rounded-times`). If the rows
+/// are not evenly spaced, the times do not change; the warning `rounded-times` is then given if the
+/// resolution q is at least 20 % of the usual step and at least 5 ms. `t_s` must increase strictly.
+/// `file`, `line`: location of the first row.
 void replace_rounded_times(std::vector<double>& t_s, const std::string& file, int line,
                            std::vector<Finding>& findings);
 

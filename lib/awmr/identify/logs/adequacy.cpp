@@ -104,7 +104,7 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     adequacy.withdraws_sway |= channel == LogChannel::kSway;
     adequacy.findings.push_back(
         {logs.front().file, 0, Severity::kWarning, "model-inadequate",
-         fmt::format("the model has an error of {1:.3g} {2} in {0} for {3} at a time, compared "
+         fmt::format("the model has an error of {1:.3g} {2} in {0} that persists for {3}, compared "
                      "with a sensor noise of {4:.2g}: {5}. {6}",
                      info(channel).name, noise.drift_std, info(channel).unit,
                      noise.correlation_s < kWindow_s ? fmt::format("{:.2g} s", noise.correlation_s)

@@ -86,13 +86,13 @@ Finding back_emf_finding(const std::string& file, const FamilyFit& with, const F
   double std_error = 0.0;
   const double k = fitted_back_emf(with, std_error);
   return {file, 0, Severity::kWarning, "back-emf",
-          fmt::format("a motor force independent of the speed does not describe these logs. The "
-                      "model with back-EMF, {:.3g} +- {:.2g} of the largest force per m/s, {}. It "
-                      "is used; the coasting sections then determine the resistance",
+          fmt::format("the motor force decreases with the speed (back-EMF), by {:.3g} +- {:.2g} of "
+                      "the largest force per m/s. The model with back-EMF is used, because {}; the "
+                      "coasting sections then determine the resistance",
                       k, std_error,
-                      without.fit.usable ? fmt::format("has an AIC lower by {:.0f}",
+                      without.fit.usable ? fmt::format("its AIC is lower by {:.0f}",
                                                        aic_lead(with.fit, without.fit))
-                                         : "converges, while the model without it does not")};
+                                         : "the model without it does not converge")};
 }
 
 }  // namespace awmr

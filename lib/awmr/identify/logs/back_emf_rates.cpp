@@ -18,8 +18,8 @@ void add_product(double share, const Vector3& a, const Vector3& b, std::array<Ve
   }
 }
 
-/// Damping matrix D of back-EMF. A wheel rolls at the speed w = J (u, v, r). Its force F' acts on
-/// the vehicle as (X, Y, N) = J^T F'. Back-EMF reduces F' by k_e w, so
+/// Damping matrix D of back-EMF. A wheel rolls at the speed w = J (u, v, r), with the 1 x 3 matrix
+/// J. Its force F' acts on the vehicle as (X, Y, N) = J^T F'. Back-EMF reduces F' by k_e w, so
 ///     (X, Y, N) -= k_e D (u, v, r),   D = sum J^T J over the wheels whose motor is on
 ///     J_rear = (1, 0, -+d),   J_front = (cos d_r, sin d_r, l_f sin d_r -+ d cos d_r)
 struct Braking {

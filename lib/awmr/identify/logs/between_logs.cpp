@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kLevel = 0.001;  // significance level of the test of all quantities together
 
-/// Estimates of one quantity by single logs.
+/// Estimates of one quantity from single logs.
 struct ByLog {
   std::vector<std::string> files;
   std::vector<double> coordinates;
@@ -58,7 +58,7 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 /// Result of Cochran's Q test that the logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double std_error = 0.0;    ///< standard error of the mean over logs, incl. tau^2
+  double std_error = 0.0;    ///< standard error of the mean over logs, including tau^2
   double mean_square = 0.0;  ///< Q/(L - 1), about 1 if the L logs agree
 };
 
@@ -143,11 +143,11 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   return disagreements;
 }
 
-/// Selects among the delays and command errors that the common fit does not contain: returns the
-/// one whose score-test value differs most between the logs. Empty if no value differs by more than
-/// three standard errors (root mean square). The standard errors are those of the noise model. The
-/// scatter between blocks does not show this difference, because all blocks of a log have the same
-/// command error.
+/// Returns the delay or command error whose score-test value differs most between the logs, among
+/// the terms that the common fit does not contain. Empty if no value differs by more than three
+/// standard errors (root mean square). The standard errors are those of the noise model, because
+/// the scatter between blocks cannot show a difference between logs: all blocks of a log have the
+/// same command error.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {

@@ -11,12 +11,12 @@
 
 namespace awmr {
 
-/// A quantity whose values by single logs differ significantly.
+/// A quantity whose estimates from single logs differ significantly.
 struct LogDisagreement {
   std::string name;
-  double p_value = 1.0;            ///< of the hypothesis that all logs have the same value
+  double p_value = 1.0;            ///< of the hypothesis that the value is the same in all logs
   std::vector<std::string> files;  ///< logs that determine the quantity on their own
-  std::vector<double> values;      ///< value by each of these logs
+  std::vector<double> values;      ///< estimate from each of these logs
   bool withdraws = false;          ///< true: all intervals of the common fit are invalid
   bool refuses = false;  ///< true: the quantity gets no value, as its widened interval is too wide
 };
@@ -37,25 +37,28 @@ struct LogComparison {
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)
 ///
 /// with the variance tau^2 between logs. The logs disagree if p < 0.001 (Bonferroni over all
-/// quantities). The standard error of the common fit is then raised to at least that of the mean
-/// over such logs, and the interval covers that mean, not an individual log. A quantity is refused
-/// if its raised standard error exceeds kUnknown times its large change (identifiability.h). Sensor
-/// biases are not compared, because they may differ between logs.
+/// quantities). The standard error of the common fit is then raised to at least the standard error
+/// of the mean over such logs. The interval covers that mean, not an individual log. A quantity is
+/// refused if its raised standard error exceeds kUnknown times its large change
+/// (identifiability.h). Sensor biases are not compared, because they may differ between logs.
 ///
 /// The common fit may lack a delay or command error that differs between the logs, for example a
 /// steering trim that was changed between two logs. A score test of each such term is therefore
 /// made on every log. If the results for a term differ between the logs by more than three standard
 /// errors, the term with the largest difference is fitted to each log.
 ///
-/// A disagreement on some terms makes all intervals of the common fit invalid, because the other
-/// quantities absorb the effect. These terms are the one that was fitted in addition, and in the
-/// common fit the steering trim, the dead band and asymmetry of the steering, the force imbalance
-/// and saturation, and the forces of extra_forces.h except Stribeck friction.
+/// A disagreement on one of the following terms makes all intervals of the common fit invalid,
+/// because the other quantities absorb the effect:
+///   - the term that was fitted in addition;
+///   - errors of the commands in the common fit: steering trim, dead band and asymmetry of the
+///     steering, force imbalance, saturation and exponent of the forces;
+///   - forces of extra_forces.h in the common fit, except Stribeck friction.
 ///
-/// A single log of 20 s or more is split: a fit of its first half predicts its second half and its
-/// last fifth (held_out.h). If both predictions are accepted (p > 0.05), there is no disagreement.
-/// Otherwise the halves are compared like two logs. If the halves agree, but the prediction of the
-/// last fifth is rejected (p < 0.001), the last fifth is returned as `missed`.
+/// A single log of 20 s or more is tested by its parts: a fit of its first half predicts its second
+/// half and its last fifth (held_out.h). If both predictions are accepted (p > 0.05), there is no
+/// disagreement. Otherwise the halves are compared like two logs. If the halves agree, but the
+/// prediction of the last fifth is rejected (p < 0.001), the result of that prediction is returned
+/// as `missed`.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

@@ -27,7 +27,7 @@ Eigen::VectorXd drawn_sum(const std::vector<Eigen::VectorXd>& scores, const Eige
   return sum;
 }
 
-/// Ratio of `std` to the standard deviation of the draws; 1 if all draws are equal.
+/// Ratio of `std` to the standard deviation of the draws, whose mean is 0. 1 if all draws are 0.
 double scale_to(double std, const std::vector<double>& draws) {
   double squares = 0.0;
   for (const double draw : draws) squares += draw * draw;

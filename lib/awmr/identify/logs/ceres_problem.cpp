@@ -36,10 +36,10 @@ std::int64_t numbers_integrated(const LogProblem& problem) {
 }
 
 /// Evaluates all windows in parallel at each new point, before Ceres requests the first window.
-/// Derivatives are always computed, because they take little more time than the residuals. If the
-/// cost would decrease beyond the bound of a coordinate, the coordinate is fixed at the bound by
-/// setting its derivatives to 0. (Ceres would instead cut the step at the bound, which makes the
-/// step of the other coordinates wrong.)
+/// Derivatives are always computed, because they take little more time than the residuals. If a
+/// coordinate is at its bound and the cost decreases towards values beyond it, the evaluator sets
+/// the derivatives with respect to this coordinate to 0, which fixes it at the bound. (Ceres would
+/// instead cut the step at the bound, which makes the step of the other coordinates wrong.)
 class Evaluator : public ceres::EvaluationCallback {
  public:
   Evaluator(const LogProblem& problem, const SearchPoint& point)
@@ -181,11 +181,11 @@ ceres::Solver::Options solver_options(double function_tolerance) {
 }
 
 /// Ends a search that makes no progress, in two cases:
-///   - two steps in a row fail whose predicted decrease of -ln L is below 0.05, which corresponds to
-///     a third of a standard error. On this scale the cost is rough, because Runge-Kutta steps cross
-///     the kink of the resistance wherever the speed or the yaw rate changes sign. Smaller steps
-///     would only find local minima.
-///   - eight steps together decrease -ln L by less than 0.01: the search creeps along a direction
+///   - Two steps in a row fail, each with a predicted decrease of -ln L below 0.05. Such a decrease
+///     corresponds to less than a third of a standard error. On this scale the cost is rough,
+///     because Runge-Kutta steps cross the kink of the resistance wherever the speed or the yaw
+///     rate changes its sign. Smaller steps would only find local minima.
+///   - Eight steps together decrease -ln L by less than 0.01: the search creeps along a direction
 ///     that the logs do not determine.
 class EndWithoutProgress : public ceres::IterationCallback {
  public:

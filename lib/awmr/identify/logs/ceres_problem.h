@@ -13,7 +13,7 @@ struct Solved {
   SearchPoint point;  ///< end of the search, converged or not
   double cost = std::numeric_limits<double>::infinity();
   bool converged = false;
-  bool usable = false;  ///< true: the search did not fail, and did not increase the cost
+  bool usable = false;  ///< true: the search did not fail and did not increase the cost
   std::string stop_reason;
 };
 

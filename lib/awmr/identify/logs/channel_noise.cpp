@@ -82,9 +82,9 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// Selects the errors from which a channel's drift is estimated. Takes all if there are fewer than
-/// 2 kEnough. Otherwise takes about kEnough to 1.5 kEnough errors, in whole windows spread over the
-/// logs. kEnough errors determine the standard deviations to 1 %.
+/// Selects the errors from which a channel's drift is estimated. Returns all errors if there are
+/// fewer than 2 kEnough. Otherwise returns about kEnough to 1.5 kEnough errors, in whole windows
+/// spread over the logs. kEnough errors determine the standard deviations to 1 %.
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;
@@ -129,8 +129,9 @@ NoiseCandidate likeliest_share(std::span<const ErrorSeries> series, double corre
 }
 
 /// Most likely first-order drift. Its correlation time is between half the sample interval and the
-/// length of a window. A coarse grid of correlation times is refined by a search, unless the grid
-/// lowers the cost so little that no drift can be significant. `white_cost`: cost without a drift.
+/// length of a window. The search evaluates a coarse grid of correlation times and then refines the
+/// best one. It omits the refinement if the grid lowers the cost so little that no drift can be
+/// significant. `white_cost`: cost without a drift.
 NoiseCandidate likeliest_drift(std::span<const ErrorSeries> series, double step_s,
                                double white_cost) {
   constexpr double kWorthASearch = 4.0;  // smallest decrease of -2 ln L for a finer search

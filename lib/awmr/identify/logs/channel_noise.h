@@ -44,22 +44,25 @@ struct ChannelNoise {
   int numbers() const {
     return drift_std > 0.0 ? (second_order() ? 4 : 3) : differenced > 0.0 ? 2 : 1;
   }
-  /// True if the drift is a model error or a sensor drift, because it is larger and slower than
-  /// that of a sensor filter: above 0.5 times the sensor noise with a correlation time of at least
-  /// `longest_s`, or above 1.5 times the sensor noise with a correlation time of at least half of
-  /// it.
+  /// True if the drift is too large and too slow to come from a sensor filter, so that it is a
+  /// model error or a drift of the sensor itself. This holds in two cases, with the sensor noise
+  /// `sensor_std`:
+  ///   - drift_std is above 0.5 times the sensor noise, and the correlation time is at least
+  ///     `longest_s`;
+  ///   - drift_std is above 1.5 times the sensor noise, and the correlation time is at least half
+  ///     of `longest_s`.
   bool of_the_model(double longest_s = 0.5) const {
     return (drift_std > 0.5 * sensor_std && correlation_s >= longest_s) ||
            (drift_std > 1.5 * sensor_std && correlation_s >= 0.5 * longest_s);
   }
-  /// True if of_the_model() and the drift is above 2.5 times the sensor noise: the model is
-  /// inadequate.
+  /// True if of_the_model() is true and the drift is above 2.5 times the sensor noise. The model is
+  /// then inadequate.
   bool overwhelms_sensor(double longest_s = 0.5) const {
     constexpr double kMany = 2.5;
     return of_the_model(longest_s) && drift_std > kMany * sensor_std;
   }
-  /// True if the drift is above a quarter of the sensor noise and its correlation time is above
-  /// 0.2 s: a missing term of the model may cause such a drift.
+  /// True if the drift is above a quarter of the sensor noise and its correlation time is above 0.2
+  /// s. A term that the model lacks may cause such a drift.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
@@ -92,10 +95,10 @@ double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 /// steps, each only if it lowers -2 ln L by more than 10:
 ///   1. white noise with a first-order drift;
 ///   2. a second-order drift in place of the first-order drift, if step 1 succeeded;
-///   3. differenced noise in place of the model so far.
+///   3. differenced noise in place of the result of steps 1 and 2.
 /// `free_share`: degrees of freedom of the fit over the number of errors, in (0, 1]; the variances
 /// are divided by it. `before`: noise model of the previous round. Its sensor_std and count are
-/// kept. If it has a second-order drift, the search for a second-order drift starts there.
+/// kept. If it has a second-order drift, the search for a second-order drift starts from it.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

@@ -50,8 +50,8 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
 }
 
 /// Reports motor lag, dead time or late time stamps of the commands. If the fit has found none of
-/// these, but every measured channel (at least two) has a latency, reports a common cause in the
-/// commands.
+/// these, but every measured channel (at least two) has a latency, reports that actuators or
+/// commands are the likely common cause.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
@@ -82,8 +82,8 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
-/// `sensor-delay` for every sensor with an identified latency, `sensor-lag` for every identified
-/// low-pass filter, `smoothed-channel` for every identified symmetric smoothing.
+/// Finding `sensor-delay` for every sensor with an identified latency, `sensor-lag` for every
+/// identified low-pass filter, and `smoothed-channel` for every identified symmetric smoothing.
 std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, value_s, error_s] :
@@ -122,7 +122,7 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
-/// `sensor-scale` for every channel with an error of its scale.
+/// Finding `sensor-scale` for every channel with a scale error.
 std::vector<Finding> scale_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, scale, error] : found_terms(fit, FreeQuantity::Kind::kSensorScale)) {
@@ -139,7 +139,7 @@ std::vector<Finding> scale_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
-/// `wheel-slip` for every channel that slipping wheels measure.
+/// Finding `wheel-slip` for every channel that slipping wheels measure.
 std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, slip, error] : found_terms(fit, FreeQuantity::Kind::kWheelSlip)) {
@@ -157,7 +157,7 @@ std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
   return findings;
 }
 
-/// `sway-sensor`, if the sway sensor is not at the centre of gravity, or is turned.
+/// Finding `sway-sensor`, if the sway sensor is not at the centre of gravity, or is turned.
 std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayOffset)) {
@@ -180,8 +180,8 @@ std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& 
   return findings;
 }
 
-/// `steering-delay`, if the steering has a delay relative to the forces in addition to the servo's
-/// lag, or if the time stamps of its commands are late (negative delay).
+/// Finding `steering-delay`, if the steering has a delay relative to the forces in addition to the
+/// servo's lag, or if the time stamps of its commands are late (negative delay).
 std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
@@ -201,7 +201,7 @@ std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::strin
   return findings;
 }
 
-/// `servo-rate`, if the steering is slower than the rate limit of the vehicle file.
+/// Finding `servo-rate`, if the steering is slower than the rate limit of the vehicle file.
 std::vector<Finding> servo_rate_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& rate : found_terms(fit, FreeQuantity::Kind::kServoRate)) {
@@ -240,8 +240,8 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
   return findings;
 }
 
-/// `steering-trim` and `force-imbalance` for constant errors of the commands. If the logged
-/// commands cannot separate the two errors, the fit contains only one of them.
+/// Findings `steering-trim` and `force-imbalance` for constant errors of the commands. If the
+/// logged commands cannot separate the two errors, the fit contains only one of them.
 std::vector<Finding> constant_error_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
@@ -284,7 +284,7 @@ double sharpness_of(const LogFit& fit) {
   return kDefaultSharpness;
 }
 
-/// `force-saturation`, if the force at large commands is less than proportional to the command.
+/// Finding `force-saturation`, if the force at large commands is less than proportional to them.
 std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWithoutIntervals =
       " (without intervals and without a comparison of parts of the logs, because the true form of "
@@ -313,8 +313,8 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
              "at the largest command of the logs, {:.3g}, the wheels push {:.1f} +- {:.1f} % less "
              "than in proportion to small commands: tyres slip, or the current or voltage of the "
              "motors is limited. The fit compensates this{}, but simulations and gains assume "
-             "proportional forces, which holds within {:.0f} % up to {:.2g}: limit wheel_force in "
-             "the vehicle file to that, and record logs below it",
+             "proportional forces, which is right within {:.0f} % for commands up to {:.2g}. Limit "
+             "wheel_force in the vehicle file to this command, and record logs below it",
              full, 100.0 * loss, 100.0 * error, withdrawn, 100.0 * kLinear,
              std::min(linear, full))});
   }
@@ -346,7 +346,7 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   if (!withdrawn) return findings;
   for (Finding& finding : findings) {
     if (finding.code == "force-saturation" && saturates_much(fit)) continue;
-    finding.message += ". This value has no interval, because the model error may cause the effect";
+    finding.message += ". This value has no interval, because a model error may have caused it";
   }
   return findings;
 }

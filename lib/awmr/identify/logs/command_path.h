@@ -1,5 +1,6 @@
-/// The path from the logged commands to the wheels: delays, motor lag and constant errors, with
-/// derivatives by the free quantities of a log fit. Private to identify/.
+/// Path of the logged commands to the wheels: delays, motor lag and constant errors, with
+/// derivatives with respect to the free quantities of a log fit. A "column" is the index of a free
+/// quantity among these derivatives. Private to identify/.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ struct OffsetColumn {
 
 /// Delays, lag and constant errors between the logged commands and the wheels.
 struct CommandPath {
-  std::optional<DelayColumn> delay = {};           ///< of all commands; negative: late time stamps
+  std::optional<DelayColumn> delay = {};           ///< of all commands; < 0: late time stamps
   std::optional<DelayColumn> steering_delay = {};  ///< of the steering, in addition to `delay`
   std::optional<LaggedForces> lag = {};            ///< forces after the motors' lag
   std::optional<std::size_t> lag_column = {};      ///< column of the lag; present if it is free
@@ -35,11 +36,11 @@ struct CommandPath {
   std::optional<OffsetColumn> steering_asymmetry = {};
   std::optional<OffsetColumn> servo_rate = {};  ///< rate limit, rad/s, in place of the plant's
   std::optional<OffsetColumn> imbalance = {};   ///< e: left forces times 1 - e, right times 1 + e
-  std::optional<OffsetColumn> exponent = {};    ///< p of force_exponent(); derivatives by ln p
+  std::optional<OffsetColumn> exponent = {};    ///< p of force_exponent(); column of ln p
   std::optional<OffsetColumn> saturation = {};  ///< L of force_saturation()
   double full_command = 1.0;                    ///< F'm of force_saturation()
-  std::optional<OffsetColumn> sharpness = {};   ///< n; the derivatives are by ln n
-  /// True (motors with back-EMF): a motor is off as soon as its command is 0, regardless of its
+  std::optional<OffsetColumn> sharpness = {};   ///< n of force_saturation(); column of ln n
+  /// True for motors with back-EMF: a motor is off as soon as its command is 0, regardless of its
   /// lag.
   bool switches_off = false;
 
@@ -65,11 +66,12 @@ struct CommandColumns {
 };
 CommandColumns columns_of(const CommandPath& path);
 
-/// Commands as they reach the wheels, with derivatives by the free quantities of their path.
+/// Commands as they reach the wheels, with derivatives with respect to the free quantities of their
+/// path.
 struct DelayedCommand {
   HeldCommand command;
-  /// d force / d delay, 1/s, of motors with lag. Without lag, the derivative by a delay is added by
-  /// LinearStepper::change_command().
+  /// d force / d delay, 1/s, of motors with lag. Without lag, LinearStepper::change_command() adds
+  /// the derivative with respect to a delay.
   SideForces<double> by_delay{};
   SideForces<double> by_lag{};         ///< d force / d time constant of the motors, 1/s
   SideForces<double> by_imbalance{};   ///< d force / d imbalance
@@ -82,7 +84,7 @@ struct DelayedCommand {
 };
 
 /// Calls visit(column, by) for each free quantity that changes the forces of `command`. `by`:
-/// derivative of the forces by this quantity.
+/// derivative of the forces with respect to this quantity.
 template <class Visit>
 void for_each_force_column(const CommandColumns& c, const DelayedCommand& command, Visit visit) {
   if (c.delay) visit(*c.delay, command.by_delay);
@@ -93,22 +95,25 @@ void for_each_force_column(const CommandColumns& c, const DelayedCommand& comman
   if (c.sharpness) visit(*c.sharpness, command.by_sharpness);
 }
 
-/// Rows of the log whose commands act at one time. They differ if the steering has its own delay.
+/// Rows of the log whose force commands and whose steering command act at one time. The two rows
+/// differ if the steering has its own delay.
 struct ActingRows {
   std::size_t forces;
   std::size_t steering;
 };
 
-/// The logged commands of these rows with the constant errors of the path, without delay and lag.
+/// The logged commands of these rows, changed by the constant errors of the path. Delay and lag are
+/// not applied.
 DelayedCommand command_of_rows(const DrivingLog& log, const ActingRows& rows,
                                const CommandPath& path);
 
-/// The command that reaches the wheels over [t, t + h], while the commands of `rows` act. If the
-/// motors have a lag, the forces are means over this time.
+/// The command that reaches the wheels in the interval [t, t + h], in which the commands of `rows`
+/// act. If the motors have a lag, the forces are means over this interval.
 DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, double t_s,
                             double h_s, const CommandPath& path);
 
-/// The command that reaches the wheels at the time t. A change exactly at t is included.
+/// The command that reaches the wheels at the time t. If it changes exactly at t, returns the new
+/// one.
 DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path);
 
 }  // namespace awmr

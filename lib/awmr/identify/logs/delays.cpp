@@ -19,7 +19,7 @@ namespace {
 struct CandidateTerm {
   FreeQuantity quantity;
   double value;
-  double significance;  ///< |value| over its standard error by the noise model
+  double significance;  ///< |value| over its standard error (noise model)
 };
 
 /// The terms whose score test exceeds three standard errors, most significant first.
@@ -39,10 +39,10 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   return found;
 }
 
-/// Considers a low-pass filter of each channel in `lags_s`, with the delay as initial guess of its
-/// time constant: the best of a continuous filter, a filter with one step per row and two of second
-/// order. Keeps a filter only if its AIC is lower than that of the best fit so far by more than
-/// kLikelierFilter.
+/// Considers a low-pass filter for each channel in `lags_s`. The initial guess of its time constant
+/// is the delay in `lags_s`. Tries a continuous filter, a filter with one step per row and two
+/// filters of second order, and takes the best of them. Keeps it only if its AIC is lower than that
+/// of the best fit so far by more than kLikelierFilter.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {
@@ -53,7 +53,7 @@ void consider_filters(const NoiseIteration& settled,
   if (settled.problem.model.noise.size() <= 1) return;
   for (const auto& [channel, lag_s] : lags_s) {
     NoiseIteration best = tried(settled, {{sensor_lag_of(channel), lag_s}}, loss);
-    // The delay of slow signals is T, or 2 zeta T for a filter of second order.
+    // A filter delays slow signals by T, or by 2 zeta T if it is of second order.
     for (const FreeTerm& other :
          {FreeTerm{sensor_lag_of(channel, true), lag_s},
           FreeTerm{second_order_lag_of(channel, 1.0), lag_s / 2.0},
@@ -100,8 +100,8 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
-/// Candidates that are much weaker than the strongest are skipped. They are tested again after the
-/// best term was added.
+/// Candidates that are much less significant than the strongest one are skipped. They are tested
+/// again after the best term was added.
 constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
 constexpr double kBeyondDoubt = 20.0;
 
@@ -129,8 +129,8 @@ std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
   return first;
 }
 
-/// Slip of the speed together with slip of the yaw rate in the same form. Empty if the latter is
-/// not a candidate.
+/// The slip of the speed and the slip of the yaw rate as two terms, both in the form of `of_speed`.
+/// Empty if the slip of the yaw rate in this form is not a candidate.
 std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<CandidateTerm>& terms,
                                                       const CandidateTerm& of_speed) {
   const FreeQuantity yaw = wheel_slip_of(LogChannel::kYawRate, of_speed.quantity.is_ratio);
@@ -141,7 +141,8 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
 }
 
 /// Considers two replacements for the fitted command delay `found_s`: a motor lag together with a
-/// delay (negative if time stamps are late), and, if the delay is positive, a motor lag alone.
+/// delay (negative if the time stamps of the commands are late), and, if `found_s` is positive, a
+/// motor lag alone.
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;

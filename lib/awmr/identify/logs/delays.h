@@ -7,9 +7,9 @@
 namespace awmr {
 
 /// Adds the terms of further_terms() one at a time to the converged fit `settled`, until none
-/// improves the fit. Score tests select candidates, and one round of settle_noise() ranks them. The
-/// best candidate is kept if its final fit lowers AIC by more than 10. (Without these terms, a
-/// latency of the speed, for example, would bias the mass upwards.)
+/// improves the fit. Score tests select candidates, and a fit of one round (settle_noise()) ranks
+/// them. The best candidate is kept if its fit to convergence lowers AIC by more than 10. (Without
+/// these terms, a latency of the speed, for example, would bias the mass upwards.)
 ///   - The delay of the commands is negative if their time stamps are late.
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
 ///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw
@@ -17,7 +17,7 @@ namespace awmr {
 ///   - When no candidate is kept, a slower servo and then a motor lag are tried (actuator_terms.h).
 ///     After each added term, one motor lag is tried in place of all filters.
 ///   - Steering trim and force imbalance have nearly the same effect. If one of them is found and
-///     the commands can show both, both become free.
+///     the commands allow an estimate of both, both become free.
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss);
 
 }  // namespace awmr

@@ -1,6 +1,6 @@
 /// Forces that a log fit can find, but that the model does not contain: Stribeck friction, the
-/// slope of the ground, more resistance in turns or backward, and motors whose force differs when
-/// they brake or drive backward. Private to identify/.
+/// slope of the ground, additional resistance in turns or backward, and motors whose force differs
+/// when they brake or drive backward. Private to identify/.
 ///
 /// Stribeck friction is larger at low speed than the Coulomb friction c. At the speed or yaw rate w
 /// the resistance is
@@ -19,9 +19,10 @@
 /// Driving backward, g1 is 1 + e_g times as large as forward.
 ///
 /// A wheel force against the motion is 1 + e_b times its command, and a negative (backward) wheel
-/// force 1 + e_r times its command. If the left and right commands differ in the log, the motion is
-/// that of the wheel's side (u - d r left, u + d r right), else that of the vehicle (u). Near rest,
-/// e_b fades in (scale_by_excess() in extra_rates.cpp).
+/// force 1 + e_r times its command. e_b and e_r are called the excess of braking or backward
+/// forces. If the left and right commands differ in the log, "the motion" is that of the wheel's
+/// side (u - d r left, u + d r right), else that of the vehicle (u). Near rest, the effect of e_b
+/// decreases linearly to 0 (scale_by_excess() in extra_rates.cpp).
 #pragma once
 
 #include <array>

@@ -15,8 +15,8 @@ WheelForce wheel_force(double command, double zone) {
 }
 
 /// Multiplies the force of a wheel by 1 + e_b if it is against the motion `w_mps` of its side, and
-/// by 1 + e_r if it is negative. From rest to a small speed against the force, e_b fades in, so
-/// that the rates are continuous; the width of this range counts as constant in the derivatives.
+/// by 1 + e_r if it is negative. For continuous rates, the effect of e_b rises linearly from 0 at
+/// rest to its full size at a small speed. The derivatives treat this speed as constant.
 ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& wheel) {
   constexpr double kFade_mps = 0.002;
   constexpr double kWheels = 4.0;
@@ -36,7 +36,8 @@ ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& whe
           .by_speed = braking == wanted ? slope * e_b * pure * reverse : 0.0};
 }
 
-/// Distance d (m) by which the motors of a side are beside the vehicle's motion; 0 for one motor.
+/// Lever arm d, m, in the speed u -+ d r of the motors of one side. 0 if the left and right
+/// commands never differ, because the vehicle may then have a single motor.
 double motor_side_m(const LinearPlant& plant) {
   return plant.extra.has_motor_per_side ? plant.plant.half_track_m : 0.0;
 }

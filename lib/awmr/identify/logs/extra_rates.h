@@ -1,5 +1,6 @@
-/// Rates of change by the wheel forces, with dead zone and excess, and by the forces of
-/// extra_forces.h, for linear_rates(). Private to identify/.
+/// Rates of change of the state due to the wheel forces and to the forces of extra_forces.h, for
+/// linear_rates(). The wheel forces include the dead zone and the excess e_b or e_r. Private to
+/// identify/.
 #pragma once
 
 #include "awmr/identify/logs/linear_rates.h"
@@ -13,7 +14,8 @@ struct WheelForce {
   double by_dead_zone;
 };
 
-/// Derivatives of the force of a wheel by e_b, e_r (extra_forces.h) and the rolling speed.
+/// Derivatives of the force of a wheel with respect to e_b, e_r (extra_forces.h) and its rolling
+/// speed.
 struct ByExcess {
   double by_brake = 0.0;
   double by_reverse = 0.0;
@@ -31,16 +33,16 @@ struct Wheels {
 /// True if the motor of a wheel is on.
 inline bool is_on(const WheelForce& wheel) { return wheel.value > 0.0 || wheel.value < 0.0; }
 
-/// The wheel forces at the commands `force` (extra_forces.h).
+/// Forces of the left and right wheels at the commands `force`, with dead zone and excess.
 Wheels wheels_of(const LinearPlant& plant, const State<double>& s, const SideForces<double>& force);
 
-/// Derivatives of u_dot, v_dot and r_dot by the sum of the forces, and of r_dot by their
-/// difference, right minus left.
+/// Derivatives of u_dot, v_dot and r_dot with respect to the sum of the forces, and of r_dot with
+/// respect to their difference, right minus left.
 struct ByForces {
   DrivenSlopes sum;
   double difference;
 
-  /// Change of the rates by changes of the left and the right force.
+  /// Change of the rates due to changes of the left and the right force.
   DrivenSlopes of(double left, double right) const {
     return {.u = (left + right) * sum.u,
             .v = (left + right) * sum.v,
@@ -48,34 +50,36 @@ struct ByForces {
   }
 };
 
-/// Adds the derivatives by the wheel forces: by the commands, the dead zone and the excess.
+/// Adds the derivatives of the rates with respect to the commands, the dead zone and the excess of
+/// the wheel forces.
 void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByForces& forces,
                       LinearRates& out);
 
-/// Surge resistance at the speed u without friction at rest (add_friction()).
+/// Surge resistance at the speed u, without the friction at rest, which add_friction() adds.
 ResistanceSlopes surge_resistance(const LinearPlant& plant, double u_mps, LinearRates& out);
 
-/// Yaw resistance at the yaw rate r without friction at rest (add_friction()).
+/// Yaw resistance at the yaw rate r, without the friction at rest, which add_friction() adds.
 ResistanceSlopes yaw_resistance(const LinearPlant& plant, double r_radps, LinearRates& out);
 
-/// Drag in turns, k |r|^p |u|^q sgn u, over F_max, with its derivatives.
+/// Drag in turns, k |r|^p |u|^q sgn u, over F_max, with its derivatives with respect to u, r, k, p,
+/// q.
 struct TurnDrag {
   double value = 0.0;
   double by_speed = 0.0;
   double by_yaw_rate = 0.0;
-  double by_size = 0.0;            ///< by k
-  double by_exponent = 0.0;        ///< by p
-  double by_speed_exponent = 0.0;  ///< by q
+  double by_size = 0.0;            ///< with respect to k
+  double by_exponent = 0.0;        ///< with respect to p
+  double by_speed_exponent = 0.0;  ///< with respect to q
 };
 
-/// Below a small speed, |u|^q sgn u is replaced by a straight line, whose length counts as constant
-/// in the derivatives.
+/// Computes the drag in turns. Near u = 0, a straight line through 0 replaces |u|^q sgn u. The
+/// derivatives treat the speed at which this line ends as constant.
 TurnDrag turn_drag(const LinearPlant& plant, const State<double>& s);
 
-/// Adds the derivatives of u_dot by the parameters of the drag in turns.
+/// Adds the derivatives of u_dot with respect to the parameters of the drag in turns.
 void add_turn_drag(const TurnDrag& drag, double per_mass, LinearRates& out);
 
-/// Adds the acceleration by the slope of the ground.
+/// Adds the acceleration due to the slope of the ground.
 void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out);
 
 }  // namespace awmr

@@ -36,8 +36,8 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
 }
 
 /// True if a family with more terms may be better. One of these reasons suffices: the score test of
-/// a term predicts a large decrease of -2 ln L; the errors have a slow drift, which can hide a
-/// missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for
+/// a term predicts a large decrease of -2 ln L; the errors have a slow drift, which can hide the
+/// effect of a missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for
 /// terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
@@ -66,8 +66,8 @@ std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit&
   return largest;
 }
 
-/// The best of the fits with a power law on one axis (yaw if `of_yaw`, else surge); of fits that gave
-/// up, that with the smallest error. Null if there is none.
+/// The best of the fits with a power law on one axis (yaw if `of_yaw`, else surge). Among fits that
+/// gave up, the one with the smallest error is the best. Null if there is no such fit.
 const FamilyFit* with_power_law(const std::vector<FamilyFit>& fits, bool of_yaw) {
   const FamilyFit* best = nullptr;
   for (const FamilyFit& one : fits) {
@@ -142,12 +142,12 @@ Finding terms_not_searched(const std::string& file, const FamilyFit& best) {
               families_in_words(best.surge, best.yaw), option_text("family surge=..."))};
 }
 
-/// Fits whose errors are larger than those of the best fit by more than this are not refined: ratio
-/// of LogFit::relative_error.
+/// Fits whose LogFit::relative_error exceeds that of the best fit by more than this factor are not
+/// refined.
 constexpr double kFarWorse = 1.5;
 
-/// The index of the selected fit: that with the lowest AIC, or a power law of the axis if its AIC is
-/// higher by at most `lead`.
+/// Index of the selected fit: the one with the lowest AIC, or that with a power law on the axis if
+/// its AIC is higher by at most `lead`.
 std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lead) {
   std::size_t best = 0;
   std::optional<std::size_t> power;
@@ -158,9 +158,9 @@ std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lea
   return power && aic_lead(fits[best].fit, fits[*power].fit) <= lead ? *power : best;
 }
 
-/// Fits the families `others` of one axis (yaw if `of_yaw`, else surge) and selects one of them or
-/// that of `result.best`. If one of the others is better, the search for the latter is repeated
-/// (searched_again()).
+/// Fits the families `others` of one axis (yaw if `of_yaw`, else surge), and selects one of them or
+/// the family of `result.best`. If one of the others is better, the search for the family of
+/// `result.best` is repeated first (searched_again()).
 void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool of_yaw,
              const std::vector<Families>& others, double lead, BestFamily& result) {
   std::vector<FamilyFit> fits;
@@ -202,8 +202,8 @@ std::set<std::string> names_of_terms(const LogFit& fit) {
 }
 
 /// Fits Stribeck friction of one axis (yaw if `of_yaw`, else surge) in addition to Coulomb and
-/// linear friction. Keeps this fit if it is significantly better than `result.best`. (A power with
-/// Coulomb friction resembles Stribeck friction so much that a score test does not show it.)
+/// linear friction. Keeps this fit if it is significantly better than `result.best`. (A score test
+/// cannot replace this fit, because a power law with Coulomb friction resembles Stribeck friction.)
 void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                            bool of_yaw, BestFamily& result) {
   const LogFit& best = result.best.fit;
@@ -216,8 +216,8 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions po
   }
 }
 
-/// True if the errors of the fit are those of the sensors, and each of its delays, lags and command
-/// errors is significant.
+/// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error below
+/// 1.2), and each of its delays, lags and command errors is significant.
 bool has_right_terms(const LogFit& fit) {
   constexpr double kErrorOfSensors = 1.2;
   if (!(fit.relative_error < kErrorOfSensors)) return false;
@@ -231,9 +231,9 @@ bool has_right_terms(const LogFit& fit) {
   return true;
 }
 
-/// Searches delays, lags and command errors again for the best families; from the beginning unless
-/// has_right_terms(). Reason: terms that were found with other families may only have compensated
-/// for a wrong resistance. Keeps the new fit if it is better.
+/// Searches delays, lags and command errors again for the best families. Starts without any of
+/// these terms, unless has_right_terms(). Reason: terms that were found with other families may
+/// only have compensated for a wrong resistance. Keeps the new fit if it is better.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         BestFamily& result) {
   FamilyFit& best = result.best;
@@ -255,10 +255,11 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
 
 /// Returns the families of one axis (yaw if `of_yaw`, else surge) to compare again, and removes
 /// them from `others`. `winner`: the fit first selected on this axis. `best`: the fit after the
-/// other axis and the delays were selected too. A family is compared again if its AIC was close:
-/// above that of `winner` by less than `best` has improved on `winner`. It is also compared again
-/// if its fit had other delays, lags or command errors than `best`: with wrong terms, the true
-/// family can lose by any amount.
+/// other axis and the delays were selected too. A family is compared again for one of two reasons:
+///   - Its AIC exceeds that of `winner` by less than the amount by which `best` has improved on
+///     `winner`.
+///   - Its fit had other delays, lags or command errors than `best`. With wrong terms, the AIC of
+///     the true family can be too high by any amount.
 std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
                                        std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);

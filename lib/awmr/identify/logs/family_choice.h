@@ -12,7 +12,8 @@ struct FamilyContest {
   OpenAxes open;      ///< the other axes keep the family of `first`
   double lead = 0.0;  ///< a family replaces a power law if its AIC is lower by more than this
   /// True: fits other families of an axis (surge or yaw) only for one of these reasons: a score
-  /// test or a slow drift suggests a missing term, the fit did not converge, or the axis has another family than the power law.
+  /// test or a slow drift indicates that a term is missing, the fit did not converge, or the current
+  /// family of the axis is not the power law.
   bool only_candidates = true;
 };
 
@@ -20,26 +21,28 @@ struct FamilyContest {
 struct BestFamily {
   FamilyFit best;
   std::vector<FamilyFit> others;  ///< the other fits that were made
-  /// `power-law-inadequate`, `family-undecided`, `families-not-compared`, where they apply.
+  /// The findings `power-law-inadequate`, `family-undecided` and `families-not-compared`, as far as
+  /// they apply.
   std::vector<Finding> findings;
   /// True: the limit of effort or time was reached before all comparisons were done.
   bool is_out_of_time = false;
 };
 
-/// Reports of the fits for /estimates of model.json. The AIC of each fit is computed under the
-/// noise model of `reference`, so that the values are comparable.
+/// Returns the reports of the fits for /estimates of model.json. The AIC of each fit is computed
+/// under the noise model of `reference`, so that the values are comparable.
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
-/// Number of other families that best_family() compares according to `first`. The number of fits
-/// can be larger, because close families are fitted again and a change of one axis can add the
-/// families of the other. It is smaller if the limit of effort or time is reached.
+/// Estimated number of families that best_family() compares with those of `first`. The actual
+/// number of fits can be larger, because families with a similar AIC are fitted again, and because
+/// a change of one axis can add the families of the other axis. It is smaller if the limit of
+/// effort or time is reached.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 
-/// Fits the families in turn and returns the best converged fit, compared as in family_score.h.
-/// Each fit starts from the best optimum so far, so that its result is not worse than that of a
-/// special case of its family. `first`: the fit to improve on, usually of power laws.
+/// Fits the families one after the other and returns the best converged fit, compared as in
+/// family_score.h. Each fit starts from the best optimum so far, so that it is at least as good as
+/// every special case of its family. `first`: the fit to improve on, usually of power laws.
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest);
 

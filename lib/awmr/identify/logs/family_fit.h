@@ -16,7 +16,7 @@ struct FamilyFit {
   LogFit fit;
 };
 
-/// True if the limit of effort or of time is reached, so that no further model is to be fitted.
+/// True if the limit of effort or of time is reached, so that no further model may be fitted.
 bool is_over(const LogFitOptions& options);
 
 /// Returns the options for a fit that starts only at the optimum of `fit`. The new fit has the
@@ -33,16 +33,18 @@ FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& p
                      Family surge, Family yaw);
 
 /// Fits the logs under the families `surge` and `yaw`, starting from the optimum of `inner`, a fit
-/// of other families. There are two starts. One has the curves of the new families that are nearest
-/// to those of `inner`. The other has the values of `inner`, with the initial guess of `power_law`
-/// for terms that are 0 in `inner`. If `inner` did not converge, does the same as fit_family().
-/// `more`: further terms to estimate.
+/// of other families. Starts two searches:
+///   - from the curves of the new families that are nearest to the curves of `inner`;
+///   - from the values of `inner`. Terms that are 0 in `inner` start at the initial guess of
+///     `power_law`.
+/// If `inner` did not converge, returns fit_family(), without `more`. `more`: further terms to
+/// estimate.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw,
                    const std::vector<FreeTerm>& more = {});
 
-/// fit_roughly() under the families `surge` and `yaw`, starting from the curves nearest to those of
-/// `inner`.
+/// Calls fit_roughly() under the families `surge` and `yaw`, starting from the curves of these
+/// families that are nearest to the curves of `inner`.
 FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const FamilyFit& inner, Family surge, Family yaw);
 
@@ -57,8 +59,8 @@ FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions&
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 
-/// Names the surge family, and the yaw family unless that is the power law: "coulomb-linear",
-/// "power, yaw coulomb-linear".
+/// Names the surge family, and also the yaw family unless it is the power law. Examples:
+/// "coulomb-linear", "power, yaw coulomb-linear".
 std::string families_in_words(Family surge, Family yaw);
 
 }  // namespace awmr

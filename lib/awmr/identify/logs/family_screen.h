@@ -25,10 +25,10 @@ struct OpenAxes {
   bool any() const { return surge || yaw; }
 };
 
-/// Fits all families of the open axes roughly (fit_roughly()), starting at the optimum of `first`,
-/// and changes one axis at a time as long as the error decreases by more than 2 %, at most
-/// six times. Returns the rough fit of the last families; they are those of `first` if no others are
-/// better.
+/// Fits all families of the open axes roughly (fit_roughly()), starting at the optimum of `first`.
+/// Changes one axis at a time as long as LogFit::first_error decreases by more than 2 %, at most
+/// six times. Returns the rough fit of the last families, which are those of `first` if no others
+/// are better.
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open);
 

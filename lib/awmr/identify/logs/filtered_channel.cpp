@@ -41,8 +41,9 @@ void FilteredChannel::next(double u, const double* by, double h_s, std::size_t c
   by_column_ = single_->by_column();
 }
 
-/// While u rises with the rate a, the first stage is behind it by T_1 a and the second by
-/// (T_1 + T_2) a. This gives the output of the first stage from u and the first reading y:
+/// While u rises at the constant rate a, the output of the first stage is below u by T_1 a, and
+/// that of the second stage by (T_1 + T_2) a. This gives the output of the first stage from u and
+/// the first reading y:
 ///
 ///     y_1 = u - T_1/(T_1 + T_2) (u - y)
 void FilteredChannel::start_pair(double u, const std::vector<Complex>& by) {

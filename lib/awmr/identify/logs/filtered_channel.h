@@ -20,7 +20,8 @@ struct SensorFilter {
 };
 
 /// Output y of a filter of first order with the input u and the time constant T, and its
-/// derivatives by the columns of the fit (linear_stepper.h). With rows h apart and e = exp(-h/T),
+/// derivatives with respect to the columns of the fit (linear_stepper.h). With rows h apart and e =
+/// exp(-h/T),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///     q = (T/h)(1 - e)   continuous, T dy/dt = u - y, u linear between rows
@@ -30,8 +31,8 @@ struct SensorFilter {
 template <class Scalar>
 class FilterStage {
  public:
-  /// `direction`: derivative of this stage's time constant by that of the filter. The output begins
-  /// at `first`, with the derivatives `by_column`.
+  /// `direction`: derivative of this stage's time constant with respect to that of the filter. The
+  /// output begins at `first`, with the derivatives `by_column`.
   FilterStage(const SensorFilter& filter, Scalar direction, Scalar first,
               std::vector<Scalar> by_column)
       : lag_s_(direction * filter.lag.delay_s),
@@ -64,10 +65,10 @@ class FilterStage {
 ///
 ///     T^2 d2y/dt2 + 2 zeta T dy/dt + y = u
 ///
-/// The latter is two stages in series with the complex time constants T exp(i phi) and
-/// T exp(-i phi), cos phi = zeta. y starts at the first reading of the window, whose noise decays
-/// with the time constant T. The output of the first of two stages starts as if the input had risen
-/// steadily.
+/// A filter of second order is computed as two stages in series with the complex time constants T
+/// exp(i phi) and T exp(-i phi), cos phi = zeta. y starts at the first reading of the window. The
+/// noise of that reading decays with the time constant T. The output of the first of two stages
+/// starts as if the input had risen at a constant rate before.
 class FilteredChannel {
  public:
   /// `first`: first reading of the window. `columns`: number of columns of the fit, by which y is

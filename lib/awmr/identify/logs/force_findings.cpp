@@ -80,9 +80,9 @@ std::vector<Finding> stribeck_findings(const LogFit& fit, const std::string& fil
   for (const FoundStribeck& one : found_stribeck(fit)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "stribeck-friction",
-         fmt::format("the friction of {} rises at low speed (Stribeck effect): by {:.2g} +- {:.2g} "
-                     "to the Coulomb friction {:.2g}{}. The fit compensates this, but simulations "
-                     "and gains do not, so drive faster than that{}",
+         fmt::format("the friction of {} is larger at low speed (Stribeck effect): by {:.2g} +- "
+                     "{:.2g} in addition to the Coulomb friction {:.2g}{}. The fit compensates "
+                     "this, but simulations and gains do not, so avoid low speeds{}",
                      one.what, one.force.value, one.force.error, one.coulomb,
                      one.speed ? fmt::format(", mainly below {:.2g} {}", *one.speed, one.unit) : "",
                      one.is_large() ? fmt::format("; the intervals of {}* are withdrawn, because "

@@ -8,12 +8,13 @@
 
 namespace awmr {
 
-/// One finding for each force of extra_forces.h that is larger than two standard errors.
+/// Returns one finding for each force of extra_forces.h that differs from 0 by more than two
+/// standard errors.
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file);
 
-/// Withdraws the intervals of a resistance with a Stribeck friction above 5 % of its Coulomb
-/// friction. The logs do not show the true form of the decrease with speed, on which all terms of
-/// this resistance depend. (m' and I'z depend on it much less.)
+/// Withdraws the intervals of a resistance whose Stribeck friction is above 5 % of its Coulomb
+/// friction. Reason: all terms of this resistance depend on how the friction decreases with speed,
+/// and the logs do not show the true form of this decrease. (m' and I'z depend on it much less.)
 void withdraw_by_stribeck(LogFit& fit);
 
 }  // namespace awmr

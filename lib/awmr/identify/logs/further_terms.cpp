@@ -57,10 +57,12 @@ bool has_both_directions(const DrivingLog& log) {
   return any([](double f) { return f > kLeast; }) && any([](double f) { return f < -kLeast; });
 }
 
-/// Adds the forces of extra_forces.h that can still be added: Stribeck friction to a resistance
-/// with Coulomb friction, a slope if the logs show the heading in world coordinates, drag in turns
-/// if the commands turn the vehicle, and excess of braking or backward forces (one of them) and of
-/// the backward resistance.
+/// Adds the forces of extra_forces.h that can still be added:
+///   - Stribeck friction, to a resistance with Coulomb friction;
+///   - a slope, if heading or position is measured;
+///   - drag in turns, if the commands turn the vehicle;
+///   - if the log has forces in both directions: an excess of braking or of backward forces (a fit
+///     contains at most one of the two), and of the backward resistance.
 void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   for (const auto& [force, coulomb] :
@@ -81,7 +83,7 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
     found.push_back(extra_force(ExtraForce::kTurnDrag));
   }
   if (!any_log(problem, has_both_directions)) return;
-  // wheel_slip.h does not contain the excess.
+  // A fit has either slip or an excess: wheel_slip.h computes the slip without an excess.
   if (!has_force_excess(quantities) && !has_kind(quantities, FreeQuantity::Kind::kWheelSlip)) {
     found.push_back(extra_force(ExtraForce::kBrakeForce));
     found.push_back(extra_force(ExtraForce::kReverseForce));
@@ -91,8 +93,8 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-/// Adds errors of the scale of a channel that another channel shows: of the yaw rate by heading or
-/// positions, of the speed by positions.
+/// Adds scale errors of the channels that another channel can check: of the yaw rate if heading or
+/// position is measured, and of the speed if position is measured.
 void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const NoiseLevels& measured = problem.model.noise;
   const bool has_position = measured.contains(LogChannel::kX);
@@ -105,8 +107,8 @@ void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-/// Adds the slip of the wheels that measure speed or yaw rate, in both forms. All slip of a fit has
-/// the same form.
+/// Adds the slip of the wheels that measure speed or yaw rate, in both forms (WheelSlip::is_ratio).
+/// If the fit already has slip of one channel, adds only the same form for the other.
 void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   if (has_force_excess(quantities)) return;

@@ -10,17 +10,20 @@ namespace awmr {
 
 /// Terms that can still be added to the fit:
 ///   - a delay of the commands and of every measured channel (one for x and y together). At least
-///     one of these signals has no delay, as the time reference of the others;
+///     one of these signals keeps the delay 0, as the time reference of the others;
 ///   - symmetric smoothing of the channels that are often filtered, unless a filter or smoothing is
-///     estimated;
+///     already estimated;
 ///   - an additional delay of the steering, if the servo's time constant is free;
-///   - a steering trim, if the steering moves;
+///   - a steering trim, if the steering moves, and with steering commands also a dead band and an
+///     asymmetry;
 ///   - a force imbalance, if left and right forces differ;
 ///   - a saturation of the forces, or an exponent below 1;
-///   - slip of the wheels that measure the speed, or the yaw rate if left and right forces differ;
-///   - place and direction of a sway sensor;
-///   - Stribeck friction of a resistance with Coulomb friction; a slope, if heading or position are
-///     measured (extra_forces.h).
+///   - forces of extra_forces.h (add_forces() in further_terms.cpp);
+///   - a scale error of the yaw rate if the heading or a position is measured, and of the speed if
+///     a position is measured;
+///   - slip of the wheels that measure the speed, or the yaw rate if left and right forces differ,
+///     unless an excess of wheel forces is estimated;
+///   - position and direction of a sway sensor.
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 
 /// True for channels that are often filtered before logging: speed, yaw rate and heading.

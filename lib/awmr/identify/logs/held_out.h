@@ -22,13 +22,13 @@ struct HeldOut {
   std::string rows;      ///< name of the tested rows: "the last fifth of log.csv"
   double p_value = 1.0;  ///< of the hypothesis that the fit's values describe these rows too
   std::string quantity;  ///< the quantity with the largest change over its standard error
-  double by_fit = 0.0;   ///< value of that quantity by the fit
-  double by_rows = 0.0;  ///< value of that quantity by the tested rows
+  double by_fit = 0.0;   ///< value of that quantity in the fit
+  double by_rows = 0.0;  ///< value of that quantity estimated from the tested rows
 };
 
-/// Tests whether `rows` agree with `fit`, a fit of other rows with these options. The test
-/// statistic X^2 is computed from the change d of the fitted coordinates by one Gauss-Newton step
-/// of a fit to `rows`:
+/// Tests whether `rows` agree with `fit`, a fit of other rows with these options. d is the change
+/// of the fitted coordinates in one Gauss-Newton step of a fit to `rows`. It gives the test
+/// statistic X^2:
 ///
 ///     d = -H^-1 S,   cov d = f^2 H^-1 + C,   X^2 = d^T (cov d)^-1 d,   chi-squared
 ///
@@ -37,8 +37,8 @@ struct HeldOut {
 /// standard errors of the fit were raised. d is restricted to the directions that the rows
 /// determine (identifiability.h). Quantities at an end of their range are fixed.
 ///
-/// The noise levels are those of the fit: noise that is estimated from the tested rows would absorb
-/// a change of the vehicle as sensor drift. Empty if the rows determine no direction or cannot be
+/// The noise levels are those of the fit. (Noise levels estimated from the tested rows would absorb
+/// a change of the vehicle as sensor drift.) Empty if the rows determine no direction or cannot be
 /// simulated.
 std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
 

@@ -18,9 +18,9 @@ namespace {
 
 /// Largest standard error of an identified quantity, in its large changes. The limit is lower for
 /// the sway resistance a_s, so that 1/a_s is at least 4 standard errors from 0. Reason: the logs
-/// measure the reciprocal, through the lateral speed v ~ m' r u / a_s. The standard error of ln a_s
-/// is a_s times that of 1/a_s. So the standard error of ln a_s is too small when noise makes a_s
-/// too small, and the common limit would favour such values.
+/// measure the reciprocal, because the lateral speed is v ~ m' r u / a_s. The standard error of ln
+/// a_s is a_s times that of 1/a_s. If noise makes a_s too small, the standard error of ln a_s is
+/// therefore too small as well, and the common limit would accept such values more often.
 double unknown_from(const FreeQuantity& q) {
   constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;
@@ -64,8 +64,8 @@ bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
-/// Variances of the coordinates by the scatter of the scores s_b of m blocks or logs: the diagonal
-/// of m/(m - 1) C (sum s_b s_b^T) C, with C = `covariance`.
+/// Variances of the coordinates that follow from the scatter of the scores s_b of m blocks or logs:
+/// the diagonal of m/(m - 1) C (sum s_b s_b^T) C, with C = `covariance`.
 Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::VectorXd>& scores) {
   Eigen::VectorXd variances = Eigen::VectorXd::Zero(covariance.rows());

@@ -13,8 +13,8 @@
 namespace awmr {
 
 /// Largest standard error of an identified quantity, divided by the large change of its coordinate
-/// (FreeQuantity::large_change). At this limit, the 95 % interval is a factor of 2.7 to either side
-/// for a logarithmic coordinate, and +-1 for an exponent.
+/// (FreeQuantity::large_change). At this limit, the 95 % interval of a quantity with a logarithmic
+/// coordinate extends from 1/2.7 to 2.7 times its value, and that of an exponent is +-1.
 inline constexpr double kUnknown = 0.5;
 
 /// Covariance and identifiability of the n coordinates of a log fit.
@@ -43,8 +43,8 @@ struct Identifiability {
 ///
 /// The parts are blocks of some seconds. With three or more logs, whole logs are used as parts too
 /// if their scatter exceeds the prediction significantly (5 %), as with a model error that differs
-/// between logs. The larger D_ii applies. A quantity is refused if its standard error exceeds
-/// kUnknown large changes (half of that for the sway resistance). It is also refused if it
+/// between logs. The larger D_ii then applies. A quantity is refused for one of two reasons: its
+/// standard error exceeds kUnknown large changes (half of that for the sway resistance), or it
 /// contributes a tenth or more to the squared length of a direction (eigenvector of H) that the
 /// logs do not determine.
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,

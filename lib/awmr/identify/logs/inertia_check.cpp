@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// Usual range of the ratio of I'z/m' of real vehicles to that of a uniform box.
+/// Usual range of I'z/m' of real vehicles, divided by the I'z/m' of a uniform box.
 constexpr Interval kUsual{0.3, 2.0};
 
 /// Names a unit of the speed that would explain I'z/m'. Empty if I'z/m' is not too large. Empty
@@ -37,7 +37,8 @@ std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_
   return " (speed_mps may be a rate of rotation of the wheels: multiply it by their radius)";
 }
 
-/// Estimate of a parameter by the log fit, else by other trials; null if neither has a value.
+/// Estimate of a parameter from the log fit, or else from other trials. Null if neither has a
+/// value.
 const Estimate* estimate_of(const Model& model, const LogStage& stage, ParameterId id) {
   const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
   if (found != stage.main.end()) return &found->estimate;

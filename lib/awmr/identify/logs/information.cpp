@@ -9,7 +9,8 @@
 namespace awmr {
 namespace {
 
-/// (J_s^T J_s)^-1 J_s^T J_t: least-squares change of a window's initial state by each coordinate.
+/// (J_s^T J_s)^-1 J_s^T J_t: least-squares change of a window's initial state per change of each
+/// coordinate.
 Eigen::MatrixXd compensation(const WindowSums& window, Eigen::Index n) {
   const Eigen::Index k = window.products.rows() - 1 - n;
   return solve_ldlt(window.products.block(n, n, k, k), window.products.block(n, 0, k, n));

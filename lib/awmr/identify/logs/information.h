@@ -8,9 +8,9 @@
 
 namespace awmr {
 
-/// Information and score of the n coordinates, after elimination of each window's initial state.
-/// With the residuals r, the Jacobian J_t by the coordinates, the Jacobian J_s by the initial
-/// state, and the gradients g_t = J_t^T r and g_s = J_s^T r, summed over the windows:
+/// Information and score of the n coordinates, after elimination of each window's initial state. r:
+/// residuals; J_t, J_s: Jacobians with respect to the coordinates and the initial state; g_t =
+/// J_t^T r and g_s = J_s^T r. Summed over the windows:
 ///
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
 ///     S = g_t       - J_t^T J_s (J_s^T J_s)^-1 g_s
@@ -37,8 +37,8 @@ Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<Window
 /// least 1 s, at most kWindow_s.
 double block_length_s(const NoiseLevels& noise);
 
-/// AIC of a fit under its own noise: -2 ln L + 2 (n + number of noise parameters), up to a constant
-/// of the logs. `n`: number of free quantities.
+/// AIC of a fit under its own noise model: -2 ln L + 2 (n + number of noise parameters), up to a
+/// constant that depends only on the logs. `n`: number of free quantities.
 double akaike(const NoiseLevels& noise, Eigen::Index n);
 
 }  // namespace awmr

@@ -10,8 +10,8 @@
 namespace awmr {
 
 /// Guesses the order of magnitude of each parameter. The resistances balance the root mean square
-/// forces at the root mean square speed and yaw rate; m' gives a time constant m'/a1 of 0.3 s; I'z
-/// is m' Iz/m of the vehicle. Terms that only some families have are 0.
+/// forces at the root mean square speed and yaw rate. m' gives a time constant m'/a1 of 0.3 s. I'z
+/// is m' times Iz/m of the vehicle. Terms that only some families have are 0.
 ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
                                         const Vehicle& vehicle);
 

@@ -43,8 +43,8 @@ std::vector<RowPart> places_of(const DrivingLog& log) {
   return places;
 }
 
-/// The signal at the places, linearly interpolated. `later`: fraction of the time between two rows
-/// by which the places are shifted, < 1.
+/// The signal at the times of the row parts, linearly interpolated. `later`: fraction of the time
+/// between two rows by which these times are shifted, < 1.
 std::vector<double> at_places(const std::vector<double>& signal, const std::vector<RowPart>& places,
                               double later) {
   std::vector<double> values;

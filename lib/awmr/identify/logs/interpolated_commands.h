@@ -9,15 +9,15 @@
 
 namespace awmr {
 
-/// True if straight lines between the rows describe the commands better than steps, because a
-/// joystick or a controller changes the commands more often than the log has rows. False without a
-/// fit if the commands of any log change in less than half of its rows, or are already interpolated
-/// or held set-points.
+/// True if straight lines between the rows describe the commands better than steps. This is the
+/// case if a joystick or a controller changes the commands more often than the log has rows.
+/// Returns false without a fit if the commands of any log change in less than half of its rows, or
+/// are already interpolated or held set-points.
 ///
-/// Fits the families of `first` also to interpolated(logs), with a free delay of the commands. True
-/// if the AIC of this fit is lower by more than kFamilyAicThreshold. If `first` has late commands,
-/// whose effect resembles that of lines, the AIC may even be higher by up to 10. `power_law`:
-/// options of `first`.
+/// Otherwise fits the families of `first` to interpolated(logs), with a free delay of the commands.
+/// Returns true if the AIC of this fit is lower than that of `first` by more than
+/// kFamilyAicThreshold. If `first` has late commands, whose effect resembles that of lines, the AIC
+/// may instead be up to 10 higher. `power_law`: options of `first`.
 bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          const FamilyFit& first);
 

@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Adds the servo: d_r_dot = sat((target - d_r)/T, d_rate_max). At a limit, all derivatives are 0
-/// but that by d_rate_max.
+/// Adds the servo: d_r_dot = sat((target - d_r)/T, d_rate_max). At the rate limit, all derivatives
+/// are 0 except that with respect to d_rate_max.
 void add_servo(const LinearPlant& plant, const State<double>& s, double command_rad,
                LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -40,7 +40,8 @@ void add_kinematics(const State<double>& s, LinearRates& out) {
   out.by_state.y_v = c;
 }
 
-/// Adds the derivatives of a rate by the parameters of its resistance: -(dg/d parameter)/inertia.
+/// Adds the derivatives of a rate with respect to the parameters of its resistance: -(dg/d
+/// parameter)/inertia.
 template <double DrivenSlopes::*kRate>
 void add_resistance(const ResistanceSlopes& g, double per_inertia, ParameterId alpha,
                     ParameterId beta, ParameterId coulomb, ParameterId quadratic,
@@ -64,7 +65,8 @@ bool has_force(const ExtraForces& extra, ExtraForce one, ExtraForce other) {
          });
 }
 
-/// The drag in turns as a resistance to yaw. Below 0.01 rad/s it is in proportion to the yaw rate.
+/// The factor k |r|^p sgn r of the drag in turns, as a resistance law of the yaw rate r. Below 0.01
+/// rad/s it is proportional to r.
 Resistance<double> turn_drag_law(const ExtraForces& extra) {
   constexpr double kRest_radps = 0.01;
   return {.alpha = extra[ExtraForce::kTurnDrag],
@@ -238,8 +240,9 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
 
 namespace {
 
-/// Adds the friction c at rest to the rate of one speed w and to its derivatives:
-/// w_dot -= sgn(w) c/inertia. The inertia is m' or I'z.
+/// Adds the deceleration `friction` = c/inertia to the rate of one speed w and to its derivatives:
+/// w_dot -= sgn(w) c/inertia. The inertia is m' or I'z. c: friction at rest (Coulomb plus
+/// Stribeck).
 template <double DrivenSlopes::*kRate>
 void brake(double way, double friction, double per_inertia, ParameterId coulomb,
            ExtraForce stribeck, ParameterId inertia, double& rate, LinearRates& out) {

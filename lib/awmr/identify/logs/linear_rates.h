@@ -26,8 +26,8 @@ struct ResistanceSlopes {
   double by_quadratic = 0.0;
 };
 
-/// Resistance with derivatives. Below the law's rest_speed the curve is replaced by the straight
-/// line through 0 and the curve's point at rest_speed, so that integration steps stay stable.
+/// Resistance with derivatives. Below the law's rest_speed, the straight line through 0 and the
+/// curve's point at rest_speed replaces the curve, so that integration steps stay stable.
 class LinearResistance {
  public:
   explicit LinearResistance(const Resistance<double>& law);
@@ -49,8 +49,9 @@ class LinearResistance {
 /// Plant with precomputed reciprocals, for repeated evaluation of its rates. linear_rates()
 /// excludes Coulomb friction; add_friction() adds it.
 struct LinearPlant {
-  /// `by_back_emf`: true: computes the derivatives by k_e even if k_e is 0. `longest_step_s`:
-  /// longest Runge-Kutta step that will be used; 0: all steps are short enough for sway.
+  /// `by_back_emf`: if true, computes the derivatives with respect to k_e even if k_e is 0.
+  /// `longest_step_s`: longest Runge-Kutta step that will be used; 0: all steps are short enough
+  /// for the sway motion.
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
                        double longest_step_s = 0.0, const ExtraForces& extra_forces = {});
   Plant<double> plant;
@@ -61,11 +62,11 @@ struct LinearPlant {
   double per_mass;
   double per_inertia;
   double per_lag;
-  /// Factor on v_dot, <= 1. Below 1 if the time constant m'/a_s of sway is shorter than a step: v
-  /// then reaches the same steady value with a time constant of one step.
+  /// Factor on v_dot, <= 1. It is below 1 if the time constant m'/a_s of sway is shorter than a
+  /// step: v then approaches the same steady value with a time constant of one step.
   double sway_pace;
   LinearResistance turn_drag_of_yaw;  ///< k |r|^p sgn r of the drag in turns
-  double step_per_mass;  ///< longest step over m', s/(s^2/m): change of u by F_max over a step
+  double step_per_mass;  ///< longest step / m', m/s: change of u that F_max causes in one step
   bool has_back_emf;
   bool has_surge_stribeck;
   bool has_yaw_stribeck;
@@ -80,8 +81,8 @@ struct HeldCommand {
   double steering_rad = 0.0;
 };
 
-/// Partial derivatives of the rates by the state; x_psi is d x_dot / d psi. The others are 0,
-/// except d psi_dot / d r = 1.
+/// Partial derivatives of the rates with respect to the state; x_psi is d x_dot / d psi. The others
+/// are 0, except d psi_dot / d r = 1.
 struct StateSlopes {
   double x_psi, x_u, x_v;
   double y_psi, y_u, y_v;
@@ -91,7 +92,8 @@ struct StateSlopes {
   double steering_steering;
 };
 
-/// Partial derivatives of u_dot, v_dot, r_dot and the steering rate by one parameter or force.
+/// Partial derivatives of u_dot, v_dot, r_dot and the steering rate with respect to one parameter
+/// or force.
 struct DrivenSlopes {
   double u = 0.0;
   double v = 0.0;
@@ -116,8 +118,9 @@ struct LinearRates {
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
 
-/// Adds Coulomb friction to the rates. For a speed u or r that friction holds at 0, its rate and
-/// the derivatives of that rate are set to 0. `way`: sign of each speed's motion, 0 if held.
+/// Adds Coulomb friction to the rates. If friction holds the vehicle at u = 0 or r = 0, the rate of
+/// that speed and the derivatives of the rate are set to 0. `way`: direction of u and r; 0 for a
+/// speed that friction holds at 0.
 void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out);
 
 }  // namespace awmr

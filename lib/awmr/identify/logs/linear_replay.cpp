@@ -7,8 +7,8 @@
 namespace awmr {
 namespace {
 
-/// Adds the derivatives by the delays at a time at which the acting rows change from `before` to
-/// `after`. Forces of motors with lag are left out, because they do not jump.
+/// Adds the derivatives with respect to the delays at the time at which the acting rows change from
+/// `before` to `after`. The forces of motors with lag are left out, because they do not jump.
 void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                  const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   if (path.lag) before.forces = after.forces;
@@ -17,7 +17,7 @@ void change_rows(const LogSignals& signals, ActingRows before, const ActingRows&
                          motion);
 }
 
-/// Steps from `from_s` to `to_s`, between which the same rows act.
+/// Integrates from `from_s` to `to_s`, an interval in which the same rows act.
 void step_along(const LogSignals& signals, std::size_t row, const ActingRows& rows, double from_s,
                 double to_s, const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                 LinearMotion& motion) {
@@ -103,7 +103,7 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
   const State<double> rates = then_s < row_s
                                   ? stepper.step_along_tangent(command, then_s - row_s, motion)
                                   : stepper.rates(command, motion);
-  // A longer delay selects an earlier time.
+  // A longer delay selects an earlier time, so d motion / d delay is minus the rate.
   if (stepper.columns() == 0) return motion;
   for (const LogChannel channel : kChannels) {
     motion.row(channel, stepper.columns())[delay.column] -= channel_of(rates, channel);

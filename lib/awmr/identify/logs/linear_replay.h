@@ -1,5 +1,5 @@
-/// Simulation of a log like replay(), with the derivatives of the motion by the free quantities of
-/// a log fit. Private to identify/.
+/// Simulation of a log like replay(), which also computes the derivatives of the motion with
+/// respect to the free quantities of a log fit. Private to identify/.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,15 @@
 
 namespace awmr {
 
-/// Integrates the motion from `from_s` to `to_s`, times between `row` and the next row, like
-/// advance_after_row() in trials/replay.h, with derivatives.
+/// Integrates the motion and its derivatives from `from_s` to `to_s`, as advance_after_row() in
+/// trials/replay.h integrates the motion. Both times are between `row` and the next row.
 void advance_after_row(const LogSignals& signals, std::size_t row, double from_s, double to_s,
                        const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                        LinearMotion& motion);
 
 /// Sets the steering angle of `motion` to the logged angle plus the trim, at the fraction `share`
-/// of the time from `row` to the next row. Its derivative is 1 by the trim and 0 by other columns.
+/// of the time from `row` to the next row. The derivative of the angle is 1 with respect to the
+/// trim and 0 with respect to all other columns.
 void steer(const LogSignals& signals, std::size_t row, double share, const CommandPath& path,
            std::size_t columns, LinearMotion& motion);
 
@@ -38,9 +39,10 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
   }
 }
 
-/// Returns the motion delay.delay_s >= 0 seconds before the last of `motions`. `motions` are the
-/// motions at the rows from `begin` on. Integrates from the last row before that time. If that time
-/// is before the first of these rows, extrapolates with the rates at the first row.
+/// Returns the motion at the time that is delay.delay_s >= 0 seconds before the last of `motions`.
+/// `motions` are the motions at the rows from `begin` on. Integrates from the last row before that
+/// time. If that time is before the first of these rows, extrapolates with the rates at the first
+/// row.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,

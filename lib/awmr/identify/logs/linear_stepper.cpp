@@ -61,8 +61,8 @@ std::size_t place_of(LogChannel channel) {
   return 6;
 }
 
-/// Time derivative A S + B of one column of the derivatives S of the state. `b` and `s`: first
-/// number of this column in B and S.
+/// Time derivative A S + B of one column of the derivatives S of the state. `b`, `s`: pointers to
+/// the first number of this column in B and S.
 std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double* b,
                                               std::size_t columns, const double* s) {
   const double psi = s[2 * columns];

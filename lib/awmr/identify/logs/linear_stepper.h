@@ -1,5 +1,5 @@
-/// Integration of the vehicle's state together with its derivatives by the free quantities of a log
-/// fit. Private to identify/.
+/// Integration of the vehicle's state together with its derivatives with respect to the free
+/// quantities of a log fit. Private to identify/.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace awmr {
 
-/// State at one time with its derivatives by the columns of a fit. A column is a free quantity or a
-/// free component of the initial state.
+/// State at one time with its derivatives with respect to the columns of a fit. A column is a free
+/// quantity or a free component of the initial state.
 struct LinearMotion {
   State<double> state{};
   std::vector<double> by_column;  ///< derivatives, [kStateSize][columns]; empty without columns
@@ -51,13 +51,14 @@ class LinearStepper {
   /// The steering delay changes only the derivative of the steering angle.
   void change_command(const DelayedCommand& before, const DelayedCommand& after,
                       LinearMotion& motion);
-  /// The rates of the state, friction included. Sets the derivatives of a held speed to 0.
+  /// The rates of the state, friction included. For a speed that friction holds at 0, sets the
+  /// derivatives in `motion` to 0.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
 
  private:
-  /// A derivative of one rate by a parameter, and its destination in driven_.
+  /// A derivative of one rate with respect to a parameter, and its destination in driven_.
   struct Term {
     std::size_t parameter;
     double DrivenSlopes::*rate;
@@ -65,7 +66,8 @@ class LinearStepper {
     double factor;
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
-  /// Sets a column to the derivatives of the rates by a quantity that acts through the commands.
+  /// Sets a column to the derivatives of the rates with respect to a quantity that acts through the
+  /// commands.
   void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
   /// Computes the rates and their derivatives at `s`, friction included.
   void find_rates(const DelayedCommand& command, const State<double>& s);
@@ -77,8 +79,8 @@ class LinearStepper {
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
   /// Moves state and derivatives of `motion` to `next`, the result of the last state_after().
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);
-  /// Handles a speed that has reached 0: friction keeps it at 0, or it continues in the other
-  /// direction. Scales the derivatives of this speed accordingly.
+  /// Handles a speed that has reached 0: friction holds it at 0, or it changes its sign. Scales the
+  /// derivatives of this speed accordingly.
   void stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion);
 
   LinearPlant plant_;

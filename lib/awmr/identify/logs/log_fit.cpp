@@ -25,8 +25,8 @@ namespace {
 /// step is therefore shorter than 0.01 standard errors.
 constexpr double kFine = 1e-9;
 
-/// Largest number of rough optima to refine, best first, until the simulation of the logs is finite
-/// at the refined optimum.
+/// Largest number of rough optima to refine. They are refined one after the other, best first,
+/// until the simulation of the logs is finite at a refined optimum.
 constexpr std::size_t kTries = 3;
 
 LogFit without_solution(std::string why, std::vector<SearchStart> starts) {

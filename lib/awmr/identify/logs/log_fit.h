@@ -25,8 +25,8 @@ struct LogFit {
   std::vector<std::string> refusal_reason;  ///< one per quantity; empty text: it is identified
   NoiseLevels noise;
   ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI, not whitened
-  /// One per term in LogFitOptions::candidate_terms: decrease of -2 ln L if the term were also
-  /// estimated, predicted by a score test, >= 0.
+  /// One per term in LogFitOptions::candidate_terms: decrease of -2 ln L, >= 0, that a score test
+  /// predicts if the term were also estimated.
   std::vector<double> candidate_gain;
   double widened = 1.0;    ///< largest widening factor: Identifiability::widened()
   EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
@@ -43,8 +43,9 @@ struct LogFit {
   double error_of(std::size_t i) const {
     return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
   }
-  /// True if delay, lag or command error i is at least two standard errors and 1 ms, 1 mrad, 1 mm/s
-  /// or 0.1 % (smoothing: 1 ms^2). Precondition: its coordinate is its value.
+  /// True if quantity i (a delay, a lag, or an error of commands or sensors) differs significantly
+  /// from 0: by at least two standard errors, and by at least 1e-3 in its SI unit (1e-6 s^2 for
+  /// smoothing). Precondition: its coordinate is its value.
   bool is_significant(std::size_t i) const {
     const double smallest = quantities[i].kind == FreeQuantity::Kind::kSmoothing ? 1e-6 : 1e-3;
     return !(std::abs(coordinates[i]) < std::max(smallest, 2.0 * error_of(i)));
@@ -52,13 +53,13 @@ struct LogFit {
 };
 
 /// Fits the logs. Precondition: an initial guess for every parameter. The fit is not usable and has
-/// no quantities if nothing is measured or free, if there are not more readings than unknowns, or
-/// if all searches fail. Its report then states the reason.
+/// no quantities if nothing is measured, if nothing is free, if there are not more readings than
+/// unknowns, or if all searches fail. Its report then states the reason.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Fits the logs by one rough search from the initial guess (rough_problem()), to rank models. Of
-/// the result, only `quantities`, `coordinates` and `relative_error` are set. The latter is infinite
-/// if the search fails.
+/// the result, only `quantities`, `coordinates` and `relative_error` are set. `relative_error` is
+/// infinite if the search fails.
 LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Returns the options with the delays and command errors of `fit` as the free terms, starting at

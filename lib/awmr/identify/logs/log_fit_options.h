@@ -17,9 +17,9 @@
 
 namespace awmr {
 
-/// Counter of the work of all searches of one identification, with a limit. The unit is the
-/// integration of one state vector, or of its derivatives by one quantity, over one step. Unlike a
-/// time limit, it does not depend on the machine or its load.
+/// Counter of the work of all searches of one identification, with a limit. One unit is the
+/// integration of one state vector over one step, or of its derivatives with respect to one
+/// quantity. Unlike a time limit, the limit of work does not depend on the machine or its load.
 class Effort {
  public:
   explicit Effort(std::int64_t limit) : limit_(limit) {}
@@ -37,13 +37,13 @@ struct LogFitOptions {
   Vehicle vehicle;
   /// One per ParameterId: initial guess of a free parameter, or value of a fixed parameter.
   ParameterValues<double> initial_guess{};
-  /// Free parameters whose initial guess is only an order of magnitude. The multistart varies them.
-  /// Empty if other trials gave all initial guesses; one search then suffices.
+  /// Free parameters whose initial guess is only an order of magnitude; the multistart varies them.
+  /// Empty if all initial guesses come from other trials, because one search then suffices.
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
   bool frees(ParameterId id) const { return std::ranges::find(free, id) != free.end(); }
-  /// Terms of resistance families, and back-EMF, that are fixed at 0 in this fit. A score test of
-  /// each term estimates how much the term would improve the fit.
+  /// Terms of resistance families, and back-EMF, that are fixed at 0 in this fit. A score test
+  /// estimates how much each of them would improve the fit.
   std::vector<ParameterId> candidate_terms;
   /// Free delays, lags and command errors. A motor lag from the vehicle file is fixed and not
   /// listed.

@@ -14,8 +14,8 @@ namespace awmr {
 /// (FreeQuantity::large_change).
 inline constexpr double kPriorStd = 5.0;
 
-/// Data of the problem. The cost is half the sum of squares of the residuals of all windows and of
-/// a prior residual of every coordinate x_i,
+/// Data of the problem. The cost is half the sum of squares of two kinds of residuals: those of all
+/// windows, and a prior residual of every coordinate x_i,
 ///
 ///     (x_i - initial_i) / (kPriorStd large_change_i)
 ///
@@ -45,12 +45,14 @@ struct SearchPoint {
   std::vector<double> initial_states;  ///< all components of one window after the other
 };
 
-/// Longest integration step at these coordinates, s: that of replay_step_s(), except that fast sway
-/// shortens it to no less than 1/4 of the row spacing, and a fast servo to no less than 1/8. (Sway
-/// that is faster is slowed, LinearPlant::sway_pace.) At most the row spacing, because the
-/// chord of the resistance near rest (Resistance::rest_speed) grows with the step. At most 5 ms if
-/// an excess of braking or backward forces is free, because braking forces jump where a wheel
-/// changes its direction. At least kShortestReplayStep_s.
+/// Longest integration step at these coordinates, s: that of replay_step_s(), with these limits:
+///   - Fast sway shortens it to no less than 1/4 of the row spacing, and a fast servo to no less
+///     than 1/8. (Still faster sway is slowed down, see LinearPlant::sway_pace.)
+///   - It is at most the row spacing, because a longer step lengthens the straight line that
+///     replaces the resistance near rest (Resistance::rest_speed).
+///   - It is at most 5 ms if an excess of braking or backward forces is free, because braking
+///     forces jump where a wheel changes its direction.
+///   - It is at least kShortestReplayStep_s.
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 
 /// Builds the problem at the initial guess, with the noise by sensor_noise() and without weights of
@@ -60,12 +62,12 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
 /// Returns the point with these coordinates and with the measured initial state of every window.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 
-/// Longest integration step of rough searches, s: those that only rank initial guesses or models,
-/// and the first round of settle_noise(). Twice the step of the model, but at most the row spacing.
+/// Longest integration step, s, of rough searches (which only rank initial guesses or models) and
+/// of the first round of settle_noise(). Twice the step of the model, but at most the row spacing.
 double rough_step_s(const LogModel& model);
 
-/// These functions compute the errors, or the sums, of all windows in parallel. The results do not
-/// depend on the number of threads. `block_s`: length of the blocks, see sums_of().
+/// Compute the errors, or the sums, of all windows in parallel. The results do not depend on the
+/// number of threads. `block_s`: length of the blocks, see sums_of().
 std::vector<WindowErrors> errors_at(const LogProblem& problem, const SearchPoint& point);
 std::vector<WindowSums> sums_at(const LogProblem& problem, const SearchPoint& point,
                                 double block_s = 0.0);

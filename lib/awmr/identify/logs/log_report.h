@@ -19,9 +19,9 @@ struct LogReportInput {
   const std::vector<Interval>& bootstrap95;
 };
 
-/// Builds the report: values of all quantities, standard errors of those that the logs identify,
-/// and tests whether the standardised residuals of each channel are white and normal. Does not list
-/// the starts of the multistart.
+/// Builds the report: the values of all quantities, the standard errors of those that the logs
+/// identify, and tests whether the standardised residuals of each channel are white and normal. The
+/// starts of the multistart are not included.
 EstimatorReport log_report(const LogReportInput& input);
 
 /// Removes the standard error and the interval of a parameter. Keeps its value.

@@ -108,8 +108,8 @@ Finding in_words(const HeldOut& missed, const std::string& file) {
                       option_text("from S"), option_text("until S"))};
 }
 
-/// True if the search ended with the servo's time constant at its upper limit, which no servo
-/// reaches: the optimum is probably a wrong one.
+/// True if the search ended with the servo's time constant at its upper limit. No servo is that
+/// slow, so the search has probably found a wrong optimum.
 bool has_impossible_servo(const LogFit& fit) {
   constexpr double kAtLimit = 1.0 - 1e-6;
   const auto i = place_of(fit.quantities, ParameterId::kSteeringTimeConstant);
@@ -124,8 +124,9 @@ Finding impossible_servo_finding(const std::string& file) {
                       kSlowestServo_s, option_text("starts"))};
 }
 
-/// The finding `not-identifiable` for each term that has no value: an error if `requested` has its
-/// name, else a note. Forms of other terms are left out.
+/// The finding `not-identifiable` for each term of the fit that has no value: an error if
+/// `requested` contains its name, else a note. Parameters that only describe the form of another
+/// term (FreeQuantity::is_form()) are left out.
 std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::string>& requested,
                                    const std::string& file) {
   std::vector<Finding> findings;
@@ -181,8 +182,8 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
 /// Compares the logs with each other, or the halves of a single log. Adds a finding for each
 /// contradiction, and withdraws the intervals if necessary.
 void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogStage& stage) {
-  // The true form of a large saturation is unknown. With the fitted form, the values differ from
-  // part to part of the logs, so a comparison would be meaningless.
+  // The true form of a large saturation is unknown. With a wrong form, the estimates differ between
+  // parts of the logs, so a comparison of the parts would be meaningless.
   const bool saturates = saturates_much(chosen.fit);
   const LogComparison compared = saturates ? LogComparison{} : compare_logs(logs, chosen);
   stage.withdraws_intervals =
@@ -198,7 +199,7 @@ struct ReadAgain {
   Finding finding;
 };
 
-/// Another interpretation of the logged commands that the fits prefer to that of `first`: held
+/// Returns another interpretation of the logged commands if its fit is better than `first`: held
 /// set-points, straight lines between the rows, or measured steering angles. Empty if there is
 /// none.
 std::optional<ReadAgain> read_again(const std::vector<DrivingLog>& logs,

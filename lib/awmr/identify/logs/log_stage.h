@@ -25,11 +25,11 @@ struct LogStage {
   Family surge_family = Family::kPower;  ///< families of the fit
   Family yaw_family = Family::kPower;
   Eigen::MatrixXd block;  ///< covariance of the fit's coordinates
-  /// For each parameter that is requested or has no value, but that the logs do not identify: the
-  /// reason.
+  /// Reason why the logs do not identify a parameter; one for each such parameter that is requested
+  /// or has no value.
   std::map<ParameterId, std::string> reasons;
-  /// True if k_e was free in the fit but is not identified. The model then has no value of k_e,
-  /// because the other parameters are not those of a model with k_e = 0.
+  /// True if k_e was free in the fit but is not identified. The model then has no value of k_e. (A
+  /// value of 0 would be wrong, because the other parameters were fitted with a nonzero k_e.)
   bool is_back_emf_open = false;
   std::vector<EstimatorReport> reports;  ///< reports of all fitted families
   std::size_t chosen_report = 0;         ///< index in `reports` of the fit that sets `main`
@@ -44,7 +44,7 @@ struct LogStage {
 /// `back-emf`, `steering-measured`, `interpolated-commands`, `interpolated-set-points`,
 /// `wheel-slip`, `speed-controlled`, `logs-disagree`, `not-identifiable`, `not-converged`,
 /// `held-out-misses`, `inertia-mismatch`, `families-not-compared` (a limit was reached), and those
-/// of command_findings.h. Errors (input): that of check_replay(), for a time constant that is too
+/// of command_findings.h. Errors (input): those of check_replay(), if a time constant is too
 /// small.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,

@@ -37,7 +37,7 @@ void announce(const IdentifyOptions& options, double numbers, const std::string&
 }
 
 /// Estimated work of the first fit (Effort). Each evaluation integrates the state and its
-/// derivatives by every free quantity and every component of the initial state.
+/// derivatives with respect to every free quantity and every component of the initial state.
 double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   constexpr double kEvaluations = 40.0;
   constexpr double kStepsOfRow = 2.0;
@@ -136,8 +136,8 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
   chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
   if (!open.any()) return chosen;
-  // Unless the user requests the best family (`--family auto`), another family has to be
-  // significantly better than the power law.
+  // Without `--family auto`, another family has to be significantly better than the power law. With
+  // it, any lower AIC suffices.
   show_step(options, "trying families of resistance");
   const bool is_family_requested = !options.surge_family.family || !options.yaw_family.family;
   const FamilyContest contest{.open = open,
@@ -153,11 +153,11 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return chosen;
 }
 
-/// Tests whether the motors have back-EMF. `ideal`: result without back-EMF, whose best families
-/// are fitted again with back-EMF. If this fit is significantly better, makes back-EMF a free
-/// parameter of `power_law`, selects the families again, and returns the new result, with the best
-/// fit of `ideal` among its alternatives. Else returns `ideal`, with the refit among its
-/// alternatives.
+/// Tests whether the motors have back-EMF, by a fit of the best families of `ideal` with back-EMF.
+/// `ideal`: the result without back-EMF. If the fit with back-EMF is significantly better, makes
+/// back-EMF a free parameter of `power_law`, selects the families again, and returns the new
+/// result; the best fit of `ideal` is then among its alternatives. Otherwise returns `ideal`, with
+/// the fit with back-EMF among its alternatives.
 BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                             const IdentifyOptions& options, BestFamily ideal) {
   show_step(options, "trying back-EMF of the motors");

@@ -11,23 +11,25 @@
 
 namespace awmr {
 
-/// Calls options.doing, if there is one, with the step that begins.
+/// Calls options.doing, if it is set, with the name of the step that begins.
 void show_step(const IdentifyOptions& options, std::string_view what);
 
-/// Fits the families that the options name, by default power laws. If an axis is open (no family was
-/// requested) and the errors after the first round are far above the sensor noise, fits the
-/// families by likely_families() instead.
+/// Fits the families that the options name, by default power laws. If the user has not selected the
+/// family of both axes and the errors after the first round are far above the sensor noise, fits
+/// the families of likely_families() instead.
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options);
 
-/// Returns the logs with the steering command as the measured steering angle.
+/// Returns the logs with their column of steering commands used as the measured steering angle.
 std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs);
 
-/// True if the column of steering commands seems to contain measured angles. Three conditions:
-/// every log has steering commands but no measured angle; in the fit `first`, the servo's time
-/// constant minus the time by which the steering's time stamps are late is at most half of the row
-/// spacing; and a fit that uses the column as the angle is significantly better (if the time stamps
-/// are late: has any lower AIC).
+/// True if the column of steering commands seems to contain measured angles. All of these
+/// conditions must hold:
+///   - Every log has steering commands, but no measured angles.
+///   - In the fit `first`, the servo has hardly any lag: its time constant, minus the time by which
+///     the time stamps of the steering are late, is at most half of the row spacing.
+///   - A fit that uses the column as the angle is significantly better. If the time stamps of the
+///     steering are late in `first`, any lower AIC suffices.
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                           const FamilyFit& first);
 

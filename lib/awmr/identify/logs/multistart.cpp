@@ -20,9 +20,8 @@ std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t
 
 /// Random initial guess. Each parameter in `guessed` with a logarithmic coordinate is multiplied by
 /// a factor in [e^-2, e^2]. An exponent in `guessed` is drawn from [0.3, 1.3] and limited to its
-/// range. Terms of a family do not change. Draws one random number for every quantity, also for
-/// those that do not change, so that the guess of one quantity does not depend on which others are
-/// in `guessed`.
+/// range. Terms of a family do not change. A random number is drawn for every quantity, even if it
+/// is not used, so that the guess of one quantity does not depend on which others are in `guessed`.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;

@@ -23,12 +23,12 @@ LogProblem rough_problem(const LogProblem& problem);
 /// Relative change of the cost at which rough searches end.
 inline constexpr double kRough = 1e-4;
 
-/// If other trials gave the whole initial guess and `also_from` is empty, returns only the initial
-/// guess. Otherwise runs rough searches from the initial guess and from each guess in `also_from`.
-/// If some parameters have only a guess of their order of magnitude, also searches from random
-/// guesses. The searches use short parts of some windows: over a long part, the effect of a wrong
-/// guess accumulates, and the search ends in a wrong optimum. If no search is usable, `ends` is
-/// empty.
+/// Searches for initial guesses. If other trials gave the whole initial guess and `also_from` is
+/// empty, returns only that guess, without a search. Otherwise runs rough searches from the initial
+/// guess and from each guess in `also_from`. If some parameters have only a guess of their order of
+/// magnitude, also searches from random guesses. The searches use short parts of some windows: over
+/// a long part, the effect of a wrong guess accumulates, and the search ends in a wrong optimum. If
+/// no search is usable, `ends` is empty.
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options);
 
 }  // namespace awmr

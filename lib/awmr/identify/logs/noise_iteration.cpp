@@ -75,8 +75,8 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
 /// Largest change of the noise of any channel. The change of a channel is the largest of these:
 ///   - changes of the total and of the drift standard deviation, relative to the total one;
 ///   - change of theta of differenced noise;
-///   - for drifts above a tenth of the total noise, a tenth of the relative change of the
-///     correlation time.
+///   - a tenth of the relative change of the correlation time, if the drift is above a tenth of the
+///     total noise.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   double change = 0.0;
   for (const auto& [channel, noise] : after) {

@@ -1,5 +1,5 @@
-/// Accumulation of a Jacobian's rows to [J r]^T [J r], and the triangular equivalent of the rows.
-/// Private to identify/.
+/// Accumulates the rows of [J r], a Jacobian with its residuals, to the product [J r]^T [J r], and
+/// factors that product into a triangular matrix. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,12 +31,12 @@ class ProductSums {
   Eigen::VectorXd gradient_;  ///< J^T r at the last call
 };
 
-/// Matrix T = [R z; 0 rest] with few rows that replaces M = [J r] in least squares, because
-/// T^T T = M^T M. R is triangular up to a permutation of its columns.
+/// Matrix T = [R z; 0 rest] with few rows. It replaces M = [J r] in least squares, because T^T T =
+/// M^T M. R is triangular up to a permutation of its columns.
 struct Triangle {
   Eigen::MatrixXd r;
   Eigen::VectorXd z;
-  double rest = 0.0;  ///< norm of the residual that no step reduces
+  double rest = 0.0;  ///< norm of the part of the residuals that no step reduces
 };
 /// Computes the triangle from M^T M by a pivoted L D L^T decomposition with columns scaled to
 /// length 1. A pivot below 1e-14 is set to 0: the rows do not determine this direction.

@@ -26,12 +26,12 @@ struct FreeQuantity {
     kSteeringDelay,        ///< additional delay of the steering command
     kMotorLag,             ///< time constant of the motors
     kSteeringTrim,         ///< steering angle at a command of 0
-    kSteeringDeadBand,     ///< commands that do not move the steering
+    kSteeringDeadBand,     ///< largest command that does not move the steering
     kSteeringAsymmetry,    ///< (left - right)/(left + right) of the angles at equal commands
     kServoRate,            ///< largest rate of the steering angle
     kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
-    kForceExponent,        ///< p of force_exponent(): forces in proportion to a power of commands
-    kForceSaturation,      ///< L of force_saturation(): large commands push less than in proportion
+    kForceExponent,        ///< p of force_exponent(): force proportional to |command|^p
+    kForceSaturation,      ///< L of force_saturation(): share of force lost at large commands
     kSaturationSharpness,  ///< n of force_saturation()
     kExtraForce,           ///< a force that the model does not contain (extra_forces.h)
     kBias,                 ///< constant offset of a channel
@@ -48,11 +48,13 @@ struct FreeQuantity {
   LogChannel channel = LogChannel::kX;  ///< for kSensorDelay (kX: x and y), kSensorLag, ..., kBias
   ExtraForce force = ExtraForce::kSlopeX;  ///< for kExtraForce
   Scale scale = Scale::kLinear;
-  /// Change of the coordinate that counts as large: 1 for a logarithm (a factor e), an exponent or
-  /// a bias (SI); 0.2 for a term of a family, Stribeck friction or drag in turns; 0.1 for a delay
-  /// or lag (s), trim or angle (rad), imbalance, excess, saturation, wheel slip or offset (m); 0.5
-  /// for a slope (m/s^2); 0.01 for smoothing (s^2). Standard deviations of priors and limits of
-  /// identifiability are multiples of this change.
+  /// Change of the coordinate that counts as large. Standard deviations of priors and limits of
+  /// identifiability are multiples of it. Its values are
+  ///   - 1 for a logarithm (a factor e), an exponent or a bias (SI);
+  ///   - 0.2 for a term of a family, Stribeck friction or drag in turns;
+  ///   - 0.1 for a delay or lag (s), a trim or angle (rad), an imbalance, excess, saturation, wheel
+  ///     slip or offset (m);
+  ///   - 0.5 for a slope (m/s^2), 0.01 for smoothing (s^2).
   double large_change = 1.0;
   double full_command = 1.0;  ///< for kForceSaturation: F'm of force_saturation(), > 0
   double fastest = 1.0;       ///< for a Stribeck speed: largest speed (m/s or rad/s) of the logs
@@ -67,24 +69,25 @@ struct FreeQuantity {
   bool is_stribeck_speed() const {
     return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
   }
-  /// True for Stribeck friction and slopes, which no other family of resistance resembles.
+  /// True for Stribeck friction and slopes. No resistance family can describe their effects.
   bool is_stribeck_or_slope() const {
     return kind == Kind::kExtraForce && force <= ExtraForce::kSlopeY;
   }
   bool is_turn_drag_exponent() const {
     return is(ExtraForce::kTurnDragExponent) || is(ExtraForce::kTurnDragSpeedExponent);
   }
-  /// True for the excess of braking or backward forces, of which a fit has at most one.
+  /// True for the excess of braking or backward forces. A fit contains at most one of the two.
   bool is_force_excess() const {
     return is(ExtraForce::kBrakeForce) || is(ExtraForce::kReverseForce);
   }
-  /// True for the form of a saturation (sharpness), of Stribeck friction (speed scale) or of the
-  /// drag in turns (exponents).
+  /// True for a quantity that describes the shape of another term: sharpness of a saturation, speed
+  /// scale of Stribeck friction, exponents of the drag in turns.
   bool is_form() const {
     return kind == Kind::kSaturationSharpness || is_stribeck_speed() || is_turn_drag_exponent();
   }
-  /// True for delays, lags, saturation, Stribeck friction, dead band, drag in turns and slip, which
-  /// cannot be negative, so that 0 is an end of their range.
+  /// True for quantities that cannot be negative, so that 0 is an end of their range: lags, delays
+  /// and smoothing of sensors, saturation, wheel slip, Stribeck friction, drag in turns, and dead
+  /// band.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
            kind == Kind::kSmoothing || kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
@@ -102,8 +105,8 @@ FreeQuantity free_parameter(ParameterId id);
 /// Delay of all commands, s; negative if their time stamps are late.
 FreeQuantity input_delay();
 
-/// Additional delay of the steering command relative to the forces, s, e.g. by the period of the
-/// servo's pulses; negative if the time stamps of the steering command are late.
+/// Additional delay of the steering command relative to the forces, s, for example due to the
+/// period of the servo's pulses. Negative if the time stamps of the steering command are late.
 FreeQuantity steering_delay();
 
 /// Time constant of the motors, s.
@@ -120,28 +123,29 @@ FreeQuantity steering_dead_band();
 /// band), angles to the right 1 - e times.
 FreeQuantity steering_asymmetry();
 
-/// Largest rate of the steering angle, rad/s, in place of the vehicle file's. `begin_radps`:
+/// Rate limit of the steering angle, rad/s, which replaces that of the vehicle file. `begin_radps`:
 /// initial guess, > 0.
 FreeQuantity servo_rate(double begin_radps);
 
-/// Force imbalance e: the left motors push with 1 - e times their command, the right with 1 + e
-/// times.
+/// Force imbalance e: the forces of the left motors are 1 - e times their commands, those of the
+/// right motors 1 + e times.
 FreeQuantity force_imbalance();
 
-/// Exponent p of the wheel forces: the command F' pushes with |F'|^p sgn F' (times F_max). The
-/// search tries p below 1 only; above 1, the curve resembles a dead zone of the wheels.
+/// Exponent p of the wheel forces: the command F' gives the force |F'|^p sgn F' (times F_max). The
+/// search tries only p below 1, because for p above 1 the curve resembles a dead zone of the
+/// wheels.
 FreeQuantity force_exponent();
 
 /// Saturation of the wheel forces: the share L, in [0, 1), of the force that is lost at F'm, the
-/// largest command of the logs. With w = (|F'|/F'm)^n, the command F' pushes with
+/// largest command of the logs. With w = (|F'|/F'm)^n, the command F' gives the force
 ///
 ///     F'/(1 + s w)^(1/n),   s = (1 - L)^(-n) - 1
 ///
-/// (times F_max). Small commands act in proportion; slipping tyres, current limits or a weak
-/// battery reduce large ones.
+/// (times F_max). Small forces are proportional to the command. Slipping tyres, current limits or a
+/// weak battery reduce large ones.
 FreeQuantity force_saturation(double full_command);
 
-/// Sharpness n of the saturation; a limit that begins at once has a large n.
+/// Sharpness n of the saturation: the larger n, the more sudden the limit.
 FreeQuantity saturation_sharpness();
 inline constexpr double kDefaultSharpness = 4.0;  ///< value of n in fits without free sharpness
 
@@ -154,8 +158,8 @@ FreeQuantity extra_force(ExtraForce force);
 /// of a continuous filter (filtered_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
-/// Time constant T of a continuous filter of second order that smooths a channel, s. `damping`: zeta,
-/// 1 for two equal filters in series, 0.707 for a Butterworth filter (filtered_channel.h).
+/// Time constant T, s, of a continuous filter of second order that smooths a channel. `damping`:
+/// zeta, 1 for two equal filters in series, 0.707 for a Butterworth filter (filtered_channel.h).
 FreeQuantity second_order_lag_of(LogChannel channel, double damping);
 
 /// Variance of a symmetric kernel that smooths a channel over the rows of the log, s^2. `is_mean`:
@@ -166,15 +170,15 @@ FreeQuantity smoothing_of(LogChannel channel, bool is_mean = false);
 /// Latency of a channel, s.
 FreeQuantity sensor_delay_of(LogChannel channel);
 
-/// Error s of the scale of a channel: it reads 1 + s times the true value.
+/// Scale error s of a channel: it reads 1 + s times the true value.
 FreeQuantity sensor_scale_of(LogChannel channel);
 
-/// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h). `is_ratio`: s is a
-/// ratio of speeds in place of a speed.
+/// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h). `is_ratio`: true if
+/// s is a slip ratio, false if s is a speed.
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
 
-/// Place x_s (m) of the sway sensor and the angle a (rad) by which it is turned to the left: it
-/// reads
+/// Distance x_s, m, of the sway sensor ahead of the centre of gravity, and angle a, rad, by which
+/// the sensor is turned to the left. The sensor reads
 ///
 ///     v cos a - u sin a + x_s r
 FreeQuantity sway_offset();
@@ -186,7 +190,7 @@ struct FreeTerm {
   double begin;  ///< coordinate of the initial guess
 };
 
-/// True for a negative delay of the commands: late time stamps.
+/// True for a negative delay of the commands, which means that their time stamps are late.
 bool is_late_commands(const FreeTerm& term);
 
 /// Speed scale w_s of the Stribeck friction `force`, with its initial guess. `fastest`: largest
@@ -199,7 +203,7 @@ bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind ki
               LogChannel channel);
 bool has_force(const std::vector<FreeQuantity>& quantities, ExtraForce force);
 bool has_force_excess(const std::vector<FreeQuantity>& quantities);
-/// Place of a parameter among the quantities; empty if it is not free.
+/// Index of a parameter among the quantities; empty if it is not free.
 std::optional<std::size_t> place_of(const std::vector<FreeQuantity>& quantities, ParameterId id);
 
 /// Free quantities of a fit, in the order of FreeQuantity::Kind.

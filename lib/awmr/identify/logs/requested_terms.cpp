@@ -16,8 +16,8 @@ double begin_of(const FreeQuantity& quantity) {
   return quantity.may_be_zero() ? kShare * quantity.large_change : 0.0;
 }
 
-/// Every term that can be free from the start of a fit. The others need a value from the logs (the
-/// largest command or speed, the rate of the servo) or another term of the fit.
+/// Every term that can be free from the start of a fit. The other terms need a value from the logs
+/// (the largest command or speed, or the rate of the servo), or need another term in the fit.
 std::vector<FreeQuantity> all_terms() {
   std::vector<FreeQuantity> terms{input_delay(),     steering_delay(),     motor_lag(),
                                   steering_trim(),   steering_dead_band(), steering_asymmetry(),
@@ -28,7 +28,7 @@ std::vector<FreeQuantity> all_terms() {
     terms.push_back(extra_force(force));
   }
   for (const LogChannel channel : kChannels) {
-    // The position, x and y, has one delay.
+    // x and y have one delay together.
     if (channel != LogChannel::kY) terms.push_back(sensor_delay_of(channel));
     if (!is_often_filtered(channel)) continue;
     terms.push_back(sensor_lag_of(channel));

@@ -47,7 +47,7 @@ void for_each_reading(const LogModel& model, const FitWindow& window,
 }
 
 /// Like for_each_reading(), with smoothed channels. Smoothing needs later rows, so the readings of
-/// all rows come first.
+/// all rows are computed first.
 template <class Visit>
 void for_each_smoothed_reading(const LogModel& model, const FitWindow& window,
                                const SimulatedVehicle& vehicle, std::size_t columns, Visit visit) {

@@ -10,16 +10,16 @@ namespace awmr {
 /// Result of a score test.
 struct ScoreTest {
   double value = 0.0;  ///< estimated value of the candidate: one Gauss-Newton step from 0
-  /// Standard error of `value`: by the noise model or by the scatter of blocks, whichever is
-  /// larger.
+  /// Standard error of `value`: that of the noise model or that from the scatter of blocks,
+  /// whichever is larger.
   double std_error = 0.0;
   double noise_error = 0.0;  ///< standard error of `value` by the noise model
   double gain = 0.0;         ///< estimated decrease of -2 ln L: (value / std_error)^2
 };
 
-/// Computes Rao's score test of each candidate at 0. All quantities of the problem are free, and
-/// the other candidates are fixed at 0. With the information H and the gradients g of the
-/// coordinates t and of a candidate c,
+/// Computes Rao's score test of each candidate at the value 0. Each candidate is tested alone: all
+/// quantities of the problem are free, and the other candidates are fixed at 0. With the
+/// information H and the gradients g of the coordinates t and of a candidate c,
 ///
 ///     value = -(g_c - H_ct H_tt^-1 g_t) / (H_cc - H_ct H_tt^-1 H_tc)
 ///

@@ -1,9 +1,9 @@
 /// The two inner loops of a log fit: a Runge-Kutta step of the derivatives, and J^T J. Private to
 /// identify/.
 ///
-/// Both are compiled for several instruction sets, and the best one of the processor is selected at
-/// run time. All give the same bits, because none uses fused multiply-add and sums have a fixed
-/// order.
+/// Both are compiled for several instruction sets. The best one that the processor supports is
+/// selected at run time. The results are the same to the last bit, because no version uses fused
+/// multiply-add and sums have a fixed order.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ inline constexpr std::size_t kDrivenSize = 4;
 /// Number of stages of the Runge-Kutta method.
 inline constexpr std::size_t kStages = 4;
 
-/// Makes one classical Runge-Kutta step of h_s seconds of the derivatives S of the state by the
-/// columns:
+/// Makes one classical Runge-Kutta step of h_s seconds of S, the derivatives of the state with
+/// respect to the columns (linear_stepper.h):
 ///
 ///     S_dot = A S + B
 ///

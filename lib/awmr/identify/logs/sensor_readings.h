@@ -15,8 +15,9 @@ class ReadingSeries {
  public:
   /// Adds the reading at the next row. `row`: its derivatives.
   void add(double value, const std::vector<double>& row);
-  /// Returns the reading at the row with the index i, smoothed if `smoothing` is present. `row`
-  /// receives its derivatives. If row i - n or i + n is outside of the window, row i replaces both.
+  /// Returns the reading at the row with the index i, smoothed if `smoothing` is present, and sets
+  /// `row` to its derivatives. The smoothing averages pairs of rows i - n and i + n
+  /// (SmoothingKernel). If one row of a pair is outside of the window, row i replaces both.
   double read(std::size_t i, const std::optional<Smoothing>& smoothing,
               std::vector<double>& row) const;
 
@@ -32,10 +33,10 @@ class SensorReadings {
   /// The arguments must outlive the object. `columns`: number of derivatives.
   SensorReadings(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
                  std::size_t columns);
-  /// Goes to the next row of the window. The first call goes to the first row. `now`: the motion at
-  /// this row.
+  /// Advances to the next row of the window; the first call goes to the first row. `now`: the
+  /// motion at the new row.
   void go_on(const LinearMotion& now);
-  /// Returns the reading of a channel at this row. row() then has its derivatives.
+  /// Returns the reading of a channel at this row. Afterwards, row() returns its derivatives.
   double read(LogChannel c, const LinearMotion& now);
   std::vector<double>& row() { return row_; }
 

@@ -36,14 +36,15 @@ struct SensorTerms {
   bool any_smoothed() const;
 };
 
-/// Readings of the sensors for the motion at one time, without latency, filter, smoothing and bias.
+/// Computes the readings of the sensors for the motion at one time. Latency, filters, smoothing and
+/// bias are not included.
 class LogSensors {
  public:
   /// All arguments must outlive the object. `columns`: number of derivatives.
   LogSensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
              const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
              std::size_t columns);
-  /// Returns the reading at the time t of the motion. row() then has its derivatives.
+  /// Returns the reading at the time t of the motion. Afterwards, row() returns its derivatives.
   double read(LogChannel c, const LinearMotion& motion, double t_s);
   const std::vector<double>& row() const { return row_; }
 

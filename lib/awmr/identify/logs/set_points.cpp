@@ -51,9 +51,9 @@ std::vector<std::size_t> lengths_of(const Signal& signal, const std::vector<bool
   return lengths;
 }
 
-/// Number of rows per set-point: the most frequent length of a line. 0 if it is shorter than two
-/// rows or longer than 0.5 s, if the signal changes in fewer than kFewest rows, or if at most half
-/// of these rows are on lines whose length is a multiple of it.
+/// Number of rows per set-point: the most frequent length of a line. Returns 0 in these cases: the
+/// length is below two rows or above 0.5 s; the signal changes in fewer than kFewest rows; at most
+/// half of these rows are on lines whose length is a multiple of it.
 std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
                               const std::vector<bool>& ends) {
   constexpr double kLongest_s = 0.5;
@@ -81,7 +81,7 @@ std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
 /// the lines may be exact or rounded.
 std::optional<std::vector<std::size_t>> set_points_of(const Signal& t_s, const Signal& signal) {
   constexpr double kExact = 1e-3;    // tolerances relative to the resolution
-  constexpr double kRounded = 1.05;  // half for the row and half for the mean of its neighbours
+  constexpr double kRounded = 1.05;  // 0.5 from rounding the row, 0.5 from its two neighbours
   const double resolution = resolution_of(signal);
   for (const double share : {kExact, kRounded}) {
     const std::vector<bool> ends = line_ends(t_s, signal, share * resolution);

@@ -14,19 +14,18 @@
 
 namespace awmr {
 
-/// The logs with every interpolated command held at its last set-point. A command counts as
-/// interpolated if it changes in at least 40 rows, and most of these lie on straight lines whose
-/// lengths are multiples of the same number of rows. This number is at least 2, and its rows last
-/// at most 0.5 s. Both forces are held if one of them is interpolated. Empty if no command is
-/// interpolated, or if a log was already changed in this or a similar way
+/// Returns the logs with every interpolated command replaced by its last set-point. A command
+/// counts as interpolated if it changes in at least 40 rows, and if most of these rows lie on
+/// straight lines whose lengths are multiples of the same number of rows. This number of rows is at
+/// least 2 and lasts at most 0.5 s. Both forces are replaced if one of them is interpolated. Empty
+/// if no command is interpolated, or if a log was already changed in this or a similar way
 /// (DrivingLog::has_held_set_points, has_interpolated_commands).
 std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<DrivingLog>& logs);
 
-/// True if `held`, the logs with held set-points, describe the motion about as well as the logs
-/// themselves. The families of `first` are fitted to `held`, starting without command delays and
-/// motor lag. The AIC of this fit may be up to 10 higher than that of `first`. It need not be
-/// lower, because straight lines of equal length are hardly ever real commands. `power_law`:
-/// options of `first`.
+/// True if `held`, the logs with held set-points, describe the motion about as well as the original
+/// logs. Fits the families of `first` to `held`, starting without command delays and motor lag. The
+/// AIC of this fit may exceed that of `first` by up to 10: a lower AIC is not required, because
+/// real commands hardly ever form straight lines of equal length. `power_law`: options of `first`.
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
                          const FamilyFit& first);
 

@@ -9,9 +9,9 @@
 namespace awmr {
 namespace {
 
-/// Raises a servo time constant below h/2 to h/2, which Runge-Kutta steps of h seconds resolve, and
-/// drops its derivative. Otherwise a search for a time constant near 0 would end where the
-/// integration diverges.
+/// Raises a servo time constant below h/2 to h/2, the shortest that Runge-Kutta steps of h seconds
+/// resolve, and removes its column of derivatives. Otherwise the integration would diverge when a
+/// search tries a time constant near 0.
 void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double>& plant) {
   if (!(plant.steering_time_constant_s < 0.5 * h)) return;
   plant.steering_time_constant_s = 0.5 * h;
@@ -29,8 +29,7 @@ Smoothing smoothing_at(const FitWindow& window, const FreeQuantity& quantity, do
           rows2_per_s2};
 }
 
-/// Sets the term of the command path that the quantity `q` is. `number`: its value; `i`: its
-/// column.
+/// Sets the term of the command path that `q` describes. `number`: its value; `i`: its column.
 void set_command_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                       CommandPath& path) {
   using Kind = FreeQuantity::Kind;
@@ -76,7 +75,7 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
   }
 }
 
-/// Sets the error of a sensor that the quantity `q` is. `number`: its value; `i`: its column.
+/// Sets the sensor error that `q` describes. `number`: its value; `i`: its column.
 void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                      SensorTerms& sensors) {
   using Kind = FreeQuantity::Kind;

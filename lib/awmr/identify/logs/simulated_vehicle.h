@@ -13,7 +13,7 @@ namespace awmr {
 /// Model, free quantities and noise of a log fit, shared by all windows.
 struct LogModel {
   Vehicle vehicle;
-  ParameterValues<double> held;  ///< values of all parameters; those of free ones are not used
+  ParameterValues<double> held;  ///< one per ParameterId: value of a fixed parameter; else unused
   std::vector<FreeQuantity> quantities;
   std::vector<InitialComponent> initial;
   NoiseLevels noise;
@@ -32,13 +32,13 @@ struct SimulatedVehicle {
   State<double> initial{};
 };
 
-/// Returns the vehicle at the coordinates, one per free quantity, with the initial state of a window,
-/// one value per free component.
+/// Returns the vehicle at these coordinates (one per free quantity) and this initial state of a
+/// window (one value per free component).
 SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
                             const double* coordinates, const double* initial_state);
 
-/// Initial motion of a window. The derivative of each free component of the state by itself is 1,
-/// and so is that of the steering angle by its trim. The others are 0.
+/// Initial motion of a window. The derivative of each free component of the state with respect to
+/// itself is 1, and so is that of the steering angle with respect to its trim. The others are 0.
 LinearMotion first_motion(const LogModel& model, const SimulatedVehicle& vehicle,
                           std::size_t columns);
 

@@ -35,8 +35,8 @@ std::string_view explanation(const FamilyFit& fit) {
                                  : "wheel slip in proportion to the force";
 }
 
-/// The channels whose readings have slip among `terms`. Without such terms, the channels that
-/// slipping wheels may measure: the speed, and the yaw rate if left and right forces differ.
+/// The channels that have slip in `terms`. If there are none, returns the channels that slipping
+/// wheels may measure: the speed, and the yaw rate if left and right forces differ.
 std::vector<LogChannel> slipping_channels(const Terms& terms, const std::vector<DrivingLog>& logs) {
   std::vector<LogChannel> channels;
   for (const FreeTerm& term : terms) {
@@ -53,7 +53,7 @@ std::vector<LogChannel> slipping_channels(const Terms& terms, const std::vector<
   return channels;
 }
 
-/// Returns the terms with slip of this form (`is_ratio`) instead of other slip and late commands.
+/// Replaces all slip and late commands in the terms by slip of this form (`is_ratio`).
 Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ratio) {
   constexpr double kGuess = 0.05;
   std::erase_if(terms, [](const FreeTerm& t) { return is_slip(t) || is_late_commands(t); });
@@ -63,8 +63,8 @@ Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ra
   return terms;
 }
 
-/// Returns the terms with late commands instead of slip. If only the speed has slip, a measured yaw
-/// rate gets a latency, so that only the speed can respond before the logged commands.
+/// Replaces all slip in the terms by late commands. If only the speed has slip, a measured yaw rate
+/// gets a latency, so that only the speed can respond before the logged commands.
 Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
                          const std::vector<DrivingLog>& logs) {
   constexpr double kGuess_s = 0.01;

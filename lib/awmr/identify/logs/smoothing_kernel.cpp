@@ -38,7 +38,7 @@ SmoothingKernel gaussian_kernel(double variance) {
 
 SmoothingKernel moving_average(double variance) {
   variance = bounded(variance);
-  // k whole rows have the variance k (k + 1)/3.
+  // A moving average with k rows on either side of the middle row has the variance k (k + 1)/3.
   const auto whole = static_cast<std::size_t>(0.5 * (std::sqrt(1.0 + 12.0 * variance) - 1.0));
   const auto k = static_cast<double>(whole);
   const double rows = 2.0 * k + 1.0;

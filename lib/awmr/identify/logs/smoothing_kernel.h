@@ -9,8 +9,8 @@ namespace awmr {
 ///
 ///     y_i = w_0 x_i + sum_{n > 0} w_n (x_{i-n} + x_{i+n})
 ///
-/// The sum of all weights is 1. `by_variance`: their derivatives by the variance of the kernel
-/// (rows^2).
+/// The sum of all weights is 1. `by_variance`: derivatives of the weights with respect to the
+/// variance of the kernel (rows^2).
 struct SmoothingKernel {
   std::vector<double> weight;
   std::vector<double> by_variance;
@@ -25,8 +25,9 @@ inline constexpr double kWidestKernel = 2500.0;
 ///     w_n = e^-s I_n(s),   dw_n/ds = (w_{n-1} + w_{n+1})/2 - w_n
 SmoothingKernel gaussian_kernel(double variance);
 
-/// Moving average with the variance s >= 0 (rows^2). k rows to either side have the weight of the
-/// middle row. The next row on either side has f times this weight, f in [0, 1):
+/// Moving average with the variance s >= 0 (rows^2). The k rows on either side have the same weight
+/// as the middle row. The next row on either side has f times this weight, f in [0, 1). k and f
+/// follow from
 ///
 ///     s = (2 sum_{n <= k} n^2 + 2 f (k + 1)^2)/(2 k + 1 + 2 f)
 SmoothingKernel moving_average(double variance);

@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Speed of each wheel per unit of its command, m/s, if the fitted resistances mean that each wheel
-/// rolls at a speed in proportion to its command (see speed_control_findings()). Empty otherwise.
+/// Speed of each wheel per unit of its command, m/s. Present only if the fitted resistances show
+/// that this ratio is the same at all speeds (see speed_control_findings()).
 std::optional<double> fitted_speed_per_command(const Vehicle& vehicle,
                                                const std::vector<DrivingLog>& logs,
                                                const LogStage& stage) {

@@ -9,22 +9,24 @@
 namespace awmr {
 
 /// Median ratio of the steady speeds of the wheels to their commands, m/s. Uses only speeds with a
-/// standard error below 5 %. Empty if there are fewer than six of them, if their commands differ by
-/// less than a factor of 3, if a ratio differs from the median by more than 5 %, or if the median
-/// is not positive. (A power law with b1 = 0.9 gives differences of 6 %.)
+/// standard error below 5 %. Empty if there are fewer than six such speeds, if their commands
+/// differ by less than a factor of 3, if a ratio differs from the median by more than 5 %, or if
+/// the median is not positive. (Limit of 5 %: a power law with b1 = 0.9 gives differences of 6 %.)
 std::optional<double> speed_per_set_point(const Vehicle& vehicle,
                                           const std::vector<DrivingLog>& logs);
 
-/// The warning `speed-controlled`, if each wheel rolls at a speed in proportion to its command:
-///   - both fitted resistances are linear and the yaw coefficient is d^2 times the surge
+/// Returns the warning `speed-controlled` if the speed at which each wheel rolls seems to be
+/// proportional to its command. One of these signs suffices:
+///   - Both fitted resistances are linear, and the yaw coefficient is d^2 times the surge
 ///     coefficient (d: half of the track width):
 ///
 ///         tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 ///
-///   - or the model does not describe the logs, and `set_point_mps`, the result of
+///   - The model does not describe the logs, and `set_point_mps`, the result of
 ///     speed_per_set_point(), is not empty.
 ///
-/// The cause is motor drag, or a speed controller whose set-points were logged as forces.
+/// The cause is either motor drag as the only resistance, or a speed controller whose set-points
+/// were logged as forces.
 std::vector<Finding> speed_control_findings(const Vehicle& vehicle,
                                             const std::vector<DrivingLog>& logs,
                                             const LogStage& stage,

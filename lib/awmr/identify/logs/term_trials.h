@@ -12,15 +12,16 @@
 
 namespace awmr {
 
-/// AIC of a fit, by its own noise levels.
+/// AIC of a fit, computed with its own noise levels.
 double akaike_of(const NoiseIteration& fit);
 
 /// Adds the terms `more` to the estimated quantities and fits one round, starting with white noise
-/// in place of drift. Initial guesses beyond three large changes are cut to that.
+/// in place of drift. Initial guesses are limited to three large changes
+/// (FreeQuantity::large_change).
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss);
 
-/// The fit that begins at `from`, to convergence; empty if its AIC is not lower than that of
-/// `settled` by more than 10.
+/// Fits from `from` to convergence. Returns the fit if its AIC is lower than that of `settled` by
+/// more than 10, else empty.
 std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from,
                                                 Loss loss);
 
@@ -29,7 +30,8 @@ class LowestAic {
  public:
   explicit LowestAic(const NoiseIteration& start) : criterion_(akaike_of(start)) {}
 
-  /// Keeps the fit if its AIC is lower by more than `by`; returns true if it was kept.
+  /// Keeps the fit if its AIC is lower than the lowest so far by more than `by`. Returns true if it
+  /// was kept.
   bool consider(NoiseIteration fit, double by = 0.0) {
     const double criterion = akaike_of(fit);
     if (!(criterion + by < criterion_)) return false;

@@ -33,7 +33,7 @@ GroundForce ground_force(double command, double w, const Plant<double>& plant) {
 }
 
 /// Adds the derivatives of one side's slip to the columns. `size` and `by_speed`: derivatives of
-/// the slip by F' and by the wheel speed w, each times Side::share.
+/// the slip with respect to F' and to the wheel speed w, each times Side::share.
 void add_columns(const Side& side, const SlippingWheels& wheels, const DelayedCommand& command,
                  const GroundForce& f, double size, double by_speed, const LinearMotion& motion,
                  std::size_t columns, double* by_column) {

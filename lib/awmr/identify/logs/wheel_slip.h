@@ -1,8 +1,9 @@
 /// Slip of wheels whose rotation measures the speed or the yaw rate, with derivatives. Private to
 /// identify/.
 ///
-/// A wheel that pushes rolls faster than it moves over ground. The wheels of a side move over
-/// ground with w = u - d r (left) or u + d r (right). With the force F' they roll at one of
+/// A wheel that drives the vehicle rolls faster than it moves over ground. The wheels of a side
+/// move over ground with w = u - d r (left) or u + d r (right). With the wheel force F', they roll
+/// at one of these speeds, according to the form of the slip:
 ///
 ///     w + s F'        s in m/s; no slip if w = 0
 ///     w + s F' |w|    s: slip ratio at F' = 1 (WheelSlip::is_ratio)
@@ -32,8 +33,8 @@ struct SlippingWheels {
   CommandColumns columns;
 };
 
-/// Returns the change of the channel's reading by the slip, and adds its derivatives to `by_column`
-/// (`columns` numbers).
+/// Returns the change of the channel's reading due to the slip. Adds its derivatives to
+/// `by_column`, an array of `columns` numbers.
 double add_wheel_slip(const WheelSlip& slip, const SlippingWheels& wheels,
                       const DelayedCommand& command, const LinearMotion& motion,
                       std::size_t columns, double* by_column);

@@ -62,7 +62,7 @@ struct DriftStep {
 ///     P = sigma_w^2 (1 - sigma_w^2/S)
 ///
 /// The innovations nu/sqrt(S) are white if e follows ChannelNoise. This class computes F, S and the
-/// gains, which depend only on the times of the residuals, not on their values.
+/// gains. They depend only on the times of the residuals, not on the values.
 class WhitenerGains {
  public:
   /// `noise` must outlive this object.

@@ -39,14 +39,14 @@ struct FitWindow {
 };
 
 /// Divides all logs into windows, within the time interval `only_s` if given. Omits windows without
-/// samples. Also omits the first second of a log of 5 s or more that begins in motion, because
-/// motors and filters then depend on unknown earlier commands. The logs must outlive the windows.
+/// samples. If a log of 5 s or more begins in motion, also omits its first second, because motors
+/// and filters then depend on unknown earlier commands. The logs must outlive the windows.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
                                    const std::optional<Interval>& only_s = {});
 
-/// Divides a window into parts with about equal numbers of rows, each with its own initial state. A
-/// part lasts about `longest_s` seconds or less, but has at least three rows. Omits parts without
-/// samples.
+/// Divides a window into parts with about equal numbers of rows. Each part has its own initial
+/// state, lasts at most about `longest_s` seconds, and has at least three rows. Parts without
+/// samples are omitted.
 std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
 
 /// A component of the initial state that is fitted in every window.
@@ -55,7 +55,7 @@ struct InitialComponent {
   double prior_std;  ///< standard deviation of the weak prior about the measured initial state, SI
 };
 
-/// The components of the initial state that affect a measured channel of the logs.
+/// Components of the initial state on which a measured channel of the logs depends.
 std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs);
 
 /// Measured initial states: all components of the first window, then of the next, and so on.
