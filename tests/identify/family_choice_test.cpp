@@ -283,7 +283,7 @@ TEST(Families, ReportALimitThatEndsTheLastSearch) {
     LogFitOptions options = from_nothing(logs);
     options.effort = std::make_shared<Effort>(limit);
     FamilyFit first = fit_family(logs, options, Family::kPower, Family::kPower);
-    const FamilyContest contest{.surge = true, .yaw = false, .only_candidates = false};
+    const FamilyContest contest{.open = {.surge = true, .yaw = false}, .only_candidates = false};
     const BestFamily found = best_family(logs, options, std::move(first), contest);
     return std::pair(found.is_out_of_time, options.effort->spent());
   };
@@ -300,6 +300,62 @@ TEST(Families, ComparesFamiliesAtTheirOwnOptima) {
   EXPECT_TRUE(found.best.fit.usable);
   EXPECT_EQ(found.best.surge, Family::kPower);
   EXPECT_TRUE(found.findings.empty()) << found.findings.front().message;
+}
+
+TEST(Families, GiveUpIfTheirErrorsAreFarAboveTheLimit) {
+  const std::vector<DrivingLog> logs = with_coulomb_friction(0.4);
+  LogFitOptions options = from_nothing(logs);
+  options.give_up_above = 1.5;
+  const FamilyFit hopeless = fit_family(logs, options, Family::kPower, Family::kPower);
+  EXPECT_TRUE(hopeless.fit.gave_up);
+  EXPECT_FALSE(hopeless.fit.usable);
+  EXPECT_GT(hopeless.fit.relative_error, 1.5);
+  EXPECT_FALSE(std::isfinite(hopeless.options.give_up_above)) << "later fits have no limit";
+  const FamilyFit right = fit_family(logs, options, Family::kCoulombLinear, Family::kPower);
+  EXPECT_TRUE(right.fit.usable);
+  EXPECT_NEAR(right.fit.relative_error, 1.0, 0.2);
+}
+
+TEST(Families, AreScreenedFromAPowerLawThatGaveUp) {
+  const std::vector<DrivingLog> logs = with_coulomb_friction(0.4);
+  LogFitOptions options = from_nothing(logs);
+  const FamilyFit power = fit_family(logs, options, Family::kPower, Family::kPower);
+  const FamilyFit likely = likely_families(logs, options, power, {.surge = true, .yaw = true});
+  EXPECT_TRUE(terms_of(likely.surge).coulomb || terms_of(likely.surge).dead_zone);
+  const FamilyFit kept = likely_families(logs, options, power, {.surge = false, .yaw = false});
+  EXPECT_EQ(kept.surge, Family::kPower);
+  EXPECT_EQ(kept.yaw, Family::kPower);
+}
+
+/// The score tests of other terms must not depend on whether a freed term is in the list.
+TEST(Families, TestNoTermsThatTheyHave) {
+  const std::vector<DrivingLog> logs = with_coulomb_friction(0.2);
+  LogFitOptions options = from_nothing(logs);
+  options.finds_delays = false;
+  options.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kYawCoulomb};
+  const LogFit both = fit_family(logs, options, Family::kCoulombLinear, Family::kPower).fit;
+  options.candidate_terms = {ParameterId::kYawCoulomb};
+  const LogFit one = fit_family(logs, options, Family::kCoulombLinear, Family::kPower).fit;
+  ASSERT_EQ(both.candidate_gain.size(), 2U);
+  EXPECT_EQ(both.candidate_gain[0], 0.0);
+  EXPECT_EQ(both.candidate_gain[1], one.candidate_gain.at(0));
+}
+
+TEST(Families, AreComparedInALogOfInexactPositions) {
+  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 60.0});
+  for (const LogChannel channel :
+       {LogChannel::kSpeed, LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kSway}) {
+    log[channel].reset();
+  }
+  Random random(5, 9);
+  for (const LogChannel channel : {LogChannel::kX, LogChannel::kY}) {
+    for (double& value : log[channel]->value) value += 2.0 * random.normal();
+  }
+  const std::vector<DrivingLog> logs{log};
+  const LogFitOptions options = from_nothing(logs);
+  FamilyFit first = fit_family(logs, options, Family::kPower, Family::kPower);
+  const BestFamily found = best_family(logs, options, std::move(first), {.only_candidates = false});
+  EXPECT_TRUE(found.best.fit.usable);
 }
 
 /// Returns a fit with these speed errors at 100 Hz and their most likely noise.

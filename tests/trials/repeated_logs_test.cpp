@@ -67,6 +67,16 @@ TEST(RepeatedLogs, AreRefusedHoweverTheCopyIsWritten) {
   EXPECT_THAT(refusal(drive, text_of(1, {.every = 2})), HasSubstr("same recording"));
 }
 
+/// The last rows at rest do not change, so that they do not tell whether the logs are the same.
+TEST(RepeatedLogs, ThatEndAtRestAreRefused) {
+  std::string drive = text_of(1, {.end = 300});
+  for (int i = 300; i < kRows; ++i) drive += fmt::format("{:.3f},0,0,0,0,0\n", 0.05 * i);
+  EXPECT_THAT(refusal(drive, drive), HasSubstr("lines 2 to 401 are the same recording"));
+  std::string coarser = text_of(1, {.end = 300, .decimals = 3});
+  for (int i = 300; i < kRows; ++i) coarser += fmt::format("{:.3f},0,0,0,0,0\n", 0.05 * i);
+  EXPECT_THAT(refusal(drive, coarser), HasSubstr("lines 2 to 401 are the same recording"));
+}
+
 TEST(RepeatedLogs, WithAPartInCommonAreRefusedWithItsLines) {
   const std::string drive = text_of(1, {});
   // contained in the middle: row 100 is line 102

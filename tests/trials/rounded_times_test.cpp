@@ -53,6 +53,12 @@ TEST(RoundedTimes, OfEvenlySpacedRowsAreReplaced) {
   }
 }
 
+TEST(RoundedTimes, OfALogWithLostRowsAreKept) {
+  const auto time_s = [](int i) { return 0.1 * (i + i / 9); };  // every tenth row is lost
+  const auto read = log_at(time_s, 0.1);
+  EXPECT_LT(largest_error_s(read.set, time_s), 1e-9);
+}
+
 TEST(RoundedTimes, AreReplacedIfRowsAreMissing) {
   const auto time_s = [](int i) { return (i + i / 37) / 30.0; };  // every 38th row is missing
   const auto read = log_at(time_s, 0.01);

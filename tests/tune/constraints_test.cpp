@@ -815,6 +815,36 @@ TEST(Constraints, CountQuickPolesOfALatencyLess) {
   }
 }
 
+/// Poles that do not turn the vehicle do not make quick poles count less: those of a slow observer,
+/// of the servo in differential mode and of the motors in steering mode.
+TEST(Constraints, CountQuickPolesByTheSlowPolesOfTheHeading) {
+  SampledHeadingLoop loop{.lambda = 3.0,
+                          .reaching_rate = 6.0,
+                          .resistance_rate = 19.0,
+                          .fed_forward_rate = 19.0,
+                          .servo_time_constant_s = 0.05,
+                          .sample_time_s = 0.02,
+                          .direct_share = 1.0,
+                          .motor_time_constant_s = 0.02,
+                          .command_delay_s = 0.1};
+  const double alone = dominant_damping_ratio(loop);
+  loop.servo_time_constant_s = 2.0;
+  EXPECT_NEAR(dominant_damping_ratio(loop), alone, 1e-9);
+  loop.observer_radps = 0.2;
+  EXPECT_LT(dominant_damping_ratio(loop), alone + 1e-9);
+  loop = {.lambda = 3.0,
+          .reaching_rate = 6.0,
+          .resistance_rate = 19.0,
+          .fed_forward_rate = 19.0,
+          .servo_time_constant_s = 0.05,
+          .sample_time_s = 0.02,
+          .direct_share = 0.0,
+          .command_delay_s = 0.1};
+  const double steered = dominant_damping_ratio(loop);
+  loop.motor_time_constant_s = 2.0;
+  EXPECT_NEAR(dominant_damping_ratio(loop), steered, 1e-9);
+}
+
 TEST(Constraints, RequireDampingWithLatency) {
   ConstraintContext context = paper_context(ReachingForm::kStrict, 0.8);
   const std::size_t without = constraints_of(kPaperGains, context).size();

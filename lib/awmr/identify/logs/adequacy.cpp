@@ -93,9 +93,8 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     if (!noise.of_the_model()) continue;
     std::string advice = possible_causes(channel);
     if (channel == LogChannel::kSpeed && try_families) {
-      advice = try_alternatives(
-                   best_family(logs, power_law, chosen, {.open = {}, .only_candidates = false}),
-                   chosen, adequacy)
+      advice = try_alternatives(best_family(logs, power_law, chosen, {.only_candidates = false}),
+                                chosen, adequacy)
                    .value_or(advice);
     }
     const bool is_models = noise.overwhelms_sensor() && is_evaluated(chosen.fit.noise, channel);

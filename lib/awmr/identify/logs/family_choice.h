@@ -9,8 +9,8 @@ namespace awmr {
 
 /// Options of best_family(), which compares other families with those of a fit `first`.
 struct FamilyContest {
-  OpenAxes open;      ///< the other axes keep the family of `first`
-  double lead = 0.0;  ///< a family replaces a power law if its AIC is lower by more than this
+  OpenAxes open = {};  ///< the other axes keep the family of `first`
+  double lead = 0.0;   ///< a family replaces a power law if its AIC is lower by more than this
   /// True: fits other families of an axis (surge or yaw) only for one of these reasons: a score
   /// test or a slow drift indicates that a term is missing, the fit did not converge, or the current
   /// family of the axis is not the power law.

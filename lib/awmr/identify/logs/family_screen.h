@@ -26,7 +26,7 @@ struct OpenAxes {
 };
 
 /// Fits all families of the open axes roughly (fit_roughly()), starting at the optimum of `first`.
-/// Changes one axis at a time as long as LogFit::first_error decreases by more than 2 %, at most
+/// Changes one axis at a time as long as LogFit::relative_error decreases by more than 2 %, at most
 /// six times. Returns the rough fit of the last families, which are those of `first` if no others
 /// are better.
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
