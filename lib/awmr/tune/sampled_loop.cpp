@@ -157,9 +157,10 @@ double dominant_damping_ratio(const SampledHeadingLoop& loop) {
   const std::vector<Pole> poles = poles_of(acting);
   SampledHeadingLoop unobserved = acting;
   unobserved.observer_radps = 0.0;
-  const double slowest =
-      std::ranges::min(acting.observer_radps > 0.0 ? poles_of(unobserved) : poles, {}, &Pole::decay)
-          .decay;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const Pole& pole : acting.observer_radps > 0.0 ? poles_of(unobserved) : poles) {
+    slowest = std::min(slowest, pole.decay);
+  }
   double worst = 1.0;
   for (const Pole& pole : poles) {
     const double counted =
