@@ -342,7 +342,7 @@ TEST(Families, TestNoTermsThatTheyHave) {
 }
 
 TEST(Families, AreComparedInALogOfInexactPositions) {
-  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 60.0});
+  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 15.0});
   for (const LogChannel channel :
        {LogChannel::kSpeed, LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kSway}) {
     log[channel].reset();
