@@ -11,9 +11,10 @@
 namespace awmr {
 namespace {
 
-/// Text for one pair of modes with the measured scrub: number of scenarios in which the first mode
-/// is still ahead, in which it is no longer ahead, and in which this is undecided. `all`: the
-/// entries of the pair.
+/// Text for one pair of modes with the measured scrub: the numbers of scenarios in which the first
+/// mode is still ahead, is no longer ahead, and in which this is undecided; then, if there are any,
+/// the yaw rates at which scrub was not measured, and the number of turns that would decide a
+/// result. `all`: the entries of the pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;

@@ -19,7 +19,8 @@ enum class CommandWord : uint8_t {
   kForce     ///< T: wheel force, over F_max
 };
 
-/// The command with this name, of 1 to 4 capital letters; kNone: there is none.
+/// The command with this name, of 1 to 4 capital letters; kNone if no command has it. STOP is not
+/// found here: CommandReader recognises it letter by letter.
 inline CommandWord find_command(const char* name, uint8_t letters) {
   if (letters == 1) {
     switch (name[0]) {

@@ -130,8 +130,9 @@ bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
                      [&](const CsvCell& cell) { return is_number(cell, delimiter != ','); });
 }
 
-/// True if the scanner's next line is a header: it has two or more requested columns; or it has no
-/// numbers, and the row below has as many cells and at least one number.
+/// True if the scanner's next line is a header: at least two of its cells are requested columns; or
+/// it has at least two cells, none of them a number, and the row below has as many cells, at least
+/// one of them a number.
 bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   const std::vector<CsvCell> names = scanner.peek_cells(chosen.character);
   if (chosen.found >= 2) return true;

@@ -120,7 +120,8 @@ TablePlan plan_of(const Model& model) {
   return plan;
 }
 
-/// Initial speed of a coast-down, m/s: the highest of the model's surge trials, at least 0.5.
+/// Initial speed of a coast-down, m/s: the highest speed measured in the model's surge trials, but at
+/// least 0.5.
 double top_speed_mps(const Model& model) {
   double top = 0.5;
   for (const TrialPoint& trial : model.record.trials) {
