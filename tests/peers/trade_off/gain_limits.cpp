@@ -91,11 +91,12 @@ double damping(const Loop& loop, const Geometry& g, const LawGains& k, bool coun
   return least;
 }
 
-/// damping() without the servo if only the wheel forces turn the vehicle, and without the motors if
-/// only the steering does.
+/// damping() with a negligible lag of the servo if only the wheel forces turn the vehicle, and of the
+/// motors if only the steering does.
 double damping_of_acting(Loop loop, Geometry g, const LawGains& k, bool counts_decay) {
-  if (loop.by_forces >= 1.0) g.servo_s = 0.0;
-  if (loop.by_forces <= 0.0) loop.motor_s = 0.0;
+  const double negligible_s = 0.1 * g.sample_s;
+  if (loop.by_forces >= 1.0) g.servo_s = negligible_s;
+  if (loop.by_forces <= 0.0) loop.motor_s = negligible_s;
   return damping(loop, g, k, counts_decay);
 }
 
