@@ -811,7 +811,7 @@ TEST(Constraints, CountQuickPolesOfALatencyLess) {
     loop.lambda *= factor;
     loop.reaching_rate *= factor;
     EXPECT_EQ(dominant_damping_ratio(loop) > 0.0, damping_ratio(loop) > 0.0) << factor;
-    EXPECT_GE(dominant_damping_ratio(loop), damping_ratio(loop)) << factor;
+    EXPECT_GE(dominant_damping_ratio(loop), damping_ratio(loop) - 1e-9) << factor;
   }
 }
 
@@ -830,8 +830,10 @@ TEST(Constraints, CountQuickPolesByTheSlowPolesOfTheHeading) {
   const double alone = dominant_damping_ratio(loop);
   loop.servo_time_constant_s = 2.0;
   EXPECT_NEAR(dominant_damping_ratio(loop), alone, 1e-9);
+  // An observer that is this slow hardly changes the other poles. If its pole were the slowest one,
+  // the ratio would be at least 0.75: all others decay at 3 1/s or faster.
   loop.observer_radps = 0.2;
-  EXPECT_LT(dominant_damping_ratio(loop), alone + 1e-9);
+  EXPECT_NEAR(dominant_damping_ratio(loop), alone, 0.02);
   loop = {.lambda = 3.0,
           .reaching_rate = 6.0,
           .resistance_rate = 19.0,
