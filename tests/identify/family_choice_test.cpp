@@ -311,7 +311,7 @@ TEST(Families, GiveUpIfTheirErrorsAreFarAboveTheLimit) {
   EXPECT_FALSE(hopeless.fit.usable);
   EXPECT_GT(hopeless.fit.relative_error, 1.5);
   EXPECT_FALSE(std::isfinite(hopeless.options.give_up_above)) << "later fits have no limit";
-  const FamilyFit right = fit_family(logs, options, Family::kCoulombLinear, Family::kPower);
+  const FamilyFit right = fit_family(logs, options, Family::kCoulombPower, Family::kPower);
   EXPECT_TRUE(right.fit.usable);
   EXPECT_NEAR(right.fit.relative_error, 1.0, 0.2);
 }
@@ -342,7 +342,7 @@ TEST(Families, TestNoTermsThatTheyHave) {
 }
 
 TEST(Families, AreComparedInALogOfInexactPositions) {
-  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 60.0});
+  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 15.0});
   for (const LogChannel channel :
        {LogChannel::kSpeed, LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kSway}) {
     log[channel].reset();

@@ -138,7 +138,8 @@ TEST(GuessColumns, ColumnsThatNoGuessUsesAreListed) {
   sample.texts.assign(sample.names.size(), "1");
   EXPECT_THAT(unused_columns(sample, guess_columns(sample, TrialKind::kLog)),
               ElementsAre("battery", "count no. 2"));
-  const std::vector<ColumnGuess> one{{.column = "speed_mps", .expression = "v (km/h)*0.2777778+1"}};
+  const std::vector<ColumnGuess> one{
+      {.column = "speed_mps", .expression = "v (km/h)*0.2777778+1", .why = ""}};
   EXPECT_THAT(unused_columns(sample, one),
               ElementsAre("time_ms", "duty_left", "battery", "count no. 2", "gz_dps"));
 }

@@ -198,9 +198,9 @@ TEST(LogConsistency, OdometryWithAWrongTrackWidthIsNamedByThePositions) {
     DrivingLog odometry = sound_log(seed);
     scale(odometry[LogChannel::kYawRate]->value, 0.92);
     scale(odometry[LogChannel::kHeading]->value, 0.92);
-    with_heading += calibrations(odometry, "scale-mismatch", "by the positions");
+    with_heading += calibrations(odometry, "scale-mismatch", "according to the positions");
     odometry[LogChannel::kHeading].reset();
-    with_rate += calibrations(odometry, "scale-mismatch", "by the positions");
+    with_rate += calibrations(odometry, "scale-mismatch", "according to the positions");
   }
   // In one of the 20 drives, the vehicle turns too little for a deviation of five standard errors.
   EXPECT_GE(with_heading, 19);

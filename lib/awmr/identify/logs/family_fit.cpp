@@ -152,9 +152,11 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
 }
 
 FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                           const FamilyFit& inner, Family surge, Family yaw) {
+                           const FamilyFit& inner, Family surge, Family yaw,
+                           const std::vector<FreeTerm>& more) {
   LogFitOptions options =
       near_options(logs, without_terms(power_law, inner, surge, yaw), inner, surge, yaw);
+  options.terms.insert(options.terms.end(), more.begin(), more.end());
   const LogFit fit = fit_roughly(logs, options);
   return {surge, yaw, std::move(options), fit};
 }

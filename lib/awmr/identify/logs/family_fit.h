@@ -46,7 +46,8 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
 /// Calls fit_roughly() under the families `surge` and `yaw`, starting from the curves of these
 /// families that are nearest to the curves of `inner`.
 FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                           const FamilyFit& inner, Family surge, Family yaw);
+                           const FamilyFit& inner, Family surge, Family yaw,
+                           const std::vector<FreeTerm>& more);
 
 /// Fits the logs with Coulomb, linear and Stribeck friction of the yaw rate (`of_yaw`) or the
 /// speed, starting from the optimum of `inner`, a usable fit of other families.

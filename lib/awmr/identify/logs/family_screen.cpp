@@ -18,22 +18,55 @@ std::vector<Families> other_families(const Families& from, bool of_yaw) {
   return others;
 }
 
+namespace {
+
+/// A model that differs from another in one family, or has one more term.
+struct Neighbour {
+  Families families;
+  std::vector<FreeTerm> more = {};
+};
+
+/// A delay of the commands and a lag of the motors, unless the fit has them.
+std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
+  constexpr double kBegin_s = 0.05;
+  std::vector<FreeTerm> terms;
+  for (const FreeQuantity& late : {input_delay(), motor_lag()}) {
+    const bool is_known = late.kind == FreeQuantity::Kind::kMotorLag &&
+                          fit.options.vehicle.motor_time_constant_s.has_value();
+    const bool is_free = std::ranges::any_of(
+        fit.fit.quantities, [&](const FreeQuantity& q) { return q.kind == late.kind; });
+    if (!is_known && !is_free) terms.push_back({late, kBegin_s});
+  }
+  return terms;
+}
+
+/// The families of the open axes but that in `is_done`, and the late terms.
+std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
+                                     std::optional<bool> is_done) {
+  const Families families{fit.surge, fit.yaw};
+  std::vector<Neighbour> neighbours;
+  for (const bool of_yaw : {false, true}) {
+    if (!open.has(of_yaw) || is_done == of_yaw) continue;
+    for (const Families& other : other_families(families, of_yaw)) neighbours.push_back({other});
+  }
+  for (const FreeTerm& term : late_terms(fit)) neighbours.push_back({families, {term}});
+  return neighbours;
+}
+
+}  // namespace
+
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open) {
   constexpr double kClearlyLess = 0.98;
-  constexpr int kMostChanges = 6;
-  FamilyFit best = fit_roughly_from(logs, power_law, first, first.surge, first.yaw);
+  constexpr int kMostChanges = 8;
+  FamilyFit best = fit_roughly_from(logs, power_law, first, first.surge, first.yaw, {});
   std::optional<bool> changed_yaw;  // the axis that was changed last
   for (int changes = 0; changes < kMostChanges && !is_over(power_law); ++changes) {
-    std::vector<Families> others;
-    for (const bool of_yaw : {false, true}) {
-      if (!open.has(of_yaw) || changed_yaw == of_yaw) continue;
-      const std::vector<Families> more = other_families({best.surge, best.yaw}, of_yaw);
-      others.insert(others.end(), more.begin(), more.end());
-    }
-    std::vector<FamilyFit> fits(others.size());
-    parallel_for(others.size(), power_law.threads, [&](std::size_t i) {
-      fits[i] = fit_roughly_from(logs, power_law, best, others[i].surge, others[i].yaw);
+    const std::vector<Neighbour> neighbours = neighbours_of(best, open, changed_yaw);
+    std::vector<FamilyFit> fits(neighbours.size());
+    parallel_for(fits.size(), power_law.threads, [&](std::size_t i) {
+      const auto& [families, more] = neighbours[i];
+      fits[i] = fit_roughly_from(logs, power_law, best, families.surge, families.yaw, more);
     });
     const auto least = std::ranges::min_element(
         fits, {}, [](const FamilyFit& other) { return other.fit.relative_error; });
@@ -41,7 +74,9 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
         !(least->fit.relative_error < kClearlyLess * best.fit.relative_error)) {
       break;
     }
-    changed_yaw = least->yaw != best.yaw;
+    changed_yaw.reset();
+    if (least->yaw != best.yaw) changed_yaw = true;
+    if (least->surge != best.surge) changed_yaw = false;
     best = std::move(*least);
   }
   return best;
@@ -51,6 +86,7 @@ FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power
                  const FamilyFit& rough) {
   LogFitOptions options = from_optimum(rough.options, rough);
   options.finds_delays = power_law.finds_delays;
+  options.terms = power_law.terms;
   return fit_with(logs, std::move(options), rough.surge, rough.yaw);
 }
 

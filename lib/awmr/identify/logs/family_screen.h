@@ -25,15 +25,16 @@ struct OpenAxes {
   bool any() const { return surge || yaw; }
 };
 
-/// Fits all families of the open axes roughly (fit_roughly()), starting at the optimum of `first`.
-/// Changes one axis at a time as long as LogFit::relative_error decreases by more than 2 %, at most
-/// six times. Returns the rough fit of the last families, which are those of `first` if no others
-/// are better.
+/// Fits all families of the open axes roughly (fit_roughly()), starting at the optimum of `first`,
+/// and the same families with a delay of the commands or a lag of the motors, because families can
+/// compensate for these. Changes one family or adds one of these terms at a time as long as
+/// LogFit::relative_error decreases by more than 2 %, at most eight times. Returns the last rough
+/// fit. Its families are those of `first` if no others are better.
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open);
 
-/// Fits the families of `rough`, starting at its optimum. Searches delays and command errors, and
-/// tests the candidate terms of `power_law`.
+/// Fits the families of `rough`, starting at its optimum, but without its delay and lag. Searches
+/// delays and command errors, and tests the candidate terms of `power_law`.
 FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                  const FamilyFit& rough);
 
