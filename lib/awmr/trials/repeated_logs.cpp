@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 
 namespace awmr {
@@ -108,10 +109,7 @@ std::optional<double> likeliest_offset_s(const DrivingLog& a, const RoundedRows&
   const auto most =
       std::ranges::max_element(votes, {}, [](const auto& vote) { return vote.second.size(); });
   if (most == votes.end()) return std::nullopt;
-  std::vector<double>& offsets = most->second;
-  std::ranges::nth_element(offsets,
-                           offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2));
-  return offsets[offsets.size() / 2];
+  return median(std::move(most->second));
 }
 
 /// Row of the log with the time nearest to `t_s`.
@@ -148,6 +146,22 @@ bool is_copy(const DrivingLog& a, const DrivingLog& b, const std::vector<Pair>& 
   return std::abs(b.t_s.back() - b.t_s.front() - span_s) <= 1e-6 * span_s;
 }
 
+/// Extends the part over equal rows at its ends. These were not compared, because no measurement
+/// changes in them: rows at rest, and the first row of a log.
+CommonPart extended(CommonPart part, const RoundedRows& of_a, const RoundedRows& of_b) {
+  while (part.a_begin > 0 && part.b_begin > 0 &&
+         of_a.rows[part.a_begin - 1] == of_b.rows[part.b_begin - 1]) {
+    --part.a_begin;
+    --part.b_begin;
+  }
+  while (part.a_end + 1 < of_a.rows.size() && part.b_end + 1 < of_b.rows.size() &&
+         of_a.rows[part.a_end + 1] == of_b.rows[part.b_end + 1]) {
+    ++part.a_end;
+    ++part.b_end;
+  }
+  return part;
+}
+
 std::optional<CommonPart> common_part(const DrivingLog& a, const DrivingLog& b) {
   const std::vector<Pair> pairs = shared_values(a, b);
   if (is_copy(a, b, pairs)) return CommonPart{0, a.rows() - 1, 0, b.rows() - 1};
@@ -177,23 +191,11 @@ std::optional<CommonPart> common_part(const DrivingLog& a, const DrivingLog& b) 
   if (static_cast<double>(equal.size()) < kNearlyAll * static_cast<double>(last - first)) {
     return std::nullopt;
   }
-  CommonPart part{.a_begin = equal.front().first,
-                  .a_end = equal.back().first,
-                  .b_begin = equal.front().second,
-                  .b_end = equal.back().second};
-  // Extends the part backwards over equal rows that were not compared, because no measurement
-  // changes in them: rows at rest, and the first row of a log.
-  while (part.a_begin > 0 && part.b_begin > 0 &&
-         of_a.rows[part.a_begin - 1] == of_b.rows[part.b_begin - 1]) {
-    --part.a_begin;
-    --part.b_begin;
-  }
-  while (part.a_end + 1 < a.rows() && part.b_end + 1 < b.rows() &&
-         of_a.rows[part.a_end + 1] == of_b.rows[part.b_end + 1]) {
-    ++part.a_end;
-    ++part.b_end;
-  }
-  return part;
+  return extended({.a_begin = equal.front().first,
+                   .a_end = equal.back().first,
+                   .b_begin = equal.front().second,
+                   .b_end = equal.back().second},
+                  of_a, of_b);
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ LawGains least_settling(const Case& one, const std::vector<Trial>& trials, const
     const Controls c{one.model, gains_at(x), fed_forward};
     const Means m = means_of(one, trials, c);
     // Gains that exceed the permitted control variation, overshoot or error of the speed rank behind
-    // all others, ordered by how much they exceed it.
+    // all others; the larger the excess, the lower the rank.
     const double over =
         std::max({m.variation / most.variation, m.overshoot_deg / most.overshoot_deg,
                   m.speed_itae_ms / most.speed_itae_ms});
