@@ -146,6 +146,9 @@ Finding terms_not_searched(const std::string& file, const FamilyFit& best) {
 /// refined.
 constexpr double kFarWorse = 1.5;
 
+/// LogFitOptions::give_up_above for fits that compete with `best`.
+double give_up_above(const LogFit& best) { return kFarWorse * std::max(1.0, best.relative_error); }
+
 /// Index of the selected fit: the one with the lowest AIC, or that with a power law on the axis if
 /// its AIC is higher by at most `lead`.
 std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lead) {
@@ -169,8 +172,7 @@ void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool 
   const auto limit = [&] {
     const LogFit& fit = fits[best].fit;
     if (fit.usable) {
-      power_law.give_up_above =
-          std::min(power_law.give_up_above, kFarWorse * std::max(1.0, fit.relative_error));
+      power_law.give_up_above = std::min(power_law.give_up_above, give_up_above(fit));
     }
   };
   for (const Families& other : others) {
@@ -208,7 +210,7 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions po
                            bool of_yaw, BestFamily& result) {
   const LogFit& best = result.best.fit;
   if (!best.usable || result.is_out_of_time) return;
-  power_law.give_up_above = kFarWorse * std::max(1.0, best.relative_error);
+  power_law.give_up_above = give_up_above(best);
   FamilyFit stribeck = fit_stribeck(logs, power_law, result.best, of_yaw);
   if (aic_lead(stribeck.fit, result.best.fit) > kFamilyAicThreshold) {
     std::swap(stribeck, result.best);
