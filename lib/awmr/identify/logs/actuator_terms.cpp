@@ -1,10 +1,13 @@
 #include "awmr/identify/logs/actuator_terms.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
+#include <vector>
 
 #include "awmr/core/index.h"
 #include "awmr/core/units.h"
+#include "awmr/identify/logs/log_sample.h"
 #include "awmr/identify/logs/term_trials.h"
 
 namespace awmr {
@@ -54,6 +57,18 @@ std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& set
 
 namespace {
 
+/// Range of the steering commands in a window, and 0; rad.
+Interval commanded_angles_rad(const FitWindow& window) {
+  Interval angles{0.0, 0.0};
+  const auto& commands = window.rows.log->steering_command_rad;
+  if (!commands) return angles;
+  for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
+    angles.lo = std::min(angles.lo, (*commands)[row]);
+    angles.hi = std::max(angles.hi, (*commands)[row]);
+  }
+  return angles;
+}
+
 /// Largest steering rate that a servo without a rate limit would reach, rad/s: range of the
 /// steering commands divided by the servo's time constant. At most the rate limit of the vehicle
 /// file; 0 if the time constant is not free.
@@ -63,16 +78,31 @@ double demanded_rate_radps(const NoiseIteration& settled) {
   if (!lag) return 0.0;
   Interval commands{0.0, 0.0};
   for (const FitWindow& window : settled.problem.windows) {
-    const DrivingLog& log = *window.rows.log;
-    if (!log.steering_command_rad) continue;
-    for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
-      commands.lo = std::min(commands.lo, (*log.steering_command_rad)[row]);
-      commands.hi = std::max(commands.hi, (*log.steering_command_rad)[row]);
-    }
+    const Interval angles = commanded_angles_rad(window);
+    commands = {std::min(commands.lo, angles.lo), std::max(commands.hi, angles.hi)};
   }
   const double lag_s = model.quantities[*lag].value(settled.point.coordinates[*lag]);
   return std::min((commands.hi - commands.lo) / lag_s,
                   radians(model.vehicle.steering_max_rate_degps));
+}
+
+/// Of long logs, the fit to the windows with the largest ranges of steering commands: they show a
+/// rate limit of the servo best. Of other logs, `settled`.
+NoiseIteration with_largest_steering(const NoiseIteration& settled, Loss loss) {
+  if (!is_long(settled.problem)) return settled;
+  const std::vector<FitWindow>& windows = settled.problem.windows;
+  std::vector<std::pair<double, std::size_t>> by_range;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const Interval angles = commanded_angles_rad(windows[w]);
+    by_range.emplace_back(angles.hi - angles.lo, w);
+  }
+  std::ranges::stable_sort(by_range, std::greater{}, &std::pair<double, std::size_t>::first);
+  std::vector<std::size_t> largest;
+  for (std::size_t i = 0; i < kSampleWindows; ++i) largest.push_back(by_range[i].second);
+  std::ranges::sort(largest);
+  return settle_noise(with_windows(settled.problem, largest),
+                      with_windows(settled.problem, settled.point, largest), loss,
+                      {.most = 1, .is_near = true});
 }
 
 }  // namespace
@@ -80,16 +110,20 @@ double demanded_rate_radps(const NoiseIteration& settled) {
 std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss) {
   if (has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kServoRate)) return {};
   const double demanded_radps = demanded_rate_radps(settled);
-  LowestAic lowest(settled);
+  if (!(demanded_radps > 0.0)) return {};
+  const NoiseIteration without = with_largest_steering(settled, loss);
+  LowestAic lowest(without);
   for (const double share : {0.6, 0.25}) {
     const double begin_radps = share * demanded_radps;
-    if (begin_radps > 0.0) {
-      lowest.consider(tried(settled, {{servo_rate(begin_radps), begin_radps}}, loss));
-    }
+    lowest.consider(tried(without, {{servo_rate(begin_radps), begin_radps}}, loss));
   }
   if (!lowest.best()) return {};
-  NoiseIteration& best = *lowest.best();
-  return settled_if_better(settled, {std::move(best.problem), std::move(best.point)}, loss);
+  NoiseIteration& limited = *lowest.best();
+  Extended from =
+      extended(settled.problem, settled.point, {limited.problem.model.quantities.back()},
+               {limited.problem.initial.back()});
+  from.point.coordinates = std::move(limited.point.coordinates);
+  return settled_if_better(settled, std::move(from), loss);
 }
 
 }  // namespace awmr

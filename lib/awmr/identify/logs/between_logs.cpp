@@ -228,6 +228,7 @@ LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& commo
   constexpr double kLongEnough_s = 20.0;  // shorter logs have too little information in each half
   if (!common.fit.usable) return {};
   LogFitOptions options = from_optimum(common.options, common);
+  options.noise = common.fit.noise;
   options.bootstrap = 0;
   options.effort.reset();  // no limit: these searches are short and decide if intervals are valid
   if (logs.size() == 1) {

@@ -332,7 +332,7 @@ ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_sh
   noise.white_std *= std;
   noise.drift_std *= std;
   noise.sensor_std = before.sensor_std;
-  noise.count = before.count;
+  for (const ErrorSeries& part : series) noise.count += static_cast<int>(part.error.size());
   noise.cost = scale.cost;
   return noise;
 }

@@ -1,5 +1,6 @@
 #include "awmr/identify/logs/held_out.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -19,31 +20,42 @@ namespace {
 LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
                       const LogFitOptions& options) {
   LogProblem problem = log_problem(rows, options);
-  for (auto& [channel, noise] : problem.model.noise) {
-    const auto known = fit.noise.find(channel);
-    if (known != fit.noise.end()) noise = known->second;
-  }
+  set_noise(fit.noise, problem);
   problem.model.longest_step_s = step_s_at(problem.model, fit.coordinates);
   return problem;
 }
 
+/// One Gauss-Newton step of the initial states `states` (one column for each window) at fixed
+/// coordinates. Returns the largest decrease of a window's cost that the step predicts.
+double step_initial_states(const std::vector<WindowSums>& sums, Eigen::Index coordinates,
+                           Eigen::Map<Eigen::MatrixXd> states) {
+  const Eigen::Index n = coordinates;
+  const Eigen::Index k = states.rows();
+  double largest = 0.0;
+  for (std::size_t w = 0; w < sums.size(); ++w) {
+    const Eigen::VectorXd gradient = sums[w].products.block(n, n + k, k, 1);
+    const Eigen::VectorXd step = solve_ldlt(sums[w].products.block(n, n, k, k), gradient);
+    states.col(eigen_index(w)) -= step;
+    largest = std::max(largest, 0.5 * gradient.dot(step));
+  }
+  return largest;
+}
+
 /// Fits the initial states of all windows at fixed coordinates. Gauss-Newton steps from the
 /// measured states suffice, because the motion is nearly linear in the states (except for a servo
-/// at its rate limit).
+/// at its rate limit). Steps end when no state changes by more than 0.1 standard errors:
+/// smaller steps hardly change the scores, and a window with rest can go to and fro between them.
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
   constexpr int kSteps = 10;
+  constexpr double kSmall = 0.5 * 0.1 * 0.1;  // a step of d standard errors gains d^2/2
   const Eigen::Index n = rows_of(coordinates);
   const Eigen::Index k = rows_of(problem.model.initial);
   SearchPoint point = from_measured(problem, std::move(coordinates));
   for (int step = 0; step < kSteps; ++step) {
     const std::vector<WindowSums> sums = sums_at(problem, point);
     if (!all_finite(sums)) break;
-    Eigen::Map<Eigen::MatrixXd> states(point.initial_states.data(), k, rows_of(sums));
-    for (std::size_t w = 0; w < sums.size(); ++w) {
-      const Eigen::MatrixXd& products = sums[w].products;
-      states.col(eigen_index(w)) -=
-          solve_ldlt(products.block(n, n, k, k), products.block(n, n + k, k, 1));
-    }
+    const Eigen::Map<Eigen::MatrixXd> states(point.initial_states.data(), k, rows_of(sums));
+    if (step_initial_states(sums, n, states) < kSmall) break;
   }
   return point;
 }

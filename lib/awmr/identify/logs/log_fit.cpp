@@ -13,6 +13,7 @@
 #include "awmr/identify/logs/delays.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/log_report.h"
+#include "awmr/identify/logs/log_sample.h"
 #include "awmr/identify/logs/multistart.h"
 #include "awmr/identify/logs/noise_iteration.h"
 #include "awmr/identify/logs/score_test.h"
@@ -102,16 +103,41 @@ LogFit given_up(const NoiseIteration& at) {
   return fit;
 }
 
+/// Rounds of a search that gives up if the relative error exceeds options.give_up_above.
+NoiseRounds rounds_of(const LogProblem& problem, const LogFitOptions& options) {
+  return {.give_up_above = 0.5 * options.give_up_above * problem.readings()};
+}
+
+/// Fits the coordinates and the noise of the logs by a search from these coordinates. The search
+/// begins with a sample of long logs, because an evaluation of all rows takes longer.
+NoiseIteration settled_from(LogProblem problem, std::vector<double> coordinates,
+                            const LogFitOptions& options) {
+  problem.model.longest_step_s = step_s_at(problem.model, coordinates);
+  NoiseRounds rounds = rounds_of(problem, options);
+  if (!options.noise.empty()) {
+    set_noise(options.noise, problem);
+    rounds.is_near = true;
+  } else if (is_long(problem)) {
+    LogProblem some = with_windows(problem, spread(problem.windows.size(), kSampleWindows));
+    some.model.noise = sensor_noise(some.windows);
+    const NoiseRounds of_some = rounds_of(some, options);
+    SearchPoint from = from_measured(some, std::move(coordinates));
+    NoiseIteration near = settle_noise(std::move(some), std::move(from), options.loss, of_some);
+    if (near.gave_up) return near;
+    set_noise(near.problem.model.noise, problem);
+    coordinates = std::move(near.point.coordinates);
+    rounds = {.is_near = true};
+  }
+  SearchPoint from = from_measured(problem, std::move(coordinates));
+  return settle_noise(std::move(problem), std::move(from), options.loss, rounds);
+}
+
 /// Fits the logs by a search from these coordinates. Empty if the simulation of the logs is not
 /// finite at the end of the search.
 std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
                                const LogFitOptions& options) {
-  LogProblem problem = guess;
-  problem.model.longest_step_s = step_s_at(problem.model, coordinates);
-  const double largest_cost = 0.5 * options.give_up_above * guess.readings();
-  NoiseIteration settled = settle_noise(std::move(problem), from_measured(guess, coordinates),
-                                        options.loss, kNoiseRounds, largest_cost);
-  if (settled.first_cost > largest_cost) return given_up(settled);
+  NoiseIteration settled = settled_from(guess, coordinates, options);
+  if (settled.gave_up) return given_up(settled);
   if (options.finds_delays) settled = find_delays_and_errors(std::move(settled), options.loss);
   const Solved solved = solve(settled.problem, settled.point, kFine);
   const std::vector<WindowSums> sums =

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "awmr/identify/logs/channel_noise.h"
 #include "awmr/identify/logs/quantities.h"
 #include "awmr/identify/options.h"
 #include "awmr/model/plant_of.h"
@@ -55,6 +56,9 @@ struct LogFitOptions {
   std::optional<Interval> only_s;
   /// Further initial guesses, for example the optimum of another family.
   std::vector<ParameterValues<double>> also_from;
+  /// Noise levels of a fit at nearly the same coordinates, with which the search begins. Empty: the
+  /// search begins with the noise of the sensors.
+  NoiseLevels noise;
   /// The fit gives up after the first round of settle_noise() if LogFit::relative_error exceeds this.
   double give_up_above = std::numeric_limits<double>::infinity();
   Loss loss = Loss::kSquared;  ///< use a robust loss if a sensor has outliers

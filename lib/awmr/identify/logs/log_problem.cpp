@@ -62,6 +62,13 @@ LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return problem;
 }
 
+void set_noise(const NoiseLevels& levels, LogProblem& problem) {
+  for (auto& [channel, noise] : problem.model.noise) {
+    const auto level = levels.find(channel);
+    if (level != levels.end()) noise = level->second;
+  }
+}
+
 int LogProblem::readings() const {
   std::size_t readings = 0;
   for (const FitWindow& window : windows) readings += window.samples().size();

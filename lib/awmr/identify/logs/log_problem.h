@@ -59,6 +59,10 @@ double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 /// a robust loss. The logs must outlive the problem.
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
+/// Replaces the noise levels of the problem's channels by those of `levels`. Channels that `levels`
+/// does not contain keep theirs.
+void set_noise(const NoiseLevels& levels, LogProblem& problem);
+
 /// Returns the point with these coordinates and with the measured initial state of every window.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 

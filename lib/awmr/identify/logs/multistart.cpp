@@ -6,17 +6,10 @@
 #include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
 #include "awmr/identify/logs/ceres_problem.h"
+#include "awmr/identify/logs/log_sample.h"
 
 namespace awmr {
 namespace {
-
-/// Selects `count` windows, evenly spaced, or all if there are fewer.
-std::vector<FitWindow> spread(const std::vector<FitWindow>& windows, std::size_t count) {
-  std::vector<FitWindow> some;
-  count = std::min(count, windows.size());
-  for (std::size_t i = 0; i < count; ++i) some.push_back(windows[i * windows.size() / count]);
-  return some;
-}
 
 /// Random initial guess. Each parameter in `guessed` with a logarithmic coordinate is multiplied by
 /// a factor in [e^-2, e^2]. An exponent in `guessed` is drawn from [0.3, 1.3] and limited to its
@@ -66,10 +59,11 @@ LogProblem rough_problem(const LogProblem& problem) {
   rough.threads = 1;  // the searches run in parallel with each other
   rough.ends_at_limit = false;
   std::vector<FitWindow> parts;
-  for (const FitWindow& window : spread(problem.windows, kParts)) {
-    std::ranges::move(parts_of(window, kPart_s), std::back_inserter(parts));
+  for (const std::size_t i : spread(problem.windows.size(), kParts)) {
+    std::ranges::move(parts_of(problem.windows[i], kPart_s), std::back_inserter(parts));
   }
-  rough.windows = spread(parts, kParts);
+  rough.windows.clear();
+  for (const std::size_t i : spread(parts.size(), kParts)) rough.windows.push_back(parts[i]);
   return rough;
 }
 

@@ -57,10 +57,8 @@ namespace {
 NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErrors>& errors,
                          Loss loss) {
   const ErrorsByChannel channels = errors_by_channel(problem, errors, loss);
-  double total = 0.0;
-  for (const auto& [name, noise] : problem.model.noise) total += noise.count;
   const double spent = static_cast<double>(problem.unknowns());
-  const double free_share = std::max(0.1, 1.0 - spent / total);
+  const double free_share = std::max(0.1, 1.0 - spent / problem.readings());
   const std::vector<std::pair<LogChannel, ChannelNoise>> before(problem.model.noise.begin(),
                                                                 problem.model.noise.end());
   std::vector<ChannelNoise> after(before.size());
@@ -126,27 +124,29 @@ void weigh(LogProblem& problem, const std::vector<WindowErrors>& errors, Loss lo
 
 }  // namespace
 
-NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss, int rounds,
-                            double give_up_above) {
+NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
+                            const NoiseRounds& rounds) {
   constexpr double kSettled = 0.01;
   constexpr double kMiddling = 1e-6;
   const double fine_step_s = problem.model.longest_step_s;
-  const double first_step_s = rough_step_s(problem.model);
+  const double first_step_s = rounds.is_near ? fine_step_s : rough_step_s(problem.model);
   double first_cost = 0.0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < rounds.most; ++round) {
     problem.model.longest_step_s = round == 0 ? first_step_s : fine_step_s;
     Solved solved = solve(problem, std::move(point), kMiddling);
     point = std::move(solved.point);
     problem.model.longest_step_s = fine_step_s;
     if (round == 0) first_cost = solved.cost;
-    if (first_cost > give_up_above) break;
+    if (first_cost > rounds.give_up_above) {
+      return {std::move(problem), std::move(point), first_cost, true};
+    }
     const std::vector<WindowErrors> errors = errors_at(problem, point);
     if (!all_finite(errors)) break;  // fit_logs() then refuses the fit
     const NoiseLevels levels = noise_levels(problem, errors, loss);
     const double change = largest_change(problem.model.noise, levels);
     problem.model.noise = levels;
     weigh(problem, errors, loss);
-    if (change < kSettled && round > 0) break;
+    if (change < kSettled && (round > 0 || rounds.is_near)) break;
   }
   return {std::move(problem), std::move(point), first_cost};
 }

@@ -25,7 +25,7 @@ NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>&
   if (has_force_excess(quantities)) {
     from.problem.model.longest_step_s = step_s_at(from.problem.model, from.point.coordinates);
   }
-  return settle_noise(std::move(from.problem), std::move(from.point), loss, 1);
+  return settle_noise(std::move(from.problem), std::move(from.point), loss, {.most = 1});
 }
 
 std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from,
