@@ -33,8 +33,7 @@ SearchPoint with_windows(const LogProblem& problem, const SearchPoint& point,
   const auto components = static_cast<std::ptrdiff_t>(problem.model.initial.size());
   SearchPoint part{point.coordinates, {}};
   for (const std::size_t w : windows) {
-    const auto first =
-        point.initial_states.begin() + static_cast<std::ptrdiff_t>(w) * components;
+    const auto first = point.initial_states.begin() + static_cast<std::ptrdiff_t>(w) * components;
     std::copy(first, first + components, std::back_inserter(part.initial_states));
   }
   return part;
