@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -156,7 +157,13 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   const auto name = [](const ModeScore& score) {
     return fmt::format("{}, {}", score.scenario, name_of(score.mode));
   };
-  std::ranges::move(extrapolation_in(model, tuning.scores, name), std::back_inserter(findings));
+  const auto commands = [&options](const ModeScore& score) {
+    const auto found = std::ranges::find(options.scenarios, score.scenario, &Scenario::name);
+    assert(found != options.scenarios.end());
+    return turn_commands(*found);
+  };
+  std::ranges::move(extrapolation_in(model, tuning.scores, name, commands),
+                    std::back_inserter(findings));
   return findings;
 }
 
