@@ -32,7 +32,7 @@ struct Payload {
 
 Preferences read_preferences(JsonObject& json) {
   Preferences preferences;
-  preferences.relevance = json.number("relevance", {.min = 0.0, .max = 1.0});
+  preferences.relevance = json.number("relevance", kRelevance);
   JsonObject weights = json.object("weights");
   for (const std::string& name : weights.keys()) {
     preferences.weights[name] = weights.number(name, {.min = 0.0, .max = kMaximumWeight});
