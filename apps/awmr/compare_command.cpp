@@ -148,9 +148,9 @@ void add_preferences(CLI::App& command, Texts& texts) {
       "finish_time_s, speed_drop_mps, energy_mech and tyre_work, 0 for the others)");
   command
       .add_option("--relevance", texts.relevance,
-                  "Relative difference of a metric or score below which modes are equivalent "
-                  "(default 0.05)")
-      ->check(within(0.0, 1.0));
+                  "Relative difference of a metric or score below which modes are equivalent, at "
+                  "least 0.001 (default 0.05); 0 is excluded, as rounding could then decide a rank")
+      ->check(within(kRelevance.min, kRelevance.max));
 }
 
 /// Describes the heading-rate limit; for 'measured', with the rate from the model.

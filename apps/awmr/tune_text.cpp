@@ -63,6 +63,19 @@ std::string certificate_text(const Certificate& certificate) {
       certificate.latency_s, by_mode);
 }
 
+/// Note on the last column of evaluation_table(); empty if the servo never moves.
+std::string steering_note(const std::vector<EvaluatedGains>& all) {
+  const bool steers = std::ranges::any_of(all, [](const EvaluatedGains& one) {
+    return std::ranges::any_of(one.figures, [](const EvaluatedFigure& figure) {
+      return figure.name == "steering_rate_rms_degps" && figure.q95 > 0.0;
+    });
+  });
+  if (!steers) return {};
+  return "  steer: rate of the steering command in the whole run, turns included; "
+         "limits/steering_rate_rms_degps\n  applies to the share due to noise while a heading is "
+         "held\n";
+}
+
 /// Table of the gains' metrics on fresh draws (newly drawn vehicles that were not used for tuning);
 /// if there are several scenarios, also by scenario. Empty if no fresh draws were made.
 std::string evaluation_table(const std::vector<EvaluatedGains>& all,
@@ -88,7 +101,7 @@ std::string evaluation_table(const std::vector<EvaluatedGains>& all,
                         q95("settling_time_s"), q95("overshoot_deg"), q95("heading_iae_degs"),
                         q95("steering_rate_rms_degps"));
   }
-  return text;
+  return text + steering_note(rows);
 }
 
 /// States for each goal how many fresh draws meet it with the tuned gains; empty without goals.

@@ -12,9 +12,13 @@ Tuning tuned(const Model& model, const std::optional<std::filesystem::path>& con
   if (config) options = value_or_raise(read_tune_config(*config)).options;
   options.nominal = options.nominal || nominal;
   choose_observer(observer, options);
-  if (draws) {
-    options.draws = *draws;
+  if (draws && options.nominal) {
+    throw Raised(Error{ErrorKind::kInput,
+                       {{ErrorCode::kConflict, "draws",
+                         "needs randomly drawn vehicles, which nominal disables; remove one of the "
+                         "two"}}});
   }
+  if (draws) options.draws = *draws;
   const py::gil_scoped_release released;
   return value_or_raise(tune(model, options));
 }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "awmr/compare/compare_findings.h"
 #include "awmr/core/file.h"
 #include "awmr/model/paper_gains.h"
 #include "support/process.h"
@@ -54,6 +55,23 @@ class Shards : public ::testing::Test {
   TemporaryDirectory directory_;
   int directories_ = 0;
 };
+
+TEST_F(Shards, KeepTheCommandsOfTheScenarios) {
+  Model model = uncertain_model();
+  model.vehicle.yaw_rate_max_degps = 1e-3;  // so that every turn is beyond the trials
+  std::vector<Scenario> scenarios{short_heading("one"), short_heading("another")};
+  for (Scenario& scenario : scenarios) limit_heading_rate(12.0, scenario);
+  const auto part = [&](Shard shard) {
+    return compare(model, kPaperGains, scenarios, options(shard)).value();
+  };
+  const std::vector<Finding> whole = extrapolation_findings(part({}), kShardProvenance);
+  ASSERT_EQ(whole.size(), 1U);
+  EXPECT_THAT(whole.front().message, HasSubstr("from 12 to 0.001 deg/s"));
+  const auto merged =
+      merge_shards({write({1, 2}, part({1, 2})), write({2, 2}, part({2, 2}))}).value();
+  ASSERT_EQ(merged.findings.size(), 1U);
+  EXPECT_EQ(merged.findings.front().message, whole.front().message);
+}
 
 TEST_F(Shards, OfDifferentArithmeticAreNotMixed) {
   Comparison second = run({2, 2});

@@ -301,7 +301,12 @@ TEST(Preferences, RefuseInvalidWeights) {
     EXPECT_FALSE(preferences_of({text}, 0.05)) << text;
   }
   EXPECT_FALSE(preferences_of({"tyre_work=1", "tyre_work=2"}, 0.05));
-  EXPECT_FALSE(preferences_of({}, std::nan("")));
+  for (const double relevance : {std::nan(""), 0.0, 0.0009, 1.1}) {
+    const auto preferences = preferences_of({}, relevance);
+    ASSERT_FALSE(preferences) << relevance;
+    EXPECT_EQ(preferences.error().faults.front().code, ErrorCode::kOutOfRange);
+  }
+  for (const double relevance : {0.001, 1.0}) EXPECT_TRUE(preferences_of({}, relevance));
   for (const char* text : {"finish_time_s=0", "finish_time_s=1000"}) {
     EXPECT_TRUE(preferences_of({text}, 0.05)) << text;
   }

@@ -251,7 +251,8 @@ class Module(unittest.TestCase):
                                                       speed_epsilon=1.2, observer_bandwidth_radps=200,
                                                       observer_yaw_max_m=0.1, observer_surge_max=1),
                                            awmr.read_scenario(SCENARIO), mode="combined"),
-                     lambda: awmr.tune(self.model, draws=-1)):
+                     lambda: awmr.tune(self.model, draws=-1),
+                     lambda: awmr.tune(self.model, nominal=True, draws=3)):
             with self.assertRaises(awmr.InputError):
                 call()
         with self.assertRaises(TypeError):

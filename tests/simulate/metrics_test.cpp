@@ -1,6 +1,7 @@
 /// Metrics of hand-made runs, compared with values computed by hand.
 #include "awmr/simulate/metrics.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -212,28 +213,53 @@ TEST(Validity, ReportsTheFastestOfSeveralRuns) {
   model.record.trials = {turn};
   std::vector<Evaluated> runs(3);
   const auto where = [](const Evaluated& run) { return run.name; };
-  EXPECT_TRUE(extrapolation_in(model, runs, where).empty());
+  const auto commands = [](const Evaluated& run) {
+    return TurnCommands{.rate_max_degps = run.name == "the fastest" ? 50.0 : 20.0};
+  };
+  EXPECT_TRUE(extrapolation_in(model, runs, where, commands).empty());
   runs[1].metrics.yaw_rate_max_degps = 90.0;
   runs[1].name = "the fastest";
   runs[2].metrics.yaw_rate_max_degps = 40.0;
-  const std::vector<Finding> findings = extrapolation_in(model, runs, where);
+  const std::vector<Finding> findings = extrapolation_in(model, runs, where, commands);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_NE(findings[0].message.find("the fastest"), std::string::npos);
-  EXPECT_TRUE(extrapolation_in(model, std::vector<Evaluated>{}, where).empty());
+  EXPECT_NE(findings[0].message.find("from 50 to 15 deg/s"), std::string::npos);
+  EXPECT_TRUE(extrapolation_in(model, std::vector<Evaluated>{}, where, commands).empty());
 }
 
-TEST(Validity, DoesNotAdviseALimitThatIsSet) {
-  Model model = fitted_paper_model();
-  model.vehicle.yaw_rate_max_degps = 15.0;
-  std::vector<Finding> findings;
-  note_extrapolation(model, 40.0, "run", findings, false);
-  note_extrapolation(model, 40.0, "run", findings, true);
-  ASSERT_EQ(findings.size(), 2U);
+/// Message of `beyond-trials` for a turn at 40 deg/s and a measured rate of 15 deg/s.
+std::string extrapolated(const TurnCommands& commands) {
+  const auto finding = extrapolation_finding("model.json", 15.0, 40.0, "run", commands);
+  return finding ? finding->message : "";
+}
+
+TEST(Validity, AdvisesTheLimitThatTheScenarioLacks) {
+  using ::testing::AllOf;
+  using ::testing::HasSubstr;
+  using ::testing::Not;
+  const auto record = HasSubstr("turning trials at up to 40 deg/s");
+  const std::string option = option_text("heading_rate_limit");
   const std::string measured = option_text("heading_rate_limit measured");
-  EXPECT_NE(findings[0].message.find(measured), std::string::npos);
-  EXPECT_EQ(findings[1].message.find(measured), std::string::npos);
-  EXPECT_NE(findings[1].message.find("lower " + option_text("heading_rate_limit")),
-            std::string::npos);
+  EXPECT_THAT(extrapolated({}), AllOf(record, HasSubstr(measured)));
+  EXPECT_THAT(extrapolated({.rate_max_degps = 30.0}),
+              AllOf(record, HasSubstr("from 30 to 15 deg/s"), HasSubstr(option)));
+  for (const auto& [limit_degps, text] : {std::pair(15.0, "below 15 deg/s"), {12.0, "below 12"}}) {
+    EXPECT_THAT(extrapolated({.rate_max_degps = limit_degps}),
+                AllOf(record, HasSubstr(text), HasSubstr(option), Not(HasSubstr(measured))));
+  }
+  EXPECT_THAT(extrapolated({.are_headings = false}),
+              AllOf(record, HasSubstr("tau_turn"), Not(HasSubstr("heading"))));
+}
+
+TEST(Validity, TakesTheLimitOfTheHeadingRateFromTheScenario) {
+  Scenario scenario = heading_steps({30.0});
+  EXPECT_TRUE(turn_commands(scenario).are_headings);
+  EXPECT_FALSE(turn_commands(scenario).rate_max_degps);
+  limit_heading_rate(15.0, scenario);
+  EXPECT_NEAR(turn_commands(scenario).rate_max_degps.value(), 15.0, 1e-12);
+  scenario.guidance = OpenLoop{1.0, 0.1};  // has no heading, so the limit has no effect
+  EXPECT_FALSE(turn_commands(scenario).are_headings);
+  EXPECT_FALSE(turn_commands(scenario).rate_max_degps);
 }
 
 TEST(Validity, WarnsIfHeadingsAreNotRateLimited) {
@@ -250,7 +276,7 @@ TEST(Validity, WarnsOfATurnFasterThanTheTrials) {
   Model model = fitted_paper_model();
   std::vector<Finding> findings;
   EXPECT_FALSE(measured_yaw_rate_degps(model));
-  note_extrapolation(model, 100.0, "run", findings);
+  note_extrapolation(model, 100.0, "run", {}, findings);
   EXPECT_TRUE(findings.empty());  // a model without turning trials has no measured range
   const auto trial = [](TrialKind kind, double measured) {
     TrialPoint point;
@@ -261,18 +287,18 @@ TEST(Validity, WarnsOfATurnFasterThanTheTrials) {
   model.record.trials = {trial(TrialKind::kTurning, radians(9.0)),
                          trial(TrialKind::kTurning, radians(15.0)), trial(TrialKind::kSurge, 1.6)};
   EXPECT_NEAR(*measured_yaw_rate_degps(model), 15.0, 1e-12);
-  note_extrapolation(model, 17.0, "run", findings);
+  note_extrapolation(model, 17.0, "run", {}, findings);
   EXPECT_TRUE(findings.empty());
-  note_extrapolation(model, 18.1, "run", findings);  // more than 1.2 times 15
+  note_extrapolation(model, 18.1, "run", {}, findings);  // more than 1.2 times 15
   EXPECT_EQ(findings.size(), 1U);
   findings.clear();
-  note_extrapolation(model, 77.0, "C3, combined", findings);
+  note_extrapolation(model, 77.0, "C3, combined", {}, findings);
   ASSERT_EQ(findings.size(), 1U);
   EXPECT_EQ(findings[0].code, "beyond-trials");
   EXPECT_NE(findings[0].message.find("C3, combined"), std::string::npos);
   EXPECT_NE(findings[0].message.find("5.1 times"), std::string::npos);
   model.vehicle.yaw_rate_max_degps = 80.0;
-  note_extrapolation(model, 77.0, "run", findings);
+  note_extrapolation(model, 77.0, "run", {}, findings);
   EXPECT_EQ(findings.size(), 1U);
 }
 

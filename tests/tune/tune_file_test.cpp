@@ -59,6 +59,18 @@ TEST_F(TuneFile, ReadsAnObserver) {
   EXPECT_EQ(given->options.observer->surge_max, 0.5);
 }
 
+TEST_F(TuneFile, RefusesDrawsTogetherWithNominal) {
+  for (const char* more : {R"("draws": 16)", R"("judged_draws": 10)", R"("tail_share": 0.5)"}) {
+    const auto config = read(std::string(R"({"nominal": true, )") + more + "}");
+    ASSERT_FALSE(config) << more;
+    EXPECT_EQ(config.error().faults.front().code, ErrorCode::kConflict) << more;
+    EXPECT_TRUE(read(std::string(R"({"nominal": false, )") + more + "}")) << more;
+  }
+  const auto config = read(R"({"nominal": true, "draws": 0, "judged_draws": 0})");
+  ASSERT_TRUE(config) << to_text(config.error());
+  EXPECT_EQ(config->options.draws, 0);
+}
+
 TEST_F(TuneFile, ReadsGoals) {
   const auto config = read(
       R"({"goals": [{"at_most": {"settling_time_s": 2, "overshoot_deg": 1}, "share": 0.9},
@@ -100,7 +112,7 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
                       "speed_itae": 4},
           "bounds": {"lambda": [1, 2], "mu": [3, 4], "epsilon": [5, 6], "speed_mu": [7, 8],
                      "speed_epsilon": [9, 10]},
-          "nominal": true, "draws": 14, "judged_draws": 15, "tail_share": 0.3,
+          "draws": 14, "judged_draws": 15, "tail_share": 0.3,
           "activity_max": 1.7, "global_evaluations": 11, "local_evaluations": 12, "seed": 13,
           "scenarios": ["turn.json"]})");
   ASSERT_TRUE(config) << to_text(config.error());
@@ -113,7 +125,7 @@ TEST_F(TuneFile, TakesEveryDocumentedKey) {
   EXPECT_EQ(config->options.global_evaluations, 11);
   EXPECT_EQ(config->options.local_evaluations, 12);
   EXPECT_EQ(config->options.seed, 13U);
-  EXPECT_TRUE(config->options.nominal);
+  EXPECT_FALSE(config->options.nominal);
   EXPECT_EQ(config->options.draws, 14);
   EXPECT_EQ(config->options.evaluation_draws, 15);
   EXPECT_EQ(config->options.tail_share, 0.3);

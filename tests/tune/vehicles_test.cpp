@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "awmr/core/units.h"
+#include "awmr/simulate/conditions.h"
+#include "awmr/simulate/simulate.h"
 #include "awmr/tune/tune.h"
 #include "tune/vehicles.h"
 
@@ -90,6 +92,54 @@ void print_row(const TestVehicle& vehicle, const Tuning& without, const Tuning& 
   fmt::print("\n");
 }
 
+/// The default scenario with sensor noise, latency and motor lag, and with the yaw moment `push_m`
+/// from `from_s` on.
+Scenario pushed(const Model& model, double push_m, double from_s) {
+  Scenario scenario = under(conditions_of(model.vehicle), default_tuning_scenario(model).value());
+  DisturbanceTerm term;
+  term.value = push_m;
+  term.window.from_s = from_s;
+  scenario.disturbance.yaw = {term};
+  return scenario;
+}
+
+/// Number of runs with different noise, of kPushedRuns, that settle after every step.
+constexpr int kPushedRuns = 8;
+int settled_runs(const Model& model, const Gains<double>& gains, Scenario scenario, YawMode mode) {
+  int settled = 0;
+  for (int seed = 1; seed <= kPushedRuns; ++seed) {
+    scenario.seed = static_cast<std::uint64_t>(seed);
+    const Run run = simulate(model, gains, scenario, mode).value();
+    settled += metrics_of(run, scenario, controller_for(model, gains).value()).completed ? 1 : 0;
+  }
+  return settled;
+}
+
+/// With the yaw moment of the default disturbance (kPush) to either side, from the start or from
+/// the middle of each heading, the gains `with` the added observer settle in at least as many runs
+/// of a mode as the gains without one. The runs of all pushes count together (48 in a mode),
+/// because the noise decides which of a few runs settle.
+void expect_settled_when_pushed(const Model& model, const Tuning& without, const Tuning& with) {
+  TuneOptions options;
+  options.observer.emplace();
+  const std::vector<Scenario> scenarios = default_tuning_scenarios(model, options).value();
+  const double push_m = scenarios.back().disturbance.yaw.front().value;
+  const double duration_s = scenarios.front().duration_s;
+  for (const YawMode mode : kYawModes) {
+    int before = 0;
+    int after = 0;
+    for (const double from_s : {0.0, 0.25 * duration_s, 0.75 * duration_s}) {
+      for (const double side : {-1.0, 1.0}) {
+        const Scenario scenario = pushed(model, side * push_m, from_s);
+        before += settled_runs(model, without.gains, scenario, mode);
+        after += settled_runs(model, with.gains, scenario, mode);
+      }
+    }
+    EXPECT_GE(after, before) << name_of(mode);
+    fmt::print("pushed, {}: {} / {}\n", name_of(mode), before, after);
+  }
+}
+
 TEST_P(DryFriction, GetsAnObserverWithWhichSteeringRunsSettle) {
   const Model model = model_of(GetParam());
   const Result<Tuning> with = tune(model, TuneOptions{});
@@ -104,6 +154,7 @@ TEST_P(DryFriction, GetsAnObserverWithWhichSteeringRunsSettle) {
     EXPECT_GT(evaluated_in(*with, mode).completed_share, 0.7) << name_of(mode);
   }
   print_row(GetParam(), *without, *with);
+  expect_settled_when_pushed(model, *without, *with);
 }
 
 INSTANTIATE_TEST_SUITE_P(Steered, DryFriction, ::testing::ValuesIn(vehicles_with_dry_friction()));

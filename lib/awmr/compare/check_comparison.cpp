@@ -21,6 +21,9 @@ void check_numbers(const CompareOptions& options, std::vector<Fault>& faults) {
     faults.push_back({ErrorCode::kOutOfRange, option_text(name),
                       fmt::format("has to be 0 or more, found {}", number)});
   }
+  if (auto fault = relevance_fault(options.preferences.relevance)) {
+    faults.push_back(*std::move(fault));
+  }
   if (options.samples < 0) return;
   auto fault =
       shard_fault(options.shard, options.samples + 1L, "samples, the nominal one included");

@@ -208,6 +208,9 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   Comparison comparison = gathered(layout, options.shard, std::move(slots));
   comparison.arithmetic = arithmetic.rounding;
   comparison.measured_yaw_rate_degps = measured_yaw_rate_degps(model);
+  for (const Scenario& scenario : scenarios) {
+    comparison.turn_commands.emplace(scenario.name, turn_commands(scenario));
+  }
   if (options.break_even && !comparison.stopped) {
     AWMR_ASSIGN_OR_RETURN(comparison.break_even, break_even_of(model, gains.front().gains,
                                                                scenarios, comparison, options));

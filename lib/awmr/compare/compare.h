@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@
 #include "awmr/model/model.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario.h"
+#include "awmr/simulate/validity.h"
 
 namespace awmr {
 
@@ -167,6 +169,8 @@ struct Comparison {
   std::string arithmetic = {};
   /// Highest yaw rate at which yaw resistance was measured, deg/s, > 0; absent if unknown.
   std::optional<double> measured_yaw_rate_degps = {};
+  /// Commands of each scenario, by its name, for the finding `beyond-trials`.
+  std::map<std::string, TurnCommands> turn_commands = {};
   /// Break-even scrub of each scenario and pair of modes; absent if not requested, or if stopped.
   std::optional<std::vector<BreakEven>> break_even = {};
   /// Rankings on the other plant and with other gains, by changes_of_runs() (decision.h); empty if

@@ -67,15 +67,12 @@ std::vector<Finding> extrapolation_findings(const Comparison& comparison,
   if (!comparison.measured_yaw_rate_degps || comparison.rows.empty()) return {};
   const auto fastest = std::ranges::max_element(
       comparison.rows, {}, [](const ComparisonRow& row) { return row.metrics.yaw_rate_max_degps; });
-  const bool is_rate_limited =
-      std::ranges::find(provenance.options,
-                        std::pair(std::string(kRateName), std::string(kMeasuredRate))) !=
-      provenance.options.end();
+  const auto commands = comparison.turn_commands.find(fastest->scenario);
   const std::string model = provenance.inputs.empty() ? "" : provenance.inputs.front().name;
   auto finding = extrapolation_finding(
       model, *comparison.measured_yaw_rate_degps, fastest->metrics.yaw_rate_max_degps,
       fmt::format("{}, {}, sample {}", fastest->scenario, name_of(fastest->mode), fastest->sample),
-      is_rate_limited);
+      commands == comparison.turn_commands.end() ? TurnCommands{} : commands->second);
   if (!finding) return {};
   return {*std::move(finding)};
 }

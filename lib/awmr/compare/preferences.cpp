@@ -46,12 +46,16 @@ Status check_metric(std::string_view name, const std::string& place) {
 
 }  // namespace
 
+std::optional<Fault> relevance_fault(double relevance) {
+  if (allows(kRelevance, relevance)) return std::nullopt;
+  return Fault{ErrorCode::kOutOfRange, option_text("relevance"),
+               fmt::format("is {:g}; give a number from {:g} to {:g}", relevance, kRelevance.min,
+                           kRelevance.max)};
+}
+
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance) {
   const std::string place = option_text("weight");
-  if (!(relevance >= 0.0 && relevance <= 1.0)) {
-    return input_error(ErrorCode::kOutOfRange, option_text("relevance"),
-                       fmt::format("is {:g}; give a number from 0 to 1", relevance));
-  }
+  if (auto fault = relevance_fault(relevance)) return input_errors({*std::move(fault)});
   Preferences preferences;
   preferences.relevance = relevance;
   for (const std::string& text : weights) {

@@ -3,29 +3,38 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "awmr/core/number_rule.h"
 #include "awmr/core/result.h"
 
 namespace awmr {
 
 inline constexpr double kMaximumWeight = 1000.0;
+/// Range of Preferences::relevance. The offsets of the scores, floor/relevance (scoring.h), are at
+/// 0.001 already above most values of the metrics. With smaller margins, the ratios of the scores
+/// approach 1. With 0, rounding could decide a rank.
+inline constexpr NumberRule kRelevance{.min = 0.001, .max = 1.0};
 
 struct Preferences {
   /// Weights by name of the metric, in [0, kMaximumWeight]. A metric that is not listed has its
   /// default weight (metric_columns.h).
   std::map<std::string, double, std::less<>> weights;
-  /// Relevance margin: relative differences up to this do not matter, in [0, 1]. Neither do
-  /// differences up to the metric's floor (MetricColumn::ranking_floor).
+  /// Relevance margin: relative differences up to this do not matter, in kRelevance. Neither
+  /// do differences up to the metric's floor (MetricColumn::ranking_floor).
   double relevance = 0.05;
   friend bool operator==(const Preferences&, const Preferences&) = default;
 };
 
+/// The fault of a relevance margin outside kRelevance; absent otherwise.
+std::optional<Fault> relevance_fault(double relevance);
+
 /// Reads weights of the form "NAME=WEIGHT". Errors (input): a text of another form; a metric that
 /// is unknown or never ranked (the message has the nearest name); a weight outside its range; a
-/// metric with two weights; no metric with a weight above 0; `relevance` outside [0, 1].
+/// metric with two weights; no metric with a weight above 0; `relevance` outside kRelevance.
 Result<Preferences> preferences_of(const std::vector<std::string>& weights, double relevance);
 
 }  // namespace awmr

@@ -26,13 +26,12 @@ double weight_of(const MetricColumn& metric, const Preferences& preferences) {
 
 std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
                                            const Preferences& preferences) {
-  const double share = preferences.relevance > 0.0 ? preferences.relevance : 1.0;
   std::vector<ScoredMetric> rankable;
   for (const MetricColumn& metric : kMetricColumns) {
     if (!metric.can_rank() || !any_has(scenario, metric)) continue;
     rankable.push_back({.metric = &metric,
                         .weight = weight_of(metric, preferences),
-                        .offset = metric.ranking_floor / share,
+                        .offset = metric.ranking_floor / preferences.relevance,
                         .missing = worst_of(scenario, metric)});
   }
   return rankable;

@@ -31,9 +31,8 @@ std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
 /// Loss of one metric: ln(x + f). x: value of the metric, 0 if negative. f: the metric's floor
-/// divided by the relevance margin, or the floor if the margin is 0. The offset f prevents ratios
-/// of small values from dominating the score: adding floor + relevance x to x multiplies x + f by 1
-/// + relevance, whatever x is.
+/// divided by the relevance margin. The offset f prevents ratios of small values from dominating
+/// the score: adding floor + relevance x to x multiplies x + f by 1 + relevance, whatever x is.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
 /// Mean of log_loss() over the drawn samples of a mode, or its value for the nominal run if there

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -24,18 +25,42 @@ struct Payload {
   std::uint64_t seed = 0;
   Preferences preferences;
   std::optional<double> measured_yaw_rate_degps;
+  std::map<std::string, TurnCommands> turn_commands;
   std::vector<Change> changes;
   std::vector<Finding> findings;
 };
 
 Preferences read_preferences(JsonObject& json) {
   Preferences preferences;
-  preferences.relevance = json.number("relevance", {.min = 0.0, .max = 1.0});
+  preferences.relevance = json.number("relevance", kRelevance);
   JsonObject weights = json.object("weights");
   for (const std::string& name : weights.keys()) {
     preferences.weights[name] = weights.number(name, {.min = 0.0, .max = kMaximumWeight});
   }
   return preferences;
+}
+
+Json turn_commands_to_json(const std::map<std::string, TurnCommands>& all) {
+  Json json = Json::object();
+  for (const auto& [scenario, commands] : all) {
+    Json& one = json[scenario] = {{"are_headings", commands.are_headings}};
+    if (commands.rate_max_degps) one["rate_max_degps"] = *commands.rate_max_degps;
+  }
+  return json;
+}
+
+/// Empty for a part of an older version.
+std::map<std::string, TurnCommands> read_turn_commands(JsonObject& json) {
+  std::map<std::string, TurnCommands> all;
+  auto scenarios = json.optional_object("turn_commands");
+  if (!scenarios) return all;
+  for (const std::string& name : scenarios->keys()) {
+    JsonObject one = scenarios->object(name);
+    all[name] = {.are_headings = one.boolean("are_headings"),
+                 .rate_max_degps = one.optional_number("rate_max_degps", kPositive)};
+    one.reject_unknown_keys();
+  }
+  return all;
 }
 
 Json change_to_json(const Change& change) {
@@ -86,6 +111,7 @@ Payload read_payload(JsonObject& json) {
           .seed = json.seed("seed"),
           .preferences = read_preferences(json),
           .measured_yaw_rate_degps = json.optional_number("measured_yaw_rate_degps", kPositive),
+          .turn_commands = read_turn_commands(json),
           .changes = read_changes(json),
           .findings = read_findings(json)};
 }
@@ -148,6 +174,7 @@ PartText comparison_part(const Comparison& part, const CompareOptions& options,
   if (part.measured_yaw_rate_degps) {
     json["measured_yaw_rate_degps"] = *part.measured_yaw_rate_degps;
   }
+  json["turn_commands"] = turn_commands_to_json(part.turn_commands);
   for (const Change& change : part.changes) json["changes"].push_back(change_to_json(change));
   PartText text =
       part_text(comparison_shards(),
@@ -170,6 +197,7 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
   merged.comparison.whole_samples = payload.samples + 1;
   merged.comparison.arithmetic = origin.arithmetic;
   merged.comparison.measured_yaw_rate_degps = payload.measured_yaw_rate_degps;
+  merged.comparison.turn_commands = payload.turn_commands;
   merged.comparison.changes = payload.changes;
   AWMR_ASSIGN_OR_RETURN(merged.comparison.rows, rows_of(parts, payload.samples + 1));
   AWMR_RETURN_IF_ERROR(check_groups(merged.comparison.rows, at(payload.samples) + 1));

@@ -184,9 +184,45 @@ std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
                              option_text("heading_rate_limit"))};
 }
 
+TurnCommands turn_commands(const Scenario& scenario) {
+  TurnCommands commands{.are_headings = !std::holds_alternative<OpenLoop>(scenario.guidance)};
+  if (commands.are_headings && scenario.shaping) {
+    commands.rate_max_degps = degrees(scenario.shaping->rate_max_radps);
+  }
+  return commands;
+}
+
+namespace {
+
+/// Remedy for turns at `fastest_degps` that are faster than those of the trials.
+std::string remedy_for_turns(const TurnCommands& commands, double measured_degps,
+                             double fastest_degps) {
+  constexpr double kRounding = 1e-9;  // of a limit that is converted to rad/s and back
+  const std::string record =
+      fmt::format("Record turning trials at up to {:.3g} deg/s", fastest_degps);
+  if (!commands.are_headings) return record + ", or give a smaller tau_turn";
+  const std::string option = option_text("heading_rate_limit");
+  if (!commands.rate_max_degps) {
+    return record + ", or limit the rate of heading commands (shaping in the scenario, or " +
+           option_text("heading_rate_limit measured") + ")";
+  }
+  if (*commands.rate_max_degps > measured_degps * (1.0 + kRounding)) {
+    return fmt::format(
+        "{}, or lower the limit of the heading rate from {:.3g} to {:.3g} deg/s "
+        "(shaping in the scenario, or {})",
+        record, *commands.rate_max_degps, measured_degps, option);
+  }
+  return fmt::format(
+      "The rate of heading commands is limited to {:.3g} deg/s, but the vehicle "
+      "overshoots or slides. {}, or give a limit below {:.3g} deg/s ({})",
+      *commands.rate_max_degps, record, *commands.rate_max_degps, option);
+}
+
+}  // namespace
+
 std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
                                              double fastest_degps, const std::string& where,
-                                             bool is_rate_limited) {
+                                             const TurnCommands& commands) {
   if (fastest_degps <= kLittleFurther * measured_degps) return std::nullopt;
   return Finding{
       file, 0, Severity::kWarning, "beyond-trials",
@@ -194,22 +230,14 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
                   "which the yaw resistance was measured ({:.3g} deg/s); above it, the model is "
                   "extrapolated. {}",
                   where, fastest_degps, fastest_degps / measured_degps, measured_degps,
-                  is_rate_limited
-                      ? "Heading commands are limited to the measured rate, but the vehicle "
-                        "overshoots or slides. Record faster turning trials, or give a "
-                        "lower " +
-                            option_text("heading_rate_limit")
-                      : "Record faster turning trials, or limit the rate of heading commands "
-                        "(shaping in the scenario, or " +
-                            option_text("heading_rate_limit measured") + ")")};
+                  remedy_for_turns(commands, measured_degps, fastest_degps))};
 }
 
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
-                        std::vector<Finding>& findings, bool is_rate_limited) {
+                        const TurnCommands& commands, std::vector<Finding>& findings) {
   const std::optional<double> measured = measured_yaw_rate_degps(model);
   if (!measured) return;
-  if (auto finding =
-          extrapolation_finding(model.file, *measured, fastest_degps, where, is_rate_limited)) {
+  if (auto finding = extrapolation_finding(model.file, *measured, fastest_degps, where, commands)) {
     findings.push_back(*std::move(finding));
   }
 }

@@ -72,31 +72,38 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
                                                 const Model& model);
 
+/// How a scenario commands turns. It determines the remedy for turns that are too fast.
+struct TurnCommands {
+  bool are_headings = true;                   ///< false: open loop
+  std::optional<double> rate_max_degps = {};  ///< limit of the heading rate; absent: none
+};
+TurnCommands turn_commands(const Scenario& scenario);
+
 /// Warning `beyond-trials`: a turn of `fastest_degps`, >= 0, is more than kLittleFurther times as
 /// fast as `measured_degps` > 0, the highest rate at which the yaw resistance was measured. Else
 /// absent. `file`: the file of the model. For the other parameters, see note_extrapolation().
 std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
                                              double fastest_degps, const std::string& where,
-                                             bool is_rate_limited);
+                                             const TurnCommands& commands);
 
 /// Adds extrapolation_finding() with the highest measured yaw rate of the model, if there is one.
-/// `where`: name of the run, such as "C3, combined". `is_rate_limited`: the rate of heading
-/// commands was limited to the measured rate, so the vehicle turns faster than commanded.
+/// `where`: name of the run, such as "C3, combined". `commands`: those of the run's scenario.
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
-                        std::vector<Finding>& findings, bool is_rate_limited = false);
+                        const TurnCommands& commands, std::vector<Finding>& findings);
 
 /// Calls note_extrapolation() for that element of `runs` with the highest yaw rate, and returns the
-/// findings. The elements have a member `metrics`. `where(run)` returns the name of a run.
-template <class Runs, class Where>
+/// findings. The elements have a member `metrics`. `where(run)` returns the name of a run,
+/// `commands(run)` the commands of its scenario.
+template <class Runs, class Where, class Commands>
 std::vector<Finding> extrapolation_in(const Model& model, const Runs& runs, const Where& where,
-                                      bool is_rate_limited = false) {
+                                      const Commands& commands) {
   const auto fastest = std::max_element(runs.begin(), runs.end(), [](const auto& a, const auto& b) {
     return a.metrics.yaw_rate_max_degps < b.metrics.yaw_rate_max_degps;
   });
   std::vector<Finding> findings;
   if (fastest != runs.end()) {
-    note_extrapolation(model, fastest->metrics.yaw_rate_max_degps, where(*fastest), findings,
-                       is_rate_limited);
+    note_extrapolation(model, fastest->metrics.yaw_rate_max_degps, where(*fastest),
+                       commands(*fastest), findings);
   }
   return findings;
 }

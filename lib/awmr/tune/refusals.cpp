@@ -31,7 +31,7 @@ std::string in_words(const Gains<double>& g) {
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
-/// Text such as " 32 % of the runs settle with these gains. This change lets the runs settle: ...".
+/// Text such as " 32 % of the runs settle with these gains. This change lets the runs settle (...): ...".
 /// Empty if enough runs settle.
 std::string unsettled_text(const Objective& objective, const ConstraintContext& context,
                            const Gains<double>& gains) {
@@ -103,9 +103,9 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
                       ? fmt::format("No change of a single limit or bound of tune.json permits "
                                     "gains. Violated: {}",
                                     fmt::join(violated(all), ", "))
-                      : fmt::format("{} of tune.json alone permits gains: {}",
+                      : fmt::format("{} of tune.json alone permits gains ({}): {}",
                                     changes.size() == 1 ? "This change" : "Each of these changes",
-                                    fmt::join(changes, "; "))));
+                                    kSmallerMaySuffice, fmt::join(changes, "; "))));
 }
 
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,

@@ -10,6 +10,10 @@
 
 namespace awmr {
 
+/// Text of messages about confirmed changes. The smallest change is not searched, because each try
+/// takes up to some seconds.
+inline constexpr const char* kSmallerMaySuffice = "smaller changes may also suffice";
+
 /// Advice for a constraint that no gains meet: the limit to relax or, for a constraint without a
 /// limit in tune.json, another change.
 std::string advice_on(const std::string& constraint);

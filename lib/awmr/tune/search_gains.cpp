@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "awmr/core/index.h"
+#include "awmr/tune/baseline_limits.h"
 #include "awmr/tune/certificate.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/problem.h"
@@ -115,6 +116,7 @@ struct Searched {
   const ObjectiveSetting& setting;
   const ConstraintContext& context;
   const TuneOptions& options;
+  const TuneOptions& requested;  ///< options whose absent bounds are not filled in
   const Baseline& baseline;
   const Objective& all;   ///< on all draws
   const Objective& some;  ///< on the draws of the search
@@ -143,7 +145,8 @@ Evaluation evaluated_in(const Searched& s, const Scenario& held_out) {
 
 /// The result for the gains that the search selected. Errors (refused): no run settles.
 Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
-  const auto& [model, setting, context, options, baseline, all, some, found, settled] = s;
+  const auto& [model, setting, context, options, requested, baseline, all, some, found, settled] =
+      s;
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
                         active_constraints(options, context, some, *found.best));
   const Evaluation tuned = all(settled.gains);
@@ -160,6 +163,7 @@ Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
                 .examined = {context.speed_mps, context.step_rad, context.fastest_radps},
                 .baseline_objective = all.baseline().objective,
                 .baseline_scores = all.baseline().scores,
+                .baseline_violates = violated_by_baseline(baseline.gains, all, context, requested),
                 .algorithm = found.algorithm,
                 .evaluations = found.evaluations,
                 .stop_reason = found.stop_reason,
@@ -202,8 +206,8 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
     return *std::move(observed);
   }
   if (!found.best) return not_found(found, all, context, requested);
-  return tuning_of({model, setting, context, options, baseline, all, some, found, settled},
-                   held_out);
+  return tuning_of(
+      {model, setting, context, options, requested, baseline, all, some, found, settled}, held_out);
 }
 
 }  // namespace awmr

@@ -198,9 +198,9 @@ std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
 std::string describe(const std::vector<SettlingChange>& changes, std::string_view runs) {
   std::vector<std::string> texts;
   for (const SettlingChange& change : changes) texts.push_back(change.text);
-  return fmt::format("{} lets {} settle: {}",
+  return fmt::format("{} lets {} settle ({}): {}",
                      texts.size() == 1 ? "This change" : "Each of these changes", runs,
-                     fmt::join(texts, "; "));
+                     kSmallerMaySuffice, fmt::join(texts, "; "));
 }
 
 std::string no_change_settles(std::string_view runs) {

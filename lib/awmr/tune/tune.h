@@ -393,6 +393,10 @@ struct Tuning {
   ExaminedRange examined;
   double baseline_objective = 0.0;  ///< 1, plus the terms of soft goals
   std::vector<ModeScore> baseline_scores;
+  /// Required constraints, requested bounds, activity limit and goals that the baseline gains do
+  /// not meet. The objective of the tuned gains, which meet them, can then be above that of the
+  /// baseline.
+  std::vector<ConstraintReport> baseline_violates;
   std::string algorithm;
   int evaluations = 0;  ///< sets of gains that the search evaluated, on some or all draws
   std::string stop_reason;

@@ -30,6 +30,19 @@ void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
   }
 }
 
+/// Rejects the options of randomly drawn vehicles together with `nominal`. A number of 0 agrees
+/// with it.
+void reject_draws(JsonObject& json, const TuneOptions& options) {
+  if (!options.nominal) return;
+  for (const auto& [key, conflicts] :
+       {std::pair("draws", options.draws != 0),
+        std::pair("judged_draws", options.evaluation_draws != 0), std::pair("tail_share", true)}) {
+    if (!conflicts || !json.has(key)) continue;
+    json.fault(ErrorCode::kConflict, key,
+               "needs randomly drawn vehicles, which `nominal` disables; remove one of the two");
+  }
+}
+
 void read_search(JsonObject& json, TuneOptions& options) {
   if (json.has("mode")) options.mode = json.choice("mode", kYawModeNames);
   if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
@@ -41,6 +54,7 @@ void read_search(JsonObject& json, TuneOptions& options) {
     fit_draws_to(options.open, options);
   }
   search_options(options, ReadOption{json});
+  reject_draws(json, options);
   json.ignore("sensitivity");  // of older files
   if (const auto seed = json.optional_integer("seed", 0, 4'294'967'295L)) {
     options.seed = static_cast<std::uint64_t>(*seed);

@@ -30,7 +30,8 @@ Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name
 ///   bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   observer {bandwidth_radps [lo, hi], yaw_max_m, surge_max},
 ///   no_observer (true: none is added),
-///   nominal, draws (32), judged_draws (draws of the evaluation: 50; with goals 500), tail_share,
+///   nominal, or draws (32), judged_draws (draws of the evaluation: 50; with goals 500) and
+///   tail_share,
 ///   activity_max,
 ///   limits {steering_rate_rms_degps, damping, late_damping, delayed_damping, noise_share},
 ///   baseline ("pole-placement" | "paper" | path of a gains.json relative to the file),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -95,6 +96,24 @@ void note_observer(const TuneOptions& options, const Tuning& tuning,
        "Give a scenario with a `disturbance`, or no scenarios to use the default ones"});
 }
 
+/// Adds a note if the tuned gains have a larger objective than the baseline, because the baseline
+/// does not meet the limits.
+void note_baseline(const Tuning& tuning, std::vector<Finding>& findings) {
+  if (tuning.baseline_violates.empty() || tuning.objective <= tuning.baseline_objective) return;
+  std::string limits;
+  for (const ConstraintReport& c : tuning.baseline_violates) {
+    limits += fmt::format("{}{} {:.4g} ({} {:.4g})", limits.empty() ? "" : ", ", c.name, c.value,
+                          c.sense == Sense::kAtMost ? "at most" : "at least", c.limit);
+  }
+  findings.push_back(
+      {"", 0, Severity::kNote, "baseline-beyond-limits",
+       fmt::format("the objective of the tuned gains ({:.4g}) is above that of the baseline {} "
+                   "({:.4g}), because the baseline violates limits: {}. Relax these limits, or "
+                   "give a baseline that meets them ({})",
+                   tuning.objective, tuning.baseline.source, tuning.baseline_objective, limits,
+                   option_text("baseline"))});
+}
+
 /// Adds findings about requests that the vehicle cannot meet, in the scenarios and in the sensor
 /// and motor conditions of the draws (unattainable_requests()).
 void note_scenarios(const Model& model, const TuneOptions& options, const Tuning& tuning,
@@ -148,6 +167,7 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
   note_observer(options, tuning, findings);
+  note_baseline(tuning, findings);
   if (const auto plant = model.plant()) {
     auto finding = unsigned_speed_finding(*plant, model.vehicle, tuning.gains, "");
     if (finding) findings.push_back(*std::move(finding));
@@ -156,7 +176,13 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   const auto name = [](const ModeScore& score) {
     return fmt::format("{}, {}", score.scenario, name_of(score.mode));
   };
-  std::ranges::move(extrapolation_in(model, tuning.scores, name), std::back_inserter(findings));
+  const auto commands = [&options](const ModeScore& score) {
+    const auto found = std::ranges::find(options.scenarios, score.scenario, &Scenario::name);
+    assert(found != options.scenarios.end());
+    return turn_commands(*found);
+  };
+  std::ranges::move(extrapolation_in(model, tuning.scores, name, commands),
+                    std::back_inserter(findings));
   return findings;
 }
 

@@ -12,7 +12,7 @@ namespace awmr {
 /// draws. For nominal gains, or without fresh draws, the runs of the nominal vehicle replace those
 /// on fresh draws. Preconditions: `tuning` is the result of tune() with `options`, and
 /// options.scenarios has all scenarios of the tuning, including default ones (needed for
-/// `observer-unpushed`).
+/// `observer-unpushed` and `beyond-trials`).
 std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
                                    const Tuning& tuning);
 

@@ -1,0 +1,63 @@
+#include "awmr/tune/baseline_limits.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <optional>
+
+#include "awmr/tune/goals.h"
+#include "awmr/tune/option_table.h"
+
+namespace awmr {
+namespace {
+
+/// Requirement value <= limit, or value >= limit, that is not met.
+ConstraintReport violated_limit(std::string name, double value, double limit, Sense sense) {
+  return {.name = std::move(name),
+          .value = value,
+          .limit = limit,
+          .margin = sense == Sense::kAtMost ? limit - value : value - limit,
+          .sense = sense};
+}
+
+void add_bounds(const Gains<double>& g, GainBounds bounds, std::vector<ConstraintReport>& all) {
+  const double gains[] = {g.heading.lambda, g.heading.mu, g.heading.epsilon, g.speed.mu,
+                          g.speed.epsilon};
+  std::size_t next = 0;
+  bound_options(bounds, [&](const char* key, const std::optional<Interval>& range, const auto&) {
+    const double gain = gains[next++];
+    if (!range || range->contains(gain)) return;
+    const bool is_below = gain < range->lo;
+    all.push_back(violated_limit(fmt::format("bounds/{}", key), gain,
+                                 is_below ? range->lo : range->hi,
+                                 is_below ? Sense::kAtLeast : Sense::kAtMost));
+  });
+}
+
+}  // namespace
+
+std::vector<ConstraintReport> violated_by_baseline(const Gains<double>& baseline,
+                                                   const Objective& objective,
+                                                   const ConstraintContext& context,
+                                                   const TuneOptions& requested) {
+  std::vector<ConstraintReport> all;
+  for (ConstraintReport& c : constraints_of(baseline, context)) {
+    if (c.required && residual(c) > 0.0) all.push_back(std::move(c));
+  }
+  add_bounds(baseline, requested.bounds, all);
+  // The activity of the baseline, relative to its own, is 1 in each mode.
+  if (requested.activity_max && *requested.activity_max < 1.0) {
+    all.push_back(violated_limit("activity_max", 1.0, *requested.activity_max, Sense::kAtMost));
+  }
+  const std::vector<GoalInMode> goals = by_mode(objective.goals(), objective.modes());
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const double times_limits = objective.baseline().goal_quantile[i];
+    if (goals[i].goal->is_soft || times_limits <= 1.0) continue;
+    all.push_back(
+        violated_limit(fmt::format("goal \"{}\", in multiples of its limits", goals[i].name()),
+                       times_limits, 1.0, Sense::kAtMost));
+  }
+  return all;
+}
+
+}  // namespace awmr
