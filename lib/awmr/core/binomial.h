@@ -17,15 +17,16 @@ Interval clopper_pearson(std::size_t successes, std::size_t runs);
 /// both numbers are 0.
 double mcnemar_p(std::size_t only_first, std::size_t only_second);
 
-/// p value of the two-sided paired t test that the true mean difference is 0. `mean` and
-/// `deviation` (standard deviation) are those of `count` >= 2 differences. For a deviation of 0,
-/// returns 1 if the mean is 0, else 0.
+/// p value of the two-sided paired t test of the hypothesis that the true mean difference is 0.
+/// `mean` and `deviation`: mean and standard deviation of the differences; `count`: their number,
+/// >= 2. If the deviation is 0, returns 1 for a mean of 0, else 0.
 double paired_t_p(double mean, double deviation, std::size_t count);
 
-/// p value of the equivalence test (TOST): the larger p of two one-sided t tests. Their hypotheses
-/// are that the true mean is above `margin`, or below -`margin`; `margin` >= 0. p < 0.05: the mean
-/// is significantly within the margin. For a deviation of 0, returns 0 if `mean` is within the
-/// margin, else 1.
+/// p value of an equivalence test of paired differences (TOST, two one-sided t tests): the larger
+/// of the two p values. The null hypotheses are that the true mean is above `margin`, and that it
+/// is below -`margin`. If p < 0.05, the true mean is significantly within +-`margin`. `margin` >=
+/// 0; `mean`, `deviation` and `count`: as in paired_t_p(). If the deviation is 0, returns 0 for a
+/// mean within the margin, else 1.
 double equivalence_p(double mean, double deviation, std::size_t count, double margin);
 
 }  // namespace awmr

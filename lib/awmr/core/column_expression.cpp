@@ -22,7 +22,8 @@ constexpr std::array<std::string_view, 15> kFunctions{"sin",  "cos",   "tan",  "
                                                       "atan", "atan2", "sqrt", "abs",   "min",
                                                       "max",  "exp",   "ln",   "log10", "sign"};
 
-/// True if a bare name can begin with this byte. Bytes above 0x7F belong to UTF-8 characters.
+/// True if a column name without quotes can begin with this byte. Bytes above 0x7F belong to UTF-8
+/// characters, which names may contain.
 bool begins_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
          static_cast<unsigned char>(c) >= 0x80U;
@@ -30,10 +31,10 @@ bool begins_name(char c) {
 
 bool continues_name(char c) { return begins_name(c) || is_digit(c) || c == '.'; }
 
-/// A formula in the form that muParser reads: columns are renamed to c0, c1, ..., and numbers are
-/// rewritten.
+/// A formula rewritten for the library muParser. Columns are renamed to c0, c1, ..., because
+/// muParser does not permit every column name.
 struct Formula {
-  std::vector<std::string> names = {};  ///< columns, in order of first use
+  std::vector<std::string> names = {};  ///< columns of the formula, in order of first use
   std::string text = {};                ///< the rewritten formula
   /// One entry for each bracket that is not closed yet: true if it encloses a function's arguments.
   std::vector<bool> open = {};
@@ -69,8 +70,8 @@ std::string_view take_bare_name(std::string_view& rest) {
   return name;
 }
 
-/// Each function below removes one token from the front of `rest` and adds it to the formula. Each
-/// returns the text of an error, or nothing.
+/// Each of the functions below removes one token from the front of `rest`, the part of the formula
+/// that is not parsed yet, and adds it to `formula`. It returns the text of an error, or nothing.
 using Wrong = std::optional<std::string>;
 
 Wrong take_number(std::string_view& rest, Formula& formula) {

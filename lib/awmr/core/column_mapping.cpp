@@ -30,8 +30,9 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-/// Removes SOURCE from the front of `text` and returns it: up to the closing quote if it is quoted,
-/// else up to the first '*' or '+'. Empty if the quote is not closed.
+/// Removes the column name from the front of a text `NAME*SCALE+OFFSET` and returns it. A quoted
+/// name ends at the closing quote, any other name before the first '*' or '+'. Empty if the quote
+/// is not closed.
 std::optional<std::string> take_source(std::string_view& text) {
   if (text.empty() || text[0] != '"') {
     const std::size_t end = std::min(text.find_first_of("*+"), text.size());
@@ -54,7 +55,8 @@ std::optional<std::string> take_source(std::string_view& text) {
   return std::nullopt;
 }
 
-/// Parses `rest` as `[*SCALE][+OFFSET]`. Returns false if it is not of this form.
+/// Parses `rest` as `[*SCALE][+OFFSET]` and stores both numbers in `mapping`. Returns false if
+/// `rest` is not of this form.
 bool take_scale_and_offset(std::string_view rest, ColumnMapping& mapping) {
   if (rest.starts_with('*')) {
     rest.remove_prefix(1);
@@ -131,7 +133,8 @@ Result<ColumnMapping> parse_column(std::string_view text) {
 std::string text_of(const ColumnMapping& mapping) {
   const std::string name =
       mapping.file.empty() ? mapping.name : fmt::format("{}:{}", mapping.file, mapping.name);
-  // A constant such as 0.5 matches both forms, SOURCE and formula. It is written as a formula.
+  // The parser stores a constant such as 0.5 as a column name, too, because a column could have
+  // this name. The constant is written as it was given.
   const bool scaled = !mapping.source.empty() && !number_from_text(mapping.expression);
   if (!scaled) return fmt::format("{}={}", name, mapping.expression);
   return fmt::format("{}={}*{}+{}", name, mapping.source, format_number(mapping.scale),
@@ -148,7 +151,7 @@ std::string scaled_expression(const ColumnMapping& mapping, double factor, doubl
   const std::string source =
       is_formula ? fmt::format("({})", mapping.expression) : fmt::format("\"{}\"", mapping.source);
   const std::string scaled = scale == 1.0 ? source : fmt::format("{}*{:.7g}", source, scale);
-  // The offset of a formula is part of its text.
+  // The text of a formula contains its offset. Only a scaled column has a separate one.
   const double added = offset + (is_formula ? 0.0 : factor * mapping.offset);
   return added == 0.0 ? scaled : fmt::format("{}{:+.7g}", scaled, added);
 }

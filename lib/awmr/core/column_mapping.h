@@ -1,5 +1,5 @@
-/// Mapping of one of awmr's columns to the columns of a file: to a column with another name or
-/// unit, or to a formula over several columns.
+/// Mapping that defines one of awmr's columns by the columns of a file: by a column with another
+/// name or unit, or by a formula over several columns.
 #pragma once
 
 #include <string>
@@ -9,36 +9,38 @@
 
 namespace awmr {
 
-/// Defines column `name`. The header of the file decides which of these definitions is used; the
-/// first possible one is taken:
-///   1. `expression` is exactly the name of a column: that column;
-///   2. the header has `source`: that column times `scale` plus `offset`;
-///   3. `expression` is a formula over columns of the header.
+/// Up to three definitions of the column `name`. The first one that the header of the file permits
+/// is used:
+///   1. if the header has a column called `expression`: this column;
+///   2. if the header has a column called `source`: this column times `scale` plus `offset`;
+///   3. else the formula `expression` over columns of the header.
 struct ColumnMapping {
   std::string name;
-  std::string source;  ///< empty: way 2 does not apply
+  std::string source;  ///< name of a column; empty: definition 2 does not apply
   double scale = 1.0;
   double offset = 0.0;
-  std::string expression = {};  ///< text after the '='; empty: only way 2 applies
-  std::string file = {};        ///< name or path of the only file to apply it to; empty: all
-  bool standing = false;        ///< true for mappings of vehicle.json: they have the lowest
-                                ///< priority and may be unused
+  std::string expression = {};  ///< text after the '='; empty: only definition 2 applies
+  std::string file = {};        ///< name or path of the file that it is for; empty: all files
+  /// True for a mapping from vehicle.json. It has the lowest priority, and need not be used.
+  bool standing = false;
 };
 
-/// Parses `[FILE:]NAME=EXPRESSION`, where EXPRESSION is `SOURCE[*SCALE][+OFFSET]`, a formula
-/// (column_expression.h) or a constant. A SOURCE that contains '*' or '+' must be in double quotes.
-/// After a scale or a quoted SOURCE, `-OFFSET` is also accepted. Errors: a text that is none of
-/// these; a scale of 0.
+/// Parses `[FILE:]NAME=EXPRESSION`. EXPRESSION is a scaled column `SOURCE[*SCALE][+OFFSET]`, a
+/// formula (column_expression.h) or a constant. SOURCE is the name of a column; it must be in
+/// double quotes if it contains '*' or '+'. After a scale or a quoted SOURCE, `-OFFSET` is also
+/// accepted. Errors: a text that is none of these; a scale of 0.
 Result<ColumnMapping> parse_column(std::string_view text);
-/// The same, with `[FILE:]NAME` and EXPRESSION as separate texts, as in JSON.
+/// As parse_column(text), but takes `[FILE:]NAME` and EXPRESSION as separate texts, as JSON has
+/// them.
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);
 
-/// The mapping as text, `[FILE:]NAME=EXPRESSION`, as output files record it among the options of
-/// the command (Provenance::options).
+/// Writes a mapping as `[FILE:]NAME=EXPRESSION`, the form in which output files record it among the
+/// options of the command (Provenance::options).
 std::string text_of(const ColumnMapping& mapping);
 
-/// Returns an EXPRESSION whose value is that of `mapping` (including its scale and offset) times
-/// `factor` plus `offset`: `"SOURCE"*FACTOR+OFFSET` or `(EXPRESSION)*FACTOR+OFFSET`.
+/// Returns an EXPRESSION (see parse_column()) for the column that `mapping` defines, multiplied by
+/// `factor` and increased by `offset`. It has the form `"SOURCE"*FACTOR+OFFSET` or
+/// `(FORMULA)*FACTOR+OFFSET`, and includes the scale and offset of `mapping`.
 std::string scaled_expression(const ColumnMapping& mapping, double factor, double offset = 0.0);
 
 }  // namespace awmr

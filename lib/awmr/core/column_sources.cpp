@@ -35,11 +35,12 @@ std::string listed(Header names) {
 struct Candidate {
   ColumnSource source;
   std::vector<std::string> names;    ///< columns that the mapping uses
-  std::vector<std::string> missing;  ///< those of `names` that the header lacks
+  std::vector<std::string> missing;  ///< columns that the mapping uses and the header lacks
 };
 
-/// Interprets a mapping for this header: as a column whose name is exactly the mapping's
-/// expression, else as SOURCE with scale and offset, else as a formula (column_mapping.h).
+/// Interprets a mapping for the header of one file as the first of these that the header permits:
+/// the column whose name is the mapping's whole expression; a column with scale and offset; a
+/// formula (column_mapping.h).
 Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, Header header) {
   Candidate candidate{
       .source = {.column = column, .indices = {}, .mapping = &mapping}, .names = {}, .missing = {}};
@@ -75,7 +76,8 @@ std::string shown(const ColumnMapping& mapping) {
   return mapping.expression.empty() ? mapping.source : mapping.expression;
 }
 
-/// Search for the source of one requested column, among its mappings and the header's own columns.
+/// Searches for the source of one requested column, among its mappings and the columns of the
+/// header.
 class Search {
  public:
   Search(const CsvColumn& column, Header header, Header samples, ColumnSources& result)
@@ -141,8 +143,8 @@ class Search {
     }
   }
 
-  /// Uses the column that find_time() finds. Returns false if there is none. Returns true if a
-  /// column is used, or if a fault was added.
+  /// Uses the column that find_time() recognises as the time t_s. Returns false if there is none.
+  /// Returns true if one is used, and also if several columns may be the time, which is a fault.
   bool use_time() {
     auto time = find_time(header_, samples_);
     if (!time) {
@@ -154,7 +156,8 @@ class Search {
     ColumnSource source{.column = column_, .indices = {}};
     std::vector<std::string> names{(*time)->expression};
     if (!(*time)->is_date) {
-      // Parsing fails only for a name that contains a backtick.
+      // The expression quotes column names in backticks, so a name with a backtick cannot be
+      // parsed.
       auto expression = ColumnExpression::parse((*time)->expression);
       if (!expression) return false;
       names = expression->names();
@@ -165,8 +168,8 @@ class Search {
     return true;
   }
 
-  /// Adds the source to the result, together with the indices of the columns `names`. Adds a fault
-  /// for a name that occurs twice in the header.
+  /// Adds `source` to the result. `names` are the columns that it uses; `source` gets their indices
+  /// in the header. If the header has one of the names twice, adds a fault instead.
   void use(ColumnSource source, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
       const auto first = std::find(header_.begin(), header_.end(), name);
@@ -180,7 +183,8 @@ class Search {
       }
       source.indices.push_back(static_cast<std::size_t>(first - header_.begin()));
     }
-    // A mapping of t_s may name a column of dates. A column is one if its first cell is a date.
+    // A mapping of the time t_s can name a column of dates. Such a column is recognised by its
+    // first cell.
     const bool is_one = source.indices.size() == 1 && !source.expression && source.scale == 1.0;
     if (column_.name == kTimeName && source.mapping != nullptr && is_one &&
         source.indices[0] < samples_.size() && seconds_of_date(samples_[source.indices[0]])) {

@@ -16,13 +16,15 @@ namespace awmr {
 
 /// Source of a requested column: how it is computed from the columns of the file.
 struct ColumnSource {
-  CsvColumn column;                              ///< the requested column
-  std::vector<std::size_t> indices;              ///< columns of the header from which it is made
-  const ColumnMapping* mapping = nullptr;        ///< null: a column of this name, or `time`
+  CsvColumn column;                  ///< the requested column
+  std::vector<std::size_t> indices;  ///< indices, in the header, of the columns used
+  /// Mapping that gives the column. Null if the header has a column of this name, or if find_time()
+  /// found the time.
+  const ColumnMapping* mapping = nullptr;
   std::optional<ColumnExpression> expression{};  ///< none: column * scale + offset
   double scale = 1.0;
   double offset = 0.0;
-  std::optional<TimeColumn> time = {};  ///< set for t_s from find_time() or from dates
+  std::optional<TimeColumn> time = {};  ///< only for t_s: how its cells give the time
 };
 
 /// A fault of the header.
@@ -37,13 +39,13 @@ struct ColumnSources {
   std::vector<HeaderFault> faults = {};
 };
 
-/// Finds the source of each requested column. A mapping applies if the header has its columns.
-/// Priority: mappings for this file, mappings for every file, mappings of vehicle.json, then the
-/// column of the requested name. If t_s is neither present nor mapped, find_time() looks for it.
-/// `samples`: the cells of the first row, by which dates are recognised. `file`: path of the table.
-/// Faults: a missing required column; two mappings of one column; a formula for which the header
-/// lacks some of its columns; a name that occurs twice in the header; several candidates for the
-/// time.
+/// Finds the source of each requested column. A mapping can be used if the header has all columns
+/// that the mapping names. Of several sources, the first in this order is used: a mapping for this
+/// file; a mapping for every file; a mapping in vehicle.json; the column of the requested name. If
+/// the time t_s has no source, find_time() looks for one. `samples`: cells of the first row, in
+/// which dates are recognised. `file`: path of the table. Faults: a missing required column; two
+/// mappings of one column; a formula for which the header lacks some of its columns; a name that
+/// occurs twice in the header; several columns that may be the time.
 ColumnSources find_columns(std::span<const std::string> header,
                            std::span<const std::string> samples, std::span<const CsvColumn> columns,
                            std::span<const ColumnMapping> mappings, const std::string& file);
@@ -56,8 +58,8 @@ std::vector<std::string> missing_columns(const ColumnMapping& mapping,
 /// True if the mapping is for every file, or names this file by its path or name.
 bool is_for(const ColumnMapping& mapping, const std::string& file);
 
-/// Column names that distinguish a header from other lines: the names of these columns, and the
-/// names in the mappings.
+/// Column names by which a header is recognised: the names of the requested columns, and all names
+/// in the mappings.
 std::set<std::string> wanted_names(std::span<const CsvColumn> columns,
                                    std::span<const ColumnMapping> mappings);
 

@@ -20,15 +20,15 @@
 namespace awmr {
 namespace {
 
-/// A column of the file that at least one requested column uses.
+/// A column of the file from which at least one requested column is computed.
 struct UsedColumn {
   std::size_t index;         ///< index in the header
   std::string name;          ///< name in messages
-  bool may_be_empty = true;  ///< every requested column that uses it permits empty cells
+  bool may_be_empty = true;  ///< true: all requested columns computed from it permit empty cells
   bool is_date = false;      ///< its cells are dates of ISO 8601
 };
 
-/// The columns of the file that the requested columns use, each once.
+/// The columns of the file from which the requested columns are computed, each once.
 std::vector<UsedColumn> used_columns(const ColumnSources& sources, const CsvHeader& header) {
   std::vector<UsedColumn> used;
   for (const ColumnSource& source : sources.found) {
@@ -111,7 +111,7 @@ Result<CsvTable> CsvParser::parse(std::span<const CsvColumn> columns,
   return table_of(std::move(raw_), std::move(sources), mappings, std::move(faults_));
 }
 
-/// Reserves memory. Estimates the number of rows from the length of the first row.
+/// Reserves memory for all rows. Their number is estimated from the length of the first row.
 void CsvParser::reserve() {
   std::size_t row_bytes = 1;
   for (const std::string& sample : header_.samples) row_bytes += sample.size() + 1;
@@ -121,8 +121,8 @@ void CsvParser::reserve() {
   }
 }
 
-/// Reads the next record into `cells_`. False at the end of the text and after an unterminated
-/// quote. After any other fault in the record, `cells_` is empty.
+/// Reads the next record (row) into `cells_`. Returns false at the end of the text, and after a
+/// quote that is not closed. After any other fault, returns true with `cells_` empty.
 bool CsvParser::scan() {
   const CsvScanner::Outcome outcome = scanner_.next(cells_);
   if (outcome == CsvScanner::Outcome::kRecord) return true;
@@ -157,8 +157,8 @@ bool CsvParser::read_row() {
   return true;
 }
 
-/// True if decimal commas probably split the cells of this row: the delimiter is a comma, the row
-/// has more cells than the header, and all cells are whole numbers.
+/// True if decimal commas probably made too many cells in this row: the delimiter is a comma, the
+/// row has more cells than the header, and all its cells are whole numbers.
 bool CsvParser::has_decimal_commas() const {
   if (header_.delimiter != ',' || cells_.size() <= header_.names.size()) return false;
   const auto is_whole = [](const CsvCell& cell) {
@@ -177,15 +177,16 @@ void CsvParser::report_ragged() {
                                     header_.names.size());
   if (has_decimal_commas()) {
     message +=
-        ": these look like decimal commas; write numbers with a point, or separate the cells "
-        "by semicolons";
+        ": these commas look like decimal commas; write numbers with a point, or separate the "
+        "cells by semicolons";
   } else if (cells_.size() < header_.names.size() && cells_.back().text.end() == text_.end()) {
     message += "; the file ends inside this row: delete it";
   }
   fault(ErrorCode::kBrokenFile, cell.line, cell.character, std::move(message));
 }
 
-/// Value of a cell; kEmptyCell for a permitted empty cell, kFaultyCell after a fault.
+/// Value of a cell. Returns kEmptyCell for an empty cell that is permitted, and kFaultyCell after a
+/// fault (both in raw_table.h).
 double CsvParser::value_of(const CsvCell& cell, const UsedColumn& used) {
   if (used.may_be_empty && cell.text.empty()) return kEmptyCell;
   if (used.is_date) {
@@ -209,7 +210,8 @@ double CsvParser::value_of(const CsvCell& cell, const UsedColumn& used) {
   return kFaultyCell;
 }
 
-/// Adds a fault if decimal commas are ambiguous or mixed with decimal points.
+/// Adds a fault if the commas in the file's numbers can be decimal commas or thousands separators,
+/// or if other numbers have a decimal point.
 void CsvParser::check_commas() {
   if (const auto wrong = fault_of(commas_)) {
     fault(ErrorCode::kAmbiguous, commas_.comma->line, commas_.comma->character, *wrong);

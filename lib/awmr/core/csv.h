@@ -46,9 +46,9 @@ class CsvTable {
  public:
   struct Column {
     std::vector<double> values;
-    std::vector<int> character;      ///< by row: position of the cell in its line, in characters
-                                     ///< from 1; empty: unknown
-    std::vector<bool> present = {};  ///< by row: the file has a value; empty: in all rows
+    /// By row: position of the cell in its line, in characters from 1; empty: unknown.
+    std::vector<int> character;
+    std::vector<bool> present = {};  ///< by row: true if the file has a value; empty: in all rows
   };
   /// Content of a table.
   struct Parts {
@@ -71,18 +71,20 @@ class CsvTable {
   /// As column(), but moves the values out of the table: its column is empty afterwards.
   /// Precondition: has(column).
   std::vector<double> take(std::string_view column);
-  /// By row: true if the file has the value. False: the value is a copy of the previous one in the
-  /// file (before the first one, of the first). Empty: the file has all values. Precondition:
-  /// has(column).
+  /// By row: true if the file has a value. In the other rows, the table repeats the previous value;
+  /// before the first value, it repeats the first one. Empty: the file has a value in every row.
+  /// Precondition: has(column).
   const std::vector<bool>& present(std::string_view column) const;
   /// Line in the file, from 1.
   int line(std::size_t row) const { return parts_.lines[row]; }
-  /// `FILE:LINE:COLUMN` of a cell; `FILE:LINE:1` if the column is absent or its position unknown.
+  /// Place of a cell, `FILE:LINE:COLUMN`, where COLUMN counts characters. `FILE:LINE:1` if the
+  /// table lacks the column or its position is unknown.
   std::string place(std::size_t row, std::string_view column) const;
   /// `FILE:LINE:1` of the header.
   std::string header_place() const;
   const std::vector<CsvNote>& notes() const { return parts_.notes; }
-  /// Clock time of the first row, s, which was subtracted from t_s; 0 if nothing was subtracted.
+  /// Clock time of the first row, s, which was subtracted from the times t_s. 0 if the file has no
+  /// clock time.
   double clock_s() const { return parts_.clock_s; }
   /// Indices of the mappings that were used, in the list of mappings given to the reader.
   const std::vector<std::size_t>& mapped() const { return parts_.mapped; }
@@ -91,11 +93,13 @@ class CsvTable {
   Parts parts_;
 };
 
-/// Reads the requested columns. A file has signals of different rates if at least a quarter of the
-/// cells of a kHeld or kAbsent column are empty. In such a file:
-///   - Empty cells of kHeld and kAbsent columns have the meaning in EmptyCells.
-///   - Rows are dropped if all their kHeld, kAbsent and kOptional cells are empty, or if a command
-///     (kHeld) has not had its first value yet.
+/// Reads the requested columns. A log can have signals of different rates in one table, so that
+/// many cells are empty. A file counts as such a log if at least a quarter of the cells of a
+/// command (kHeld) or a measurement (kAbsent) are empty. In such a log:
+///   - An empty cell of a command repeats the previous value. An empty cell of a measurement means
+///     that nothing was measured in this row.
+///   - Rows are dropped if all their kHeld, kAbsent and kOptional cells are empty. The first rows
+///     are dropped until every command has had a value.
 /// In other files, empty cells are faults, except in kOptional columns. All faults of the file are
 /// reported at once: a missing required column; a duplicate column; no rows; a row with another
 /// number of cells than the header; a cell that is empty, not a number, NaN or infinite; an

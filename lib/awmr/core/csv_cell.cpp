@@ -70,8 +70,8 @@ bool is_clock_time(std::string_view text) {
 /// The Unicode minus sign U+2212, which some programs write in place of '-'.
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";
 
-/// Message for a text that is not a number. `read`: length of the part at its beginning that is a
-/// number.
+/// Message for a text that is not a number. `read`: length, in bytes, of the number at its
+/// beginning, as in `12 km`; 0 if there is none.
 std::string why_not_a_number(std::string_view text, std::size_t read) {
   const std::size_t sign = text.find_first_not_of("+-");
   const std::string word = sign == std::string_view::npos ? "" : lower(text.substr(sign));
@@ -94,7 +94,7 @@ std::string why_not_a_number(std::string_view text, std::size_t read) {
     return fmt::format("{} with a decimal comma; write {} with a point", found, point);
   }
   if (read > 0 && read < text.size() && !is_digit(text[read])) {
-    return found + "; write only the number, and its unit in the column's name";
+    return found + "; write only the number in the cell, and its unit in the column's name";
   }
   return found;
 }

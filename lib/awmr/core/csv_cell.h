@@ -21,9 +21,9 @@ inline std::string_view trimmed(std::string_view text) {
 /// number out of range, any other text.
 tl::expected<double, std::string> number_from_text(std::string_view text);
 
-/// Returns text as a CSV cell, quoted if necessary. A text that a spreadsheet would run as a
-/// formula (it begins with = + - @, a tab or a carriage return) gets a leading apostrophe. So does
-/// a text that begins with an apostrophe.
+/// Returns text as a CSV cell, quoted if necessary. A text that begins with = + - @, a tab or a
+/// carriage return gets a leading apostrophe, because a spreadsheet would run it as a formula. So
+/// does a text that begins with an apostrophe, so that reading can always remove one.
 std::string cell_of_text(std::string_view text);
 
 /// Removes the first record (row) from `csv` and returns its cells as text, without the quotation

@@ -17,7 +17,7 @@ namespace {
 
 using Outcome = CsvScanner::Outcome;
 
-/// Text of a cell in which each pair of doubled quotes is replaced by one quote.
+/// Text of a cell. In a quoted cell, each pair of quotes is replaced by one quote.
 std::string name_of(const CsvCell& cell) {
   std::string name;
   for (std::size_t i = 0; i < cell.text.size(); ++i) {
@@ -32,8 +32,9 @@ struct Delimiter {
   int found = 0;  ///< number of requested columns among the cells of the header
 };
 
-/// Returns the delimiter that splits the scanner's next line into cells with the most requested
-/// columns. Of several such delimiters, returns the one that makes the most cells.
+/// Finds the delimiter of the scanner's next line: the character that splits the line into cells
+/// with the most names of requested columns. If several characters find equally many names, the one
+/// that makes the most cells is returned.
 Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& wanted) {
   int best = 0;
   Delimiter chosen;
@@ -113,8 +114,8 @@ bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, Cs
   return false;
 }
 
-/// True for a line that is not part of the table: the line with which PuTTY begins a new log, or
-/// Excel's `sep=;`.
+/// True for a line that a program adds above a table: PuTTY's first line of a log, or Excel's
+/// `sep=;`.
 bool is_mark(std::string_view line) {
   std::string_view text = trimmed(line);
   if (text.starts_with("=~=~=")) return true;
@@ -130,9 +131,9 @@ bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
                      [&](const CsvCell& cell) { return is_number(cell, delimiter != ','); });
 }
 
-/// True if the scanner's next line is a header: at least two of its cells are requested columns; or
-/// it has at least two cells, none of them a number, and the row below has as many cells, at least
-/// one of them a number.
+/// True if the scanner's next line is a header. It is one if at least two of its cells are names of
+/// requested columns. It is also one if it has at least two cells and no number, and the row below
+/// it has as many cells and at least one number.
 bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   const std::vector<CsvCell> names = scanner.peek_cells(chosen.character);
   if (chosen.found >= 2) return true;
@@ -151,7 +152,8 @@ void skip_marks(CsvScanner& scanner, CsvHeader& header) {
 }
 
 /// Skips up to 20 lines of titles above the header. Titles have fewer cells than the header. If the
-/// first line has a requested column or a number, there are no titles.
+/// first line contains the name of a requested column or a number, it is not a title, and nothing
+/// is skipped.
 void skip_titles(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   constexpr int kMaxTitleLines = 20;
   CsvScanner ahead = scanner;

@@ -12,7 +12,7 @@ namespace awmr {
 
 struct CsvHeader {
   std::vector<CsvCell> cells = {};        ///< the cells of the header, as in the text
-  std::vector<std::string> names = {};    ///< column names: without the doubling of quotes
+  std::vector<std::string> names = {};    ///< column names, with doubled quotes reduced to one
   std::vector<std::string> samples = {};  ///< the cells of the first row
   int line = 1;
   char delimiter = ',';
@@ -23,20 +23,21 @@ struct CsvHeader {
   bool is_positional = false;
 };
 
-/// Finds the header and moves `scanner` to the first row. The names in `columns` and `mappings`
-/// distinguish the header from titles above it. Precondition: `scanner` is at the first byte of the
-/// text. `file` names the text in errors. Errors: no header; an unterminated quote, or text after a
-/// closing quote; numbers instead of names; JSON or HTML; cells separated by spaces; names that are
-/// not UTF-8.
+/// Finds the header and moves `scanner` to the first row. The header is recognised by the names in
+/// `columns` and `mappings`; lines of titles above it are skipped. Precondition: `scanner` is at
+/// the first byte of the text. `file` names the text in errors. Errors: no header; an unterminated
+/// quote, or text after a closing quote; numbers instead of names; JSON or HTML; cells separated by
+/// spaces; names that are not UTF-8.
 Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
                               std::span<const CsvColumn> columns,
                               std::span<const ColumnMapping> mappings);
 
-/// Returns the note `csv-format` if the format is unusual (other than cells between commas,
-/// semicolons or tabs below a header in the first line); else none.
+/// Returns a note to the user (`csv-format`) if the format of the file is unusual; else none. Usual
+/// is a header in the first line, cells between commas, semicolons or tabs, and decimal points.
 std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_commas);
 
-/// Text of a scanner's fault: an unterminated quote, or text after a closing quote.
+/// Message for a fault of the CSV scanner: a quote that is not closed, or text after a closing
+/// quote.
 std::string message_of(CsvScanner::Outcome outcome);
 
 }  // namespace awmr

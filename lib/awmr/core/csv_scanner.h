@@ -33,13 +33,14 @@ class CsvScanner {
   int line() const { return line_; }
   /// The last comment that was skipped, without its '#'.
   std::string_view comment() const { return comment_; }
-  /// Line of that comment; 0: no comment was skipped.
+  /// Line of the comment that comment() returns; 0: no comment was skipped.
   int comment_line() const { return comment_line_; }
 
   /// Reads the next record. On a fault (an outcome other than kRecord and kEnd), the last cell is
   /// the faulty one.
   Outcome next(std::vector<CsvCell>& cells);
-  /// Cells of the next record with another delimiter, up to the first fault. Consumes nothing.
+  /// Cells of the next record, split by another delimiter, up to the first fault. The record is not
+  /// consumed: next() reads it again.
   std::vector<CsvCell> peek_cells(char delimiter) const;
 
   /// Skips the rest of the current line, for example after a fault.

@@ -22,8 +22,9 @@ struct CsvHead {
   char delimiter = ',';
 };
 
-/// Reads the header and up to `most_rows` rows as text. The names in `columns` and `mappings`
-/// distinguish the header from titles above it. Errors: those of find_header() (csv_header.h).
+/// Reads the header and up to `most_rows` rows as text. The header is recognised by the names in
+/// `columns` and `mappings`; lines of titles above it are skipped. Errors: those of find_header()
+/// (csv_header.h).
 Result<CsvHead> csv_head(std::string_view bytes, const std::string& file,
                          std::span<const CsvColumn> columns,
                          std::span<const ColumnMapping> mappings, std::size_t most_rows);

@@ -14,8 +14,8 @@ namespace awmr {
 struct DecimalCommas {
   std::optional<CsvCell> comma = {};  ///< the first number with a comma
   std::optional<CsvCell> point = {};  ///< the first number with a point
-  bool unmistakable = false;          ///< true: at least one comma cannot be a thousands separator,
-                                      ///< so commas are decimal
+  /// True if at least one comma cannot be a thousands separator, so that all commas are decimal.
+  bool unmistakable = false;
 };
 
 /// Parses a cell such as `-1,25` or `1,25e3` and records its comma in `seen`. Empty for other text.
@@ -24,8 +24,8 @@ std::optional<double> number_with_comma(const CsvCell& cell, DecimalCommas& seen
 /// Records in `seen` that the number in this cell has a decimal point. No effect if it has none.
 void note_point(const CsvCell& cell, DecimalCommas& seen);
 
-/// Text of the fault of a file with commas that also has decimal points, or whose commas may all be
-/// thousands separators. Empty if there is no fault.
+/// Message for a file whose numbers have commas. It is a fault if other numbers have a decimal
+/// point, or if each comma may be a thousands separator. Empty if there is no fault.
 std::optional<std::string> fault_of(const DecimalCommas& seen);
 
 }  // namespace awmr

@@ -54,7 +54,7 @@ std::vector<std::size_t> rows_within(std::span<const double> t,
     open.pop_back();
     const Farthest far = farthest_row(t, signals, ranges, first, last);
     if (far.distance > tolerance) {
-      open.emplace_back(far.row, last);  // the earlier half is on top, so rows stay in order
+      open.emplace_back(far.row, last);  // the earlier half is pushed last, to be handled first
       open.emplace_back(first, far.row);
     } else {
       rows.push_back(last);

@@ -15,7 +15,8 @@ constexpr std::size_t kMaxFaultsShown = 20;
 /// Maximum number of faults with the same cause that are listed one by one.
 constexpr std::size_t kMaxAlike = 3;
 
-/// The place without its line and column, or without the indices of its JSON pointer.
+/// Place of a fault without numbers: without its line and column, or without the array indices in
+/// its JSON pointer.
 std::string file_and_keys(const std::string& place) {
   std::string text = place;
   const std::size_t pointer = place.find(":/");

@@ -44,7 +44,7 @@ enum class ErrorCode {
   kNotRecovered,
   kCompassUnusable,
   kNoAnswer,
-  // Omitted faults, and internal errors of the program.
+  // Faults left out of a long list, and internal errors of the program.
   kMoreFaults,
   kInternal,
 };

@@ -39,7 +39,8 @@ bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
   return true;
 }
 
-/// Checks an output before it is written. Errors (fault): `read_back` rejects the bytes.
+/// Checks an output with `read_back` before it is written. If `read_back` rejects the bytes, the
+/// program has written a wrong file, so the error is of kind kFault.
 Status check_read_back(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
   if (!read_back) return {};
   const Status read = read_back(bytes, path.string());

@@ -22,16 +22,16 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::size_t max_bytes = kMaxFileBytes);
 
-/// Check of an output before it is written. It parses the bytes in the same way as the commands
-/// that later read the file. `file`: name of the file in errors.
+/// Function that checks an output before it is written. It parses the bytes in the same way as the
+/// commands that later read the file. `file`: name of the file in errors.
 using ReadBack = std::function<Status(std::string_view bytes, const std::string& file)>;
 
 /// Writes a file. Writes a temporary file next to `path`, flushes it and renames it to `path`, so
 /// that another program reads either the whole old file or the whole new one. Pipes and terminals
-/// are written directly. A symbolic link is kept, and its target written, even if the target is
+/// are written directly. A symbolic link is kept, and its target is written, even if the target is
 /// missing. The directory must exist. Also removes temporary files (`.awmr-PID-XXXXXX`) that killed
-/// programs left in this directory. Errors: those of check_output(); the disk is full; (fault)
-/// `read_back` rejects the bytes, and the old file is kept.
+/// programs left in this directory. Errors: those of check_output(); the disk is full; `read_back`
+/// rejects the bytes, which is an internal error and leaves the old file unchanged.
 Status write_file(const std::filesystem::path& path, std::string_view bytes,
                   const ReadBack& read_back = {});
 
@@ -69,7 +69,7 @@ Result<bool> directory_exists(const std::filesystem::path& path);
 /// True if a regular file has this name. Errors (input): as path_exists(); a pipe, a device or a
 /// directory has this name.
 Result<bool> regular_file_exists(const std::filesystem::path& path);
-/// As regular_file_exists(), but a missing file is not an error.
+/// Checks that `path` is a regular file or does not exist. Errors: those of regular_file_exists().
 Status check_regular_file(const std::filesystem::path& path);
 /// Checks that files can be made in the directory `path`, or that this directory can be made if it
 /// is missing. Errors (input): as path_exists(); the directory, or its nearest existing parent, is

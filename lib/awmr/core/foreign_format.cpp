@@ -26,7 +26,8 @@ constexpr std::array<KnownFile, 5> kKnownFiles{
      {"%PDF-", "a PDF; export the table as CSV"},
      {"\x89MCAP", "an MCAP bag; convert it to sqlite3 with ros2 bag convert"}}};
 
-/// The text format that begins with this line: JSON, HTML or XML. Empty if it may be a CSV header.
+/// Name of the text format (JSON, HTML or XML) if its files begin with a line such as this one.
+/// Empty if the line may be the header of a CSV file.
 std::string_view format_of(std::string_view line) {
   const std::string_view text = trimmed(line);
   const std::string_view next = trimmed(text.substr(std::min<std::size_t>(1, text.size())));
@@ -50,8 +51,9 @@ std::vector<std::string_view> words_in(std::string_view line) {
   return words;
 }
 
-/// True if the scanner's next line is a header whose names are separated by spaces: a word in it is
-/// a requested column, or the line below has as many words and all of them are numbers.
+/// True if the scanner's next line is a header whose names are separated by spaces. Either one of
+/// its words is the name of a requested column, or the line below has as many words, all of them
+/// numbers.
 bool is_between_spaces(CsvScanner scanner, const std::set<std::string>& wanted) {
   const std::vector<std::string_view> words = words_in(scanner.peek_line());
   if (words.size() < 2) return false;

@@ -10,7 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Hash of the bytes that were last read from each file, by the path that the user gave.
+/// Hashes of the input files, by the path that the user gave. The hash of a file is that of the
+/// bytes that were last read from it.
 class Notes {
  public:
   void put(const std::string& path, std::string sha256) {

@@ -37,8 +37,8 @@ class JsonShape;
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
-  /// A view without a document, for json_schema_text(): records the requested keys in `shape` and
-  /// returns neutral values.
+  /// A view without a document, with which json_schema_text() finds the keys that a reader
+  /// requests. Records the requested keys in `shape` and returns neutral values.
   JsonObject(JsonShape& shape, std::vector<Fault>& ignored) : faults_(&ignored), shape_(&shape) {}
 
   /// True if the object has the key, even with the value null. Marks the key as known.
@@ -55,14 +55,14 @@ class JsonObject {
   std::optional<std::string> optional_string(std::string_view key);
   /// A whole number from 0 to 2^64 - 1; 0 on a fault.
   std::uint64_t seed(std::string_view key);
-  /// The value as text: a number in the range of the rule, or a string. Empty if absent or on a
-  /// fault.
+  /// The value as text if it is a string, or a number in the range of `rule`. Empty if the key is
+  /// missing or on a fault.
   std::optional<std::string> optional_number_or_string(std::string_view key, NumberRule rule);
   /// A string that is one of `choices`. Returns its index in `choices`. On a fault, returns 0, and
   /// the fault suggests the nearest choice.
   std::size_t choice(std::string_view key, std::span<const std::string> choices);
-  /// A string that is a name in the table. Returns the value of this name; on a fault, the first
-  /// value of the table.
+  /// Reads a string that is a name in `table` and returns the value of this name. On a fault,
+  /// returns the first value of the table.
   template <class T, std::size_t N>
   T choice(std::string_view key, const NameTable<T, N>& table) {
     return table[choice(key, std::span<const std::string>(names_in(table)))].value;
@@ -114,8 +114,8 @@ class JsonObject {
 
 /// Returns a JSON Schema (draft 2020-12) that accepts every document that `read` accepts. The
 /// schema is derived by running `read` for every value of every choice(), with and without optional
-/// keys. It has rules between keys only where a key depends on the value of a choice. `format`:
-/// value of the key `$id`.
+/// keys. If the value of a choice decides which other keys are allowed, the schema has a rule for
+/// it. It has no rules for other relations between keys. `format`: value of the key `$id`.
 std::string json_schema_text(std::string_view format, std::string_view title,
                              const std::function<void(JsonObject&)>& read);
 

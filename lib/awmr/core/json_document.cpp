@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// `FILE:LINE:COLUMN` of the byte at `offset`, the column in characters.
+/// Place of the byte at `offset` for messages, `FILE:LINE:COLUMN`. COLUMN counts characters.
 std::string place_of(const std::string& file, std::string_view text, std::size_t offset) {
   std::string_view before = text.substr(0, std::min(offset, text.size()));
   const auto lines = std::count(before.begin(), before.end(), '\n');
@@ -111,7 +111,8 @@ bool DocumentBuilder::add(Json value) {
   } else if (Level& level = levels_.back(); level.value.is_array()) {
     level.value.push_back(std::move(value));
   } else {
-    // An ordered object is a vector of pairs. key() has already checked for duplicates.
+    // Json stores an object as a list of pairs in their order. Appending a pair cannot duplicate a
+    // key, because key() checks that first.
     std::vector<Json::object_t::value_type>& members = level.value.get_ref<Json::object_t&>();
     members.emplace_back(std::move(level.key), std::move(value));
   }

@@ -20,12 +20,13 @@ inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< number of values 
 /// errors. Errors: a limit is exceeded; a syntax error; a number out of range; a duplicate key.
 Result<Json> read_json_text(std::string_view text, const std::string& file);
 
-/// ReadBack (file.h) for JSON files whose keys no reader checks: checks only that the text can be
-/// parsed. Errors: those of read_json_text().
+/// Checks only that a text is JSON, before it is written as a file whose keys no command reads (a
+/// ReadBack, file.h). Errors: those of read_json_text().
 Status check_json_text(std::string_view text, const std::string& file);
 
-/// Checks a JSON text with `read(JsonObject&)`, the function that reads such files, for a ReadBack
-/// (file.h). Errors: those of read_json_text(); all faults that `read` finds.
+/// Checks a JSON text before it is written (a ReadBack, file.h), with the function
+/// `read(JsonObject&)` that later reads the file. Errors: those of read_json_text(); all faults
+/// that `read` finds.
 template <class Read>
 Status check_json_object(std::string_view text, const std::string& file, const Read& read) {
   AWMR_ASSIGN_OR_RETURN(const Json document, read_json_text(text, file));

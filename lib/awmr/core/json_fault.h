@@ -8,9 +8,11 @@
 
 namespace awmr {
 
-/// Type and value as text: "number 3"; values longer than 40 bytes are shortened.
+/// Type and value of a JSON value for messages, such as "number 3". Values longer than 40 bytes are
+/// shortened.
 std::string describe(const Json& value);
-/// Code for a value that is not the expected number: kOutOfRange for a number, else kWrongType.
+/// Error code for a value that is not a number in the permitted range: kOutOfRange if it is a
+/// number, else kWrongType.
 ErrorCode number_error(const Json& value);
 /// Adds a fault at the JSON pointer `pointer` of the file, unless there are kMaxFaults already.
 void add_fault(ErrorCode code, std::vector<Fault>& faults, const std::string& file,

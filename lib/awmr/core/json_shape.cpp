@@ -6,10 +6,11 @@
 namespace awmr {
 namespace {
 
-/// Key that stands for all keys of an object with arbitrary keys.
+/// Key under which a JsonShape records an object whose keys are arbitrary.
 constexpr std::string_view kAnyKey = "*";
 
-/// True if the run `way` selected the names `picks` of the choices (as in Way::picks).
+/// True if, in the run `way` of the reader, each choice in `picks` had the name with the given
+/// index. A choice that is not in Way::picks had its first name.
 bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   return std::all_of(picks.begin(), picks.end(), [&](const auto& pick) {
     const auto taken = way.picks.find(pick.first);
@@ -17,7 +18,8 @@ bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   });
 }
 
-/// Schema that forbids each of `keys` that is not in `allowed`; an empty object if it forbids none.
+/// JSON Schema that forbids those of `keys` that are not in `allowed`; an empty object if it
+/// forbids none.
 Json forbidding(const std::set<std::string>& keys, const std::set<std::string>& allowed) {
   Json rule = Json::object();
   for (const std::string& key : keys) {
@@ -81,8 +83,8 @@ void JsonShape::requested(std::string_view key, bool required) {
   property(key);
   RequestedKeys& requested = now();
   requested.keys.emplace(key);
-  // A key is optional if its first request was not `required`, for example if has() asks for it
-  // before it is read.
+  // A key is optional if its first request was not `required`, for example if the reader asks has()
+  // before it reads the key.
   if (!required && !requested.required.contains(std::string(key))) requested.optional.emplace(key);
   if (required && !requested.optional.contains(std::string(key))) requested.required.emplace(key);
 }
@@ -131,8 +133,8 @@ Json JsonShape::property_schema(const Property& property) const {
   return kinds.size() == 1 ? kinds.front() : Json{{"anyOf", kinds}};
 }
 
-/// Keys requested in all runs that differ from each other only in the name of the choice under
-/// `key`.
+/// Collects the keys that the reader requested in the runs that differ only in the name of the
+/// choice `key`. All other choices have the same names in these runs.
 JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   const std::string place = place_ + "/" + key;
   Keys keys;
@@ -148,8 +150,9 @@ JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   return keys;
 }
 
-/// Schema rule for one name of the choice under `key`. If the document has this name, the rule
-/// requires the keys of this name and forbids keys that only other names have.
+/// Rule of the JSON Schema for the documents in which the choice `key` has the value `name`. It
+/// requires the keys that always occur with this name, and forbids keys that occur only with other
+/// names.
 Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& name) const {
   const std::string place = place_ + "/" + key;
   const auto& on = exploration_->met.at(place).on;
@@ -162,15 +165,15 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
   for (const RequestedKeys& one : ways_) {
     if (!takes(one.way, at_least)) continue;
     if (!one.way.present && one.optional.contains(key)) {
-      // The choice is absent in this run. Keys that the reader requests only if the optional keys
-      // are absent are allowed with every name.
+      // In this run, the optional keys are absent, and the choice is one of them. Keys that the
+      // reader requests only in such runs are allowed with every name of the choice.
       for (const std::string& other : one.keys) {
         if (!keys.present.contains(other)) allowed.insert(other);
       }
       continue;
     }
     allowed.insert(one.keys.begin(), one.keys.end());
-    // Requires only the keys that the reader requires in every run with this name.
+    // A key is required if the reader requires it in every run with this name.
     if (std::exchange(first, false)) required = one.required;
     std::erase_if(required, [&](const std::string& k) { return !one.required.contains(k); });
   }
@@ -180,7 +183,8 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
           {"then", then}};
 }
 
-/// Schema that accepts a document in which the choices of this object have the names `picks`.
+/// JSON Schema that accepts a document if the choices of this object have the given names. `picks`:
+/// the index of the name of each choice, by JSON pointer.
 Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const {
   Json rule = Json::object();
   for (const auto& [key, property] : properties_) {
@@ -192,8 +196,9 @@ Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const 
   return rule;
 }
 
-/// Schema rule for a document that omits the optional choice under `key`: requires the keys of the
-/// default name, and forbids keys that only other names have. Empty if the choice is not optional.
+/// Rule of the JSON Schema for documents without the optional choice `key`. The choice then has its
+/// default name: the rule requires the keys of this name, and forbids keys that occur only with
+/// other names. Empty if the choice is not optional.
 Json JsonShape::variant_without(const std::string& key) const {
   const auto& on = exploration_->met.at(place_ + "/" + key).on;
   const RequestedKeys* absent = nullptr;
@@ -207,8 +212,8 @@ Json JsonShape::variant_without(const std::string& key) const {
   const Keys keys = with_any_name(key);
   Json then = forbidding(keys.all, allowed);
   std::set<std::string> required = absent->required;
-  // Drops keys that are required only in runs without the optional keys, because they do not depend
-  // on this choice.
+  // Drops keys that the reader requires only in runs without optional keys. They do not depend on
+  // this choice.
   std::erase_if(required, [&](const std::string& k) { return !keys.required.contains(k); });
   then["required"] = required;
   Json where = names_of(on);
@@ -216,7 +221,8 @@ Json JsonShape::variant_without(const std::string& key) const {
   return {{"if", where}, {"then", then}};
 }
 
-/// Adds the rules of variant() and variant_without() for each choice that decides which keys exist.
+/// Adds the rules of variant() and variant_without() to the schema, for each choice whose value
+/// decides which other keys are allowed.
 void JsonShape::add_variants(Json& schema) const {
   for (const auto& [key, property] : properties_) {
     const auto met = exploration_->met.find(place_ + "/" + key);

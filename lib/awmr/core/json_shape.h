@@ -21,19 +21,20 @@ namespace awmr {
 /// Settings of one run of the reader: the kind of document that the run assumes.
 struct Way {
   bool present = true;  ///< true: all optional keys are present; false: none is
-  /// Index of the name that each JsonObject::choice() returns, by the choice's JSON pointer. A
-  /// choice without an entry returns its first name.
+  /// For each choice, by its JSON pointer: the index of the name that JsonObject::choice() returns
+  /// in this run. A choice without an entry gets its first name.
   std::map<std::string, std::size_t> picks = {};
 };
 
 /// A choice that the reader requested.
 struct MetChoice {
-  std::size_t count = 0;                       ///< number of its names
-  std::map<std::string, std::size_t> on = {};  ///< Way::picks of the run in which the reader first
-                                               ///< requested it
+  std::size_t count = 0;  ///< number of its names
+  /// Names of the other choices, as in Way::picks, in the run in which the reader first requested
+  /// this choice.
+  std::map<std::string, std::size_t> on = {};
 };
 
-/// State of the exploration, shared by the JsonShapes of one schema.
+/// State of the search for all keys of a schema, shared by the JsonShapes of its objects.
 struct Exploration {
   Way way = {};                               ///< settings of the current run of the reader
   std::map<std::string, MetChoice> met = {};  ///< choices requested so far, by JSON pointer
@@ -72,8 +73,8 @@ class JsonShape {
   /// Keys requested in several runs.
   struct Keys {
     std::set<std::string> all;
-    std::set<std::string> present;   ///< keys requested in the runs in which optional keys are
-                                     ///< present
+    /// Keys requested in the runs with optional keys.
+    std::set<std::string> present;
     std::set<std::string> required;  ///< keys that are required in at least one run
   };
   Property& property(std::string_view key);
@@ -93,7 +94,7 @@ class JsonShape {
   bool closed_ = false;
 };
 
-// Schemas of numbers, whole numbers, arrays, intervals and nullable values.
+// JSON Schemas of numbers, whole numbers, arrays, intervals and nullable values.
 Json schema_of(const NumberRule& rule);
 Json schema_of(long min, long max);
 Json array_schema(Json items);

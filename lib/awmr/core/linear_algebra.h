@@ -35,7 +35,7 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
 /// Singular values, descending.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& a);
 
-/// Decomposition J Pi = Q R with column pivoting. J: n x p.
+/// Decomposition J Pi = Q R with column pivoting (the permutation Pi). J: n x p.
 class PivotedQr {
  public:
   explicit PivotedQr(const Eigen::MatrixXd& j);
@@ -43,11 +43,11 @@ class PivotedQr {
   /// The least-squares solution of J X = B. B: n x k.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  /// Leverages of the n rows: the diagonal of Q Q^T, with the first p columns of Q.
+  /// Leverages of the n rows of J: the diagonal of Q Q^T, where Q has only its first p columns.
   Eigen::VectorXd leverages() const;
   Eigen::MatrixXd r() const;            ///< R: p x p, upper triangle
   Eigen::MatrixXd permutation() const;  ///< Pi: p x p
-  /// (J^T J)^-1 = Pi R^-1 R^-T Pi^T. Precondition: rank() == p.
+  /// The inverse of J^T J, computed as Pi R^-1 R^-T Pi^T. Precondition: rank() == p.
   Eigen::MatrixXd inverse_information() const;
   /// The same matrix as inverse_information(), computed from the pseudo-inverse J^+ as J^+ J^+T.
   /// Use it only for few rows n, because it needs an n x n matrix.

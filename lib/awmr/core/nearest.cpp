@@ -7,9 +7,9 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kLongestCompared = 100;  ///< bytes; limits the time of edit_distance()
+constexpr std::size_t kLongestCompared = 100;  ///< longest text compared, bytes: limits the time
 
-/// Levenshtein distance; keeps one row of the table.
+/// Levenshtein distance between two texts. Only one row of the table of distances is stored.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -9,7 +9,8 @@ namespace {
 constexpr std::string_view kOpen = "{option:";
 constexpr std::string_view kClose = "}";
 
-/// The option's name, with '-' for '_' if the prefix is "--", and its value unchanged.
+/// An option as the user writes it. With the prefix "--", '-' replaces '_' in its name; its value
+/// is unchanged.
 std::string spelt(std::string_view option, std::string_view prefix) {
   std::string text(option);
   if (prefix == "--") {

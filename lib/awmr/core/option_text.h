@@ -22,7 +22,8 @@ std::string option_text(std::string_view name);
 /// Replaces each marked name by `prefix` and the name. With the prefix "--", '_' becomes '-'.
 std::string spell_options(std::string_view message, std::string_view prefix);
 
-/// Replaces each marked option, that is, its name and value, by the result of `spelling` for it.
+/// Replaces each marked option in a message by the text that `spelling` returns for it. An option
+/// is a name, possibly followed by its value.
 std::string replace_options(std::string_view message,
                             const std::function<std::string(std::string_view option)>& spelling);
 
@@ -36,10 +37,10 @@ std::string plain_text(std::string_view message);
 /// left out.
 std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 
-/// One printable line, `PLACE: MESSAGE [CODE]`, with option names as by spell_options().
+/// One printable line, `PLACE: MESSAGE [CODE]`. Option names are spelt as by spell_options().
 std::string to_text(const Fault& fault, std::string_view prefix);
 
-/// As to_text(error) in result.h, with option names as by spell_options().
+/// As to_text(error) in result.h. Option names are spelt as by spell_options().
 std::string to_text(const Error& error, std::string_view prefix);
 
 }  // namespace awmr

@@ -12,7 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Keeps the exception of the item with the smallest index.
+/// Of the exceptions that the items of a loop throw, keeps that of the item with the smallest
+/// index. The result then does not depend on the order in which the threads run.
 class FirstException {
  public:
   void keep(std::size_t item, std::exception_ptr exception) {
@@ -89,7 +90,7 @@ class Helpers {
       (*loop.work)();
       lock.lock();
       --loop.running;
-      // A thread returns from a loop only if no item is left, so no other thread needs to join.
+      // A thread ends its work on a loop only if no item is left, so no other thread needs to join.
       std::erase(loops_, &loop);
       left_.notify_all();
     }
@@ -99,8 +100,9 @@ class Helpers {
   std::condition_variable offered_, left_;
   std::vector<Loop*> loops_;  ///< loops that need threads, the oldest first
   bool ended_ = false;
-  std::vector<std::jthread> threads_;  ///< last member: destroyed first, while the other members
-                                       ///< still exist
+  /// Must be the last member: it is destroyed first, while the members that its threads use still
+  /// exist.
+  std::vector<std::jthread> threads_;
 };
 
 Helpers& helpers() {

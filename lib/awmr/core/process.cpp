@@ -121,8 +121,8 @@ bool read_on(int file, std::string& output) {
   return count > 0;
 }
 
-/// Reads the output until the process has ended or its time limit is reached, and then kills its
-/// process group.
+/// Reads the output until the process has ended or its time limit is reached. Then kills its
+/// process group, to which the processes belong that it started.
 ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
   ProgramEnd end;
   const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);
@@ -132,7 +132,8 @@ ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
     pollfd waiting{.fd = readable ? file : -1, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kPoll_ms) > 0) readable = read_on(file, end.output);
     if (waiting.revents != 0 && readable && Clock::now() < deadline) continue;
-    // With WNOWAIT the process id is not reused before its group has been killed.
+    // WNOWAIT keeps the ended process in the process table. Its id therefore cannot be reused
+    // before its process group has been killed.
     const int waited =
         ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
     if (waited == 0 && ended.si_pid == process) break;

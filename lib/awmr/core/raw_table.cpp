@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// If a kHeld or kAbsent column has at least this fraction of empty cells, the table has signals of
-/// different rates. Otherwise an empty cell in such columns is a fault.
+/// A table has signals of different rates if at least this fraction of the cells of a command
+/// (kHeld) or a measurement (kAbsent) is empty. In other tables, such an empty cell is a fault.
 constexpr double kSparseShare = 0.25;
 
 bool is_empty(double value) { return std::isnan(value); }
@@ -25,7 +25,8 @@ std::size_t count_of_values(const RawColumn& column) {
       std::count_if(column.value.begin(), column.value.end(), has_value));
 }
 
-/// True for a column that may have empty cells if the signals of the table have different rates.
+/// True for a command (kHeld) or a measurement (kAbsent): its cells may be empty if the table has
+/// signals of different rates.
 bool has_own_rate(const ColumnSource& source) {
   return source.column.empty == EmptyCells::kHeld || source.column.empty == EmptyCells::kAbsent;
 }
@@ -89,8 +90,9 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
                          std::isnan(value) ? "not a number" : "infinite", at));
 }
 
-/// Index, among the formula's columns, of the column with the most values. The formula gets a value
-/// in each row in which this column has one. The other columns then contribute their latest values.
+/// Index, among the columns of a formula, of the column with the most values. In a table of signals
+/// with different rates, the formula is evaluated in the rows in which this column has a value. The
+/// other columns then contribute their latest values.
 std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   std::size_t best = 0;
   std::size_t most = 0;
@@ -104,8 +106,8 @@ std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   return best;
 }
 
-/// Fills each row without a value with the previous value, and rows before the first value with the
-/// first value.
+/// Replaces missing values by the previous value of the column, and before the first value by the
+/// first one.
 void hold(CsvTable::Column& column) {
   const auto first = std::find(column.present.begin(), column.present.end(), true);
   if (first == column.present.end()) return;
@@ -153,11 +155,11 @@ std::vector<double> storage_for(const ColumnSource& source, const std::vector<in
   return std::vector<double>(raw.lines.size());
 }
 
-/// Computes a requested column. `uses`: for each column of the file, the number of other requested
-/// columns that are still to be computed from it. `sparse`: the column may have empty cells.
+/// Computes a requested column. `uses`: for each column of the file, how many other requested
+/// columns must still be computed from it. `sparse`: the column may have empty cells.
 CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
                            RawTable& raw, FaultList& faults) {
-  // In a table with one row per run, a formula uses only the cells of its own row.
+  // In a table with one row per run (kOptional), a formula must not use cells of other runs.
   const bool keeps_previous = sparse && source.column.empty != EmptyCells::kOptional;
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
@@ -195,8 +197,8 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
   return column;
 }
 
-/// Completes a time that find_time() found, or that was read from dates. If the first time is a
-/// clock time (kClockTime_s) or a date, subtracts it from all times. Adds the note `time-column`.
+/// Completes a time column that find_time() found, or that has dates. If the first time is a date
+/// or a clock time (kClockTime_s), subtracts it from all times. Adds the note `time-column`.
 void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
   if (!source.time) return;
   std::vector<double>& t_s = parts.columns.at(source.column.name).values;
@@ -259,7 +261,8 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     parts.columns.emplace(source.column.name,
                           column_of(source, uses, may_be_empty(source), raw, list));
   }
-  // Columns that are used unchanged are moved out last, when no other column is computed from them.
+  // Columns that are used unchanged are moved out of `raw` last: until then, other columns are
+  // computed from them.
   for (const ColumnSource& source : sources.found) {
     if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
     RawColumn& column = raw.columns[source.indices.front()];

@@ -9,7 +9,7 @@ namespace awmr {
 /// The p quantile, linear between order statistics (type 7 of Hyndman and Fan). `sorted` is
 /// ascending and not empty, p in [0, 1].
 double quantile_of_sorted(std::span<const double> sorted, double p);
-/// The same for values in any order. `values` is not empty.
+/// The p quantile, as by quantile_of_sorted(), of values in any order. `values` is not empty.
 double quantile(std::vector<double> values, double p);
 
 /// The smallest of the values v for which at least the fraction p of the values is <= v (type 1 of

@@ -20,7 +20,7 @@ constexpr long kMaxShards = 1'000'000;
 /// Key of the table's SHA-256 in shard.json.
 constexpr const char* kHashKey = "csv_sha256";
 
-/// Reads shard.json: the keys that all kinds of job have, then the payload.
+/// Reads shard.json: the keys that all kinds of job have, then the keys of this kind of job.
 PartOrigin read_part(const ShardKind& kind, JsonObject& json) {
   json.schema(kind.schema);
   PartOrigin origin{
@@ -93,42 +93,45 @@ std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& pro
   return inputs;
 }
 
-/// Describes the first difference between two parts of a job. `found` is the origin of the first
-/// part, `expected` that of the second, which the text calls `name`. Compares their options and
-/// inputs. Also compares `found_version`, the program version that wrote the first part, with that
-/// of this program. Empty if there is no difference.
+/// Describes, for a message, in what the origin of a part differs from that of another part of the
+/// job: program version, options or inputs. Only the first difference is described; empty if there
+/// is none. `found`, `found_version`: origin and program version of the part. `expected`: origin of
+/// the other part, which the text calls `name`. The version is compared with that of this program.
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name) {
   if (found_version != version()) {
-    return fmt::format("was written by version {} of the program, but this is {}", found_version,
-                       version());
+    return fmt::format("this part was written by version {} of the program, but this is {}",
+                       found_version, version());
   }
   std::set<std::string> options;
   for (const std::string& option : differing(found.options, expected.options)) {
     options.insert(option_text(option));
   }
   if (!options.empty()) {
-    return fmt::format("was made with other options ({}) than {}", fmt::join(options, ", "), name);
+    return fmt::format("this part was made with other options ({}) than {}",
+                       fmt::join(options, ", "), name);
   }
   const auto inputs = inputs_of(found), expected_inputs = inputs_of(expected);
   if (inputs == expected_inputs) return {};
   const std::set<std::string> files = differing(inputs, expected_inputs);
   return files.empty()
-             ? fmt::format("was made from the same inputs as {} in another order", name)
-             : fmt::format("was made from other inputs ({}) than {}", fmt::join(files, ", "), name);
+             ? fmt::format("this part was made from the same inputs as {} in another order", name)
+             : fmt::format("this part was made from other inputs ({}) than {}",
+                           fmt::join(files, ", "), name);
 }
 
-/// Describes why `part` cannot be combined with the first part; empty if it can.
+/// Describes why `part` cannot be combined with `first`, the first part of the job; empty if it
+/// can.
 std::string difference(const ShardKind& kind, const Part& first, const Part& part) {
   const std::string name = first.directory.string();
   const Shard& shard = part.origin.shard;
   if (shard.count != first.origin.shard.count) {
-    return fmt::format("is one of {} parts, but {} is one of {}; give the parts of one job",
+    return fmt::format("this is one of {} parts, but {} is one of {}; give the parts of one job",
                        shard.count, name, first.origin.shard.count);
   }
   if (shard.index > shard.count) {
     return fmt::format(
-        "is part {} of {}, but a part's number is at most the number of parts; run "
+        "this is part {} of {}, but a part's number is at most the number of parts; run "
         "the part again",
         shard.index, shard.count);
   }
@@ -137,12 +140,15 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
   if (!other.empty()) return other;
   if (part.origin.arithmetic != first.origin.arithmetic) {
     return fmt::format(
-        "was computed in {} arithmetic, but {} in {}: their numbers are rounded differently; {}",
+        "this part was computed in {} arithmetic, but {} in {}: their numbers are rounded "
+        "differently; {}",
         part.origin.arithmetic, name, first.origin.arithmetic, kind.arithmetic_advice);
   }
   if (shared_keys(kind, part.json) != shared_keys(kind, first.json)) {
-    return fmt::format("was made with other options than {}; make both with the same options",
-                       name);
+    return fmt::format(
+        "this part was made with other options than {}; make both with the same "
+        "options",
+        name);
   }
   return {};
 }
@@ -166,7 +172,7 @@ Status check_parts(const ShardKind& kind, const std::vector<Part>& parts) {
     if (why.empty()) {
       const auto [there, is_new] = by_index.emplace(shard.index, &part);
       if (is_new) continue;
-      why = fmt::format("is part {} of {}, and so is {}; give each part once", shard.index,
+      why = fmt::format("this is part {} of {}, and so is {}; give each part once", shard.index,
                         shard.count, there->second->directory.string());
     }
     faults.push_back(
@@ -246,7 +252,7 @@ Result<std::string> read_table(const ShardKind& kind, const Part& part) {
   AWMR_ASSIGN_OR_RETURN(std::string text, read_file(path));
   if (part.json.at(kHashKey) != Json(sha256_hex(text))) {
     return input_error(ErrorCode::kStaleResult, path.string(),
-                       fmt::format("is not as it was written with {}: it was changed "
+                       fmt::format("this table is not as it was written with {}: it was changed "
                                    "or cut off; run the part again",
                                    kShardFile));
   }

@@ -18,30 +18,32 @@
 
 namespace awmr {
 
-/// The keys that every shard.json has, except the hash of the table.
+/// Origin of a part: the keys that every shard.json has, except the hash of the table.
 struct PartOrigin {
   Provenance provenance;
   Shard shard;
-  std::string arithmetic;    ///< how numbers were rounded; all parts of a job must agree.
-                             ///< "scalar" in files of earlier versions
-  std::string version = {};  ///< version of the program that wrote it
+  /// How numbers were rounded; all parts of a job must agree. In files of earlier versions:
+  /// "scalar".
+  std::string arithmetic;
+  std::string version = {};  ///< version of the program that wrote the part
 };
 
-/// Returns the texts of a part's files. `payload`: the keys of shard.json that ShardKind::read
-/// reads.
+/// Returns the texts of a part's files. `payload`: the keys of shard.json that only this kind of
+/// job has.
 PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::string table,
                    const Json& payload);
 
 /// A part that was read.
 struct Part {
   std::filesystem::path directory;
-  Json json;          ///< shard.json; ShardKind::read accepts its payload
+  Json json;          ///< the document shard.json, whose keys were checked
   PartOrigin origin;  ///< the common keys of shard.json
 };
 
 /// Reads the parts in the directories, checks that they are all parts of one job, and returns them
 /// by shard index. Errors (input): a part that is missing or given twice; parts that differ in
-/// kind, program version, number of parts, options, inputs, arithmetic or payload.
+/// kind, program version, number of parts, options, inputs, rounding of numbers, or in other keys
+/// that must agree.
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories);
 
@@ -58,11 +60,11 @@ auto payload_of(const Json& shard_json, const Read& read) {
 /// from the one in shard.json.
 Result<std::string> read_table(const ShardKind& kind, const Part& part);
 
-/// Checks that the `rows` rows of a part's table are those of the part's items: all items in order,
-/// and this sequence once or several times. `items`: number of items of the whole job.
-/// `item_of(i)`: item of row i. `name`: kind of item, "run". Errors (input): the shard does not fit
-/// a job of `items` items; the table has no rows; a row belongs to another item; rows are missing
-/// or repeated.
+/// Checks that the rows of a part's table belong to this part. They must have all items of the part
+/// in order; the table may repeat this sequence. `items`: number of items of the whole job. `rows`:
+/// number of rows. `item_of(i)`: item of row i. `name`: what an item is, such as "run". Errors
+/// (input): the shard does not fit a job of `items` items; the table has no rows; a row belongs to
+/// another item; rows are missing or repeated.
 Status check_items(const ShardKind& kind, const Part& part, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 

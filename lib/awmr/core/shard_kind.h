@@ -24,13 +24,14 @@ struct ShardKind {
   const char* schema;  ///< value of the key `schema` in shard.json
   const char* title;   ///< title of the JSON Schema of shard.json
   const char* table;   ///< name of the file with the results
-  /// Checks the text of the table before it is written (ReadBack in file.h). `shard_json`: the text
-  /// of the part's shard.json.
+  /// Checks the text of the table before it is written, as ReadBack in file.h. `shard_json`: the
+  /// text of the part's shard.json.
   Status (*check)(std::string_view text, const std::string& file, const std::string& shard_json);
-  /// Keys of the payload (see `read`) that may differ between the parts of one job.
+  /// Keys of shard.json that may differ between the parts of one job. All other keys that `read`
+  /// reads must agree.
   std::vector<const char*> own_keys;
   const char* arithmetic_advice;  ///< for messages: how to get parts with the same arithmetic
-  /// Reads and checks the payload: the keys of shard.json that only this kind of job has.
+  /// Reads and checks the keys of shard.json that only this kind of job has.
   void (*read)(JsonObject& json);
 };
 

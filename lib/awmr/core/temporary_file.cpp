@@ -50,14 +50,14 @@ extern "C" void remove_and_end(int signal) {
   for (std::atomic<char*>& slot : registered) {
     if (const char* path = slot.load()) ::unlink(path);
   }
-  // SA_RESETHAND has restored the default action, so this ends the program when the handler
-  // returns.
+  // SA_RESETHAND has restored the default action of the signal. raise() therefore ends the program
+  // when the handler returns.
   ::raise(signal);
 }
 
-/// Enters a path in `registered`. Returns its index, or -1 if all entries are in use. A file
-/// without an entry stays if a signal ends the program; a later remove_stale_temporaries() removes
-/// it.
+/// Adds a path to the files that the signal handler removes. Returns its index in `registered`, or
+/// -1 if all entries are in use. A file without an entry stays if a signal ends the program; a
+/// later remove_stale_temporaries() removes it.
 int register_path(const fs::path& path) {
   char* text = ::strdup(path.c_str());
   for (int i = 0; text != nullptr && i < kSlots; ++i) {
@@ -106,7 +106,8 @@ std::optional<TemporaryFile> TemporaryFile::in(const fs::path& directory) {
   return std::nullopt;
 }
 
-// The path is registered before the file exists, so that no signal arrives in between.
+// The path is registered before the file is made. A signal in between would otherwise leave the
+// file behind.
 TemporaryFile::TemporaryFile(fs::path path)
     : path_(std::move(path)),
       slot_(register_path(path_)),

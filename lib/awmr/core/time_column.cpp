@@ -76,7 +76,7 @@ std::optional<TimeColumn> with_unit(const std::string& name) {
                     .meaning = fmt::format("\"{}\" in {}", name, parts.back())};
 }
 
-/// Recognises `stamp.sec` together with `stamp.nanosec`.
+/// Recognises a time in two columns, seconds in `stamp.sec` and nanoseconds in `stamp.nanosec`.
 std::optional<TimeColumn> with_nanoseconds(const std::string& name,
                                            std::span<const std::string> header) {
   std::vector<std::string> parts = parts_of(name);

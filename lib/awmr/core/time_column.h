@@ -14,8 +14,8 @@ namespace awmr {
 /// Name of the time column, s.
 inline constexpr std::string_view kTimeName = "t_s";
 
-/// If the first time in a column that find_time() found has at least this magnitude, s, it counts
-/// as a clock time (such as seconds since 1970). The times are then counted from the first row.
+/// Smallest magnitude, s, of a clock time, such as seconds since 1970. If the first time in a
+/// column that find_time() found is a clock time, all times are counted from the first row.
 inline constexpr double kClockTime_s = 1e6;
 
 /// A column or a pair of columns with the time.

@@ -1,5 +1,5 @@
-/// The two forms of the allocation of thrust and yaw moment to wheel forces and steering angle:
-/// exact, and for small angles. Freestanding C++14.
+/// Two methods that compute wheel forces and steering angle from thrust and yaw moment (the
+/// allocation): exact, and for small angles. Freestanding C++14.
 #pragma once
 
 namespace awmr {

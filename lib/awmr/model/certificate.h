@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// Values of `/certificate/set`, which names the plants over which the worst case was computed.
+/// Values of `/certificate/set` in gains.json: the plants over which the worst case was computed.
 /// kCertifiedSet: the 95 % confidence region of the parameters, if the model has a covariance.
 /// kUncertifiedSet: the identified plant only.
 inline constexpr const char* kCertifiedSet = "95 %";
@@ -16,14 +16,15 @@ inline constexpr const char* kUncertifiedSet = "the model's own values";
 
 /// Worst case of one mode of yaw control.
 struct CertifiedMode {
-  std::string mode;             ///< "differential", "steering" or "combined"
-  double damping_min = 0.0;     ///< smallest damping ratio over the set; <= 0: unstable
-  double delay_margin_s = 0.0;  ///< smallest delay in addition to latency_s with which
-                                ///< the loop is unstable; infinity: none
+  std::string mode;          ///< "differential", "steering" or "combined"
+  double damping_min = 0.0;  ///< smallest damping ratio over the set; <= 0: unstable
+  /// Smallest delay, s, in addition to CertifiedGains::latency_s, with which the loop is unstable;
+  /// infinity: none.
+  double delay_margin_s = 0.0;
 };
 
-/// The part of `/certificate` that is read from gains.json: the worst cases. The parameters at
-/// which they occur, which the file also has, are not read.
+/// The worst cases in `/certificate` of gains.json. The file also has the parameters at which they
+/// occur; these are not read.
 struct CertifiedGains {
   std::string set;         ///< kCertifiedSet or kUncertifiedSet
   double latency_s = 0.0;  ///< s: delay of the loop that all worst cases include

@@ -18,14 +18,16 @@ struct WithInterval {
 ///     c = S (f - o),  S symmetric, det S = 1,  |c| = field
 ///     heading = atan2(-c_left, c_ahead) - declination, counter-clockwise from true north
 struct CompassCalibration {
-  WithInterval centre_ahead;     ///< o ahead, in the unit of f
-  WithInterval centre_left;      ///< o to the left
-  WithInterval gain_ahead;       ///< S: gain from ahead to ahead
-  WithInterval gain_cross;       ///< S: gain from left to ahead, and from ahead to left
-  WithInterval gain_left;        ///< S: gain from left to left
-  WithInterval field;            ///< radius of the circle of c, in the unit of f, > 0
-  double residual = 0.0;         ///< standard deviation of |c|, divided by `field`
-  double heading_error_deg = 0;  ///< 97.5 % bound of the fit's heading error, worst direction
+  WithInterval centre_ahead;  ///< o ahead, in the unit of f
+  WithInterval centre_left;   ///< o to the left
+  WithInterval gain_ahead;    ///< S: gain from ahead to ahead
+  WithInterval gain_cross;    ///< S: gain from left to ahead, and from ahead to left
+  WithInterval gain_left;     ///< S: gain from left to left
+  WithInterval field;         ///< radius of the circle that c describes, in the unit of f, > 0
+  double residual = 0.0;      ///< standard deviation of |c|, divided by `field`
+  /// 97.5 % bound of the heading error of this calibration, in the direction with the largest
+  /// error.
+  double heading_error_deg = 0;
   double turned_deg = 0.0;       ///< angle turned from the first row to the last, left positive
   double largest_gap_deg = 0.0;  ///< largest angle between neighbouring measured field directions
   double declination_deg = 0.0;  ///< from true north to magnetic north, east positive

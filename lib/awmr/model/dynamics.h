@@ -42,15 +42,15 @@ struct Plant {
   /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel (back-EMF). 0: an
   /// ideal force source, as in the paper. Data sheet, or a log with driven and coasting sections.
   T back_emf_s_per_m = T(0.0);
-  /// 1: all four wheels are driven, as in the paper; 0: only the front wheels. Given.
+  /// 1 if all four wheels are driven, as in the paper; 0 if only the front wheels are. Given.
   T rear_driven = T(1.0);
   /// c, m, >= 0: Coulomb yaw moment over F_max that tyre scrub adds to g3 in a differential turn,
   /// see scrub_moment_m(). 0: none, as in the paper. From trials with differential turns.
   T yaw_scrub_m = T(0.0);
 };
 
-/// Resistance g3 plus the whole scrub moment. This upper bound of the yaw resistance determines the
-/// length of an integration step.
+/// Upper bound of the yaw resistance: g3 plus the largest moment of tyre scrub. Integration steps
+/// are chosen short enough for it.
 template <class T>
 Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   Resistance<T> law = p.yaw;
@@ -58,12 +58,13 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   return law;
 }
 
-/// The moment N_c of tyre scrub that resists a yaw rate r, m; it has the sign of r. In a
-/// differential turn the straight wheels are dragged sideways; in a steered turn they roll. c =
-/// yaw_scrub_m is the moment measured in differential turns. It is scaled by q, the fraction of the
-/// yaw moment that the difference of left and right forces makes:
+/// Yaw moment N_c of tyre scrub over F_max, m. It has the sign of the yaw rate r, which it resists.
+/// In a differential turn the straight wheels are dragged sideways; in a steered turn they roll. c
+/// = yaw_scrub_m is the moment measured in differential turns. In other turns it is scaled by q,
+/// the fraction of the yaw moment that comes from different left and right forces (tau_diff), not
+/// from the steering (tau_steering):
 ///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
-/// Below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
+/// For |r| below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
 template <class T>
 T scrub_moment_m(const Plant<T>& p, const T& yaw_rate_radps, const T& tau_steering_m,
                  const T& tau_diff_m) {
@@ -91,7 +92,8 @@ struct WheelSpeeds {
   T rear_right;
 };
 
-/// The rear wheels roll along the body's x axis, the front ones along d_r:
+/// Computes the rolling speed of each wheel. The rear wheels roll along the body's x axis, the
+/// front wheels along their steering angle d_r:
 ///   w_rear  =  u -+ d r                              upper sign: left, lower: right
 ///   w_front = (u -+ d r) cos d_r + (v + l_f r) sin d_r
 template <class T>
@@ -115,8 +117,8 @@ T motor_force(const T& drive, const T& back_emf_s_per_m, const T& wheel_mps) {
   return select(drive > T(0.0) || drive < T(0.0), T(drive - back_emf_s_per_m * wheel_mps), T(0.0));
 }
 
-/// Upper bound of the rate at which the speeds decay by back-EMF, 1/s: the larger of 4 k_e/m'
-/// (surge) and k_e (4 d^2 + 2 l_f^2)/I'z (yaw). 0 without back-EMF.
+/// Upper bound of the rate at which back-EMF makes the speeds decay, 1/s. It is the larger of 4
+/// k_e/m' (surge) and k_e (4 d^2 + 2 l_f^2)/I'z (yaw), and 0 without back-EMF.
 inline double back_emf_rate(const Plant<double>& p) {
   const double surge = 4.0 / p.mass_norm;
   const double yaw =
@@ -142,8 +144,8 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   using math::sin;
   const T cos_psi = cos(s.psi_rad);
   const T sin_psi = sin(s.psi_rad);
-  // Multiplies by reciprocals of constants, because divisions would take most of the time of a
-  // batch.
+  // Divisions would take most of the time of a batch of simulations. The code therefore multiplies
+  // by reciprocals, which are constant.
   const T per_mass = T(1.0) / p.mass_norm;
   const T per_inertia = T(1.0) / p.inertia_norm;
   State<T> d{};
@@ -172,9 +174,9 @@ AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
 
 }  // namespace detail
 
-/// Rate of the steering servo, rad/s: a first-order lag with limited target and limited rate.
+/// Rate d_r_dot of the steering servo, rad/s: a first-order lag with the time constant T. The
+/// commanded angle d_ro (rad, left positive) is limited to +-d_max, the rate to +-d_rate_max:
 ///   d_r_dot = sat((sat(d_ro, d_max) - d_r)/T, d_rate_max)                        [paper (43)-(44)]
-/// d_ro is the angle commanded, rad, left positive.
 template <class T>
 T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_command_rad) {
   const T target = math::saturate(steering_command_rad, p.steering_max_rad);
@@ -184,7 +186,8 @@ T steering_rate(const Plant<T>& p, const T& steering_rad, const T& steering_comm
 
 namespace detail {
 
-/// The wheel forces F' that these motor commands make: reduced by dead zone and back-EMF.
+/// The wheel forces F' that the motors make at these commands: the commands, reduced by dead zone
+/// and back-EMF.
 template <class T>
 WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelForces<T>& command) {
   using math::any;
@@ -214,7 +217,7 @@ YawMoments<T> yaw_moments(const Plant<T>& p, const WheelForces<T>& e, const T& c
           p.half_track_m * (e.rear_right - e.rear_left)};
 }
 
-/// scrub_moment_m() in the state `s` with the yaw moments `tau`.
+/// Moment of tyre scrub, scrub_moment_m(), in the state `s` with the yaw moments `tau`.
 template <class T>
 T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
   return scrub_moment_m(p, s.r_radps, tau.steering_m, T(tau.front_diff_m + tau.rear_diff_m));
@@ -223,13 +226,14 @@ T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
 }  // namespace detail
 
 /// Rates of the state with an individual command for each motor, `f`. These commands, reduced by
-/// dead zone and back-EMF, make the wheel forces F'. With S_f = F'FL + F'FR and S_r = F'RL + F'RR,
-/// the rates of u, v and r are
+/// dead zone and back-EMF, make the wheel forces F'. With the sum S_f = F'FL + F'FR at the front
+/// and S_r = F'RL + F'RR at the rear, the rates of u, v and r are
 ///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m'
 ///   v_dot = (S_f sin d_r       - m' r u - g2(v)) / m'
 ///   r_dot = (l_f S_f sin d_r + d cos d_r (F'FR - F'FL) + d (F'RR - F'RL) - g3(r) - N_c) / I'z
-/// with N_c = scrub_moment_m(). Those of x, y, psi: detail::rates().        [paper (39), corrected]
-/// Corrected: the rear term of the printed r_dot repeats the front pair of forces.
+/// with the moment N_c of tyre scrub, scrub_moment_m(). The rates of x, y and psi are those of
+/// detail::rates().                                                         [paper (39), corrected]
+/// Corrected: in the printed r_dot, the rear term repeats the forces of the front wheels.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>& f,
                      const T& steering_command_rad) {
@@ -248,7 +252,8 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>&
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
 
-/// Generalised forces of the left and right wheel forces and a steering angle. All are over F_max.
+/// Generalised forces: the thrust and the yaw moments that the left and right wheel forces make at
+/// a steering angle. All are over F_max.
 template <class T>
 struct GeneralisedForces {
   T tau_speed;       ///< dimensionless: thrust along the body's x axis, forward positive
@@ -256,7 +261,8 @@ struct GeneralisedForces {
   T tau_diff_m;      ///< m: yaw moment of the right-left difference, counter-clockwise positive
 };
 
-/// The generalised forces of left and right wheel forces F'L, F'R at a steering angle d_r.
+/// Generalised forces of left and right wheel forces F'L, F'R at a steering angle d_r, with four
+/// driven wheels, the front axle l_f ahead of the centre of gravity, and the half track d:
 ///   tau_speed    =     (F'L + F'R) (cos d_r + 1)
 ///   tau_steering = l_f (F'L + F'R)  sin d_r
 ///   tau_diff     = d   (F'R - F'L) (cos d_r + 1)                                      [paper (41)]
@@ -271,8 +277,8 @@ GeneralisedForces<T> generalised_forces(const T& front_axle_m, const T& half_tra
           half_track_m * (f.right - f.left) * one_plus_cos};
 }
 
-/// The generalised forces with only the front wheels driven: as (41), without the terms + 1, which
-/// come from the rear wheels.
+/// Generalised forces with only the front wheels driven. The equations are (41) of the paper
+/// without the terms + 1, which come from the rear wheels:
 ///   tau_speed    =     (F'L + F'R) cos d_r
 ///   tau_steering = l_f (F'L + F'R) sin d_r
 ///   tau_diff     = d   (F'R - F'L) cos d_r
@@ -287,8 +293,8 @@ GeneralisedForces<T> front_wheel_forces(const T& front_axle_m, const T& half_tra
           half_track_m * (f.right - f.left) * cos_d};
 }
 
-/// tau_turn, m, of a turning trial: all wheels have the same force F' (`wheel_force`) at a steering
-/// angle d_r, rad.
+/// Yaw moment tau_turn over F_max, m, in a turning trial with steering: all wheels have the same
+/// force F' (`wheel_force`), and the steering angle is d_r, rad.
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
 template <class T>
 T steering_moment_m(const T& front_axle_m, const T& wheel_force, const T& steering_rad) {
@@ -296,15 +302,16 @@ T steering_moment_m(const T& front_axle_m, const T& wheel_force, const T& steeri
   return T(2.0) * front_axle_m * wheel_force * sin(steering_rad);
 }
 
-/// tau_turn, m, of a turning trial without steering; `right_less_left` = F'R - F'L.
+/// Yaw moment tau_turn over F_max, m, in a turning trial without steering. d: half track;
+/// `right_less_left` = F'R - F'L.
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 template <class T>
 T differential_moment_m(const T& half_track_m, const T& right_less_left) {
   return T(2.0) * half_track_m * right_less_left;
 }
 
-/// The left and right wheel forces that these commands make in motors with the dead zone `zone`:
-/// each is beyond_dead_zone() of the command (resistance.h).
+/// The left and right wheel forces at these commands, if the motors have the dead zone `zone`:
+/// beyond_dead_zone() (resistance.h) of each command.
 template <class T>
 SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
   return {beyond_dead_zone(command.left, zone), beyond_dead_zone(command.right, zone)};
@@ -315,7 +322,8 @@ SideForces<T> beyond_dead_zone(const SideForces<T>& command, const T& zone) {
 ///   u_dot = (tau_speed               + m' r v - g1(u)) / m'
 ///   v_dot = (tau_steering/l_f        - m' r u - g2(v)) / m'
 ///   r_dot = (tau_steering + tau_diff          - g3(r)) / I'z                          [paper (40)]
-/// with tau_turn = tau_steering + tau_diff; those of x, y and psi are in detail::rates().
+/// The paper calls tau_steering + tau_diff tau_turn. The rates of x, y and psi are those of
+/// detail::rates().
 template <class T>
 State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                            const T& steering_command_rad) {
@@ -327,8 +335,8 @@ State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForce
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
 
-/// The command of each wheel if both wheels of a side have the same command; 0 for rear wheels that
-/// are not driven. The overload for WheelForces returns its argument unchanged.
+/// The command of each wheel if both wheels of a side get the same command, `f`. Rear wheels that
+/// are not driven get 0. The overload for WheelForces returns its argument unchanged.
 template <class T>
 WheelForces<T> by_wheel(const Plant<T>& p, const SideForces<T>& f) {
   return {f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right};
@@ -338,7 +346,7 @@ const WheelForces<T>& by_wheel(const Plant<T>&, const WheelForces<T>& f) {
   return f;
 }
 
-/// Power dissipated by scrub, over F_max, m/s, >= 0: N_c r; 0 without scrub.
+/// Power that tyre scrub dissipates, N_c r, over F_max, m/s, >= 0.
 template <class T>
 T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) {
   using math::cos;

@@ -1,4 +1,5 @@
-/// Display order of findings: those with the largest effect on the numbers first.
+/// Display order of findings, which are messages about data and results: those with the largest
+/// effect on the numbers come first.
 #pragma once
 
 #include <string_view>
@@ -23,10 +24,10 @@ enum class Effect {
 /// kNote.
 Effect effect_of(const Finding& finding);
 
-/// Returns the findings in display order: first the errors, then the first finding of each other
-/// code, then the further findings of these codes, then the notes. Within the second and the third
-/// group, they are sorted by effect. Otherwise the order of the list is kept. The list must outlive
-/// the result.
+/// Returns the findings in display order. First come the errors, then the first finding of each
+/// other code, then the further findings of these codes, then the notes. Findings with a code are
+/// sorted by effect within these two groups. Otherwise the order of `findings` is kept. `findings`
+/// must outlive the result.
 std::vector<const Finding*> by_effect(const std::vector<Finding>& findings);
 
 }  // namespace awmr

@@ -9,8 +9,8 @@
 namespace awmr {
 namespace {
 
-/// Derivative of the resistance g by the parameter, at the speed or yaw rate w >= 0. Returns 0 if g
-/// does not depend on it.
+/// Derivative of the resistance law g with respect to the parameter, at the speed or yaw rate w >=
+/// 0. Returns 0 if g does not depend on the parameter.
 double slope_at(const Model& model, TrialKind kind, ParameterId parameter, double w) {
   const LawParameters of = law_parameters(kind);
   const double power = w > 0.0 ? std::pow(w, *model[of.beta].value) : 0.0;

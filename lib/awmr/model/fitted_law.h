@@ -8,9 +8,8 @@
 
 namespace awmr {
 
-/// A resistance law g counts as extrapolated at speeds (or yaw rates) that are larger than this
-/// factor times the largest fitted one, or smaller than the smallest fitted one divided by this
-/// factor.
+/// A resistance law counts as extrapolated at speeds (or yaw rates) far outside the fitted ones:
+/// above the largest fitted speed times this factor, or below the smallest one divided by it.
 inline constexpr double kLittleFurther = 1.2;
 
 /// The model parameters that are the coefficients of a resistance law:
@@ -25,8 +24,9 @@ LawParameters law_parameters(TrialKind kind);
 /// zone of the wheels; absent if alpha or beta has no value.
 std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind);
 
-/// Variance of sum_i weight_i g(w_i) over speeds or yaw rates w_i >= 0 (`rates`). g(w) is the force
-/// or moment that a steady run at w needs:
+/// Variance of the weighted sum of weight_i g(w_i) that follows from the covariance of the
+/// parameters. `rates` are the speeds or yaw rates w_i >= 0; g(w) is the force or moment that a
+/// steady run at w needs. Variance:
 ///   h' C h,  h = sum_i weight_i (dg/dalpha, dg/dbeta, dg/dc, dg/dq, dg/dF'0)
 ///              = sum_i weight_i (w^beta, alpha w^beta ln w, 1, w^2, z)
 /// C is the model's covariance; parameters that it does not contain count as exact. A straight run
@@ -37,7 +37,8 @@ std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind)
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
                        std::span<const double> weights);
 
-/// Variance of the mean of g over these rates: as above, with equal weights of sum 1.
+/// Variance of the mean of g(w_i) over the speeds or yaw rates w_i in `rates`: as variance_of_law()
+/// above, with equal weights.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
 
 /// The largest yaw rate, deg/s, for which the yaw resistance was measured: the vehicle's

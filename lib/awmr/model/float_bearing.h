@@ -14,7 +14,8 @@ namespace awmr {
 namespace float_math {
 namespace detail {
 
-/// The leading 16 bits of the mantissa of a normal float with these bits, including the hidden bit.
+/// Leading 16 bits of the mantissa of a normal float, including the hidden bit. `bits`: the bits of
+/// the float.
 inline uint16_t mantissa16(uint32_t bits) {
   return static_cast<uint16_t>(bits >> 8U) | static_cast<uint16_t>(0x8000U);
 }
@@ -42,7 +43,7 @@ inline uint16_t ratio16(uint32_t small, uint32_t large) {
       ratio = static_cast<uint16_t>(ratio | 1U);
     }
   }
-  // The remainder decides the rounding; the largest ratio stays below 1.
+  // Rounds up if the remainder is at least half of the divisor, but never up to a ratio of 1.
   const bool up = rest >= divisor - rest && ratio != 0xFFFFU;
   return static_cast<uint16_t>(up ? ratio + 1U : ratio);
 }
@@ -52,9 +53,10 @@ inline uint16_t product16(uint16_t a, uint16_t b) {
   return static_cast<uint16_t>((static_cast<uint32_t>(a) * b) >> 16U);
 }
 
-/// atan t in units of 2^-17 rad, for t in [0, 1) given in units of 2^-16. The minimax polynomial
+/// Arc tangent with fixed-point numbers: `t` is 2^16 times a number in [0, 1), the result 2^17
+/// times its arc tangent in rad. The minimax polynomial
 ///   t - t (c0 + z (c1 - z (c2 - z (c3 - z c4)))),   z = t^2
-/// is within 1.2e-5 rad of atan t. The code has its coefficients times 2^17.
+/// is within 1.2e-5 rad of atan t. The constants in the code are its coefficients times 2^17.
 inline uint32_t atan17(uint16_t t) {
   const uint16_t z = product16(t, t);
   uint16_t p = static_cast<uint16_t>(11162U - product16(z, 2732U));
@@ -89,8 +91,8 @@ inline float bearing(float y, float x) {
     large = height;
   }
   if (large >= kInfinityBits) return not_a_number();
-  // Adds half of the last place of the 16-bit mantissas, so that cutting them off rounds to
-  // nearest.
+  // Rounds the mantissas to 16 bits: half of the last place is added before the other bits are cut
+  // off.
   int32_t angle =
       static_cast<int32_t>(detail::atan17(detail::ratio16(small + 0x80U, large + 0x80U)));
   if (steep) angle = detail::kQuarterTurn17 - angle;

@@ -2,11 +2,11 @@
 ///
 /// Uses only comparisons and operations that IEEE 754 rounds correctly (add, subtract, multiply,
 /// divide). So the ATmega2560 and a host compiled with -ffp-contract=off give the same bits. The
-/// functions of the C libraries differ in the last bit. Polynomials are minimax by the Remez
-/// exchange on the reduced interval, in z = x^2. The worst errors given below are checked by
+/// functions of the C libraries differ in the last bit. The polynomials in z = x^2 are minimax
+/// approximations, found by the Remez exchange. The worst errors given below are checked by
 /// tests/model/float_math_test, with AWMR_EXHAUSTIVE=1 for every float of the range.
 ///
-/// Angles are valid up to +-kAngleMax; beyond it, and for infinities and NaN, the result is NaN,
+/// Angles are valid up to +-kAngleMax. For larger angles, infinities and NaN, the result is NaN,
 /// which a caller can detect.
 #pragma once
 
@@ -24,8 +24,9 @@
 /// functions without tight time limits.
 #ifdef __AVR__
 #define AWMR_CALLED __attribute__((noinline, optimize("Os")))
-/// As AWMR_CALLED, for member functions. They must also not be cloned for one object: code with
-/// absolute addresses is twice as long as code with addresses relative to the object.
+/// As AWMR_CALLED, for member functions. The compiler must also not make a copy (clone) of the
+/// function for one object: it would use absolute addresses, and its code would be twice as long as
+/// with addresses relative to the object.
 #define AWMR_CALLED_MEMBER __attribute__((noinline, noclone, optimize("Os")))
 #else
 #define AWMR_CALLED
@@ -69,7 +70,8 @@ inline bool is_nan(float x) { return magnitude_bits(x) > kInfinityBits; }
 inline uint16_t leading_bits(float x) {
   return static_cast<uint16_t>(bits_of(x) >> 16U) & static_cast<uint16_t>(0x7FFFU);
 }
-/// The leading 16 bits with the sign of x: order_of() for leading_bits().
+/// Leading 16 bits of x as a signed integer, which has the order of the numbers, as order_of() has.
+/// Numbers that differ only in the other bits are equal.
 inline int16_t leading_order_of(float x) {
   const int16_t magnitude = static_cast<int16_t>(leading_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? static_cast<int16_t>(-magnitude) : magnitude;
@@ -102,19 +104,22 @@ inline float reduced(float x, int k) {
   return ((x - turns * 1.5703125F) - turns * 4.837512969970703125e-4F) - turns * 7.54978995e-8F;
 }
 
-/// sin x = x + x^3 P(z), |x| <= pi/4: approximation error below 3.8e-9 of the value.
+/// Approximates sin x for |x| <= pi/4 by x + x^3 P(z), with z = x^2 and a polynomial P. The error
+/// is below 3.8e-9 of the value.
 inline float sin_poly(float x) {
   const float z = x * x;
   return x + x * z * (-0.166666546F + z * (8.33216017e-3F + z * -1.95152010e-4F));
 }
 
-/// cos x = 1 - z/2 + z^2 P(z), |x| <= pi/4: approximation error below 1e-10.
+/// Approximates cos x for |x| <= pi/4 by 1 - z/2 + z^2 P(z), with z = x^2 and a polynomial P. The
+/// error is below 1e-10.
 inline float cos_poly(float x) {
   const float z = x * x;
   return 1.0F - (0.5F * z - z * z * (0.0416666469F + z * (-1.38873667e-3F + z * 2.44383600e-5F)));
 }
 
-/// atan t = t + t^3 P(z), |t| <= tan(pi/8): approximation error below 6.6e-7 of the value.
+/// Approximates atan t for |t| <= tan(pi/8) by t + t^3 P(z), with z = t^2 and a polynomial P. The
+/// error is below 6.6e-7 of the value.
 inline float atan_poly(float t) {
   const float z = t * t;
   return t + t * z * (-0.333255076F + z * (0.197141398F + z * -0.112251449F));
@@ -159,8 +164,8 @@ inline float eighths_of_turn(uint8_t eighths) {
 /// The angle of (x, y) in (-pi, pi], 0 at the origin; the sign of a zero is ignored. Precondition:
 /// |x| and |y| are below 1.7e38. Worst error 5e-7 rad, and 9e-7 relative to the value.
 ///
-/// Computed as the angle of an octant's edge, a multiple of pi/4, plus or minus the arc tangent of
-/// a ratio below tan(pi/8).
+/// The angle is computed from the nearest multiple of pi/4: plus or minus the arc tangent of a
+/// ratio of at most tan(pi/8).
 inline float atan2(float y, float x) {
   float small = ::fabsf(y);
   float large = ::fabsf(x);
@@ -193,7 +198,7 @@ inline float atan2(float y, float x) {
   return eighths == 4 && magnitude_bits(angle) == bits_of(kPi) ? angle : -angle;
 }
 
-/// atan2 as a called function, where the cost of a call does not matter.
+/// atan2 that is not inlined on the chip, for callers to which the time of a call does not matter.
 AWMR_CALLED inline float called_atan2(float y, float x) { return atan2(y, x); }
 
 /// atan x. Worst error 9e-7 relative to the value.
@@ -202,7 +207,8 @@ inline float atan(float x) { return atan2(x, 1.0F); }
 /// 2 atan x. Worst error relative to the value: 5e-7 for results up to 22.6 deg, 9e-7 beyond.
 inline float twice_atan(float x) {
   const float z = x * x;
-  // |angle| <= 22.6 deg: x (2 + z P(z)) is within 3.4e-7 of the value before rounding.
+  // For angles up to 22.6 deg: 2 x + x z P(z), z = x^2, is within 3.4e-7 of the value before
+  // rounding.
   if (magnitude_bits(z) <= magnitude_bits(0.04F)) {
     return x * (2.0F + z * (-0.666478631F + z * 0.384626822F));
   }
@@ -218,12 +224,13 @@ inline float wrapped(float x) {
   if (magnitude == bits_of(kPi)) return kPi;
   float rest = x;
   if (magnitude < bits_of(9.42477F)) {
-    // Below 3 pi: one turn, the common case for a heading that is not wrapped.
+    // Below 3 pi, one turn is added or subtracted. This is the common case of a heading that is not
+    // wrapped.
     rest = bits_of(x) >> 31U == 0 ? x - 2.0F * kPi : x + 2.0F * kPi;
   } else {
     if (!(magnitude <= bits_of(kAngleMax))) return not_a_number();
     const float turns = static_cast<float>(nearest(x * 0.159154943F));
-    // 2 pi in three parts, as in detail::reduced.
+    // Subtracts multiples of 2 pi in three parts, as detail::reduced() does for pi/2.
     rest = ((x - turns * 6.28125F) - turns * 1.93500518798828125e-3F) - turns * 3.01991598e-7F;
   }
   // Rounding can leave the result slightly outside of (-pi, pi].

@@ -5,8 +5,8 @@
 
 namespace awmr {
 
-/// Gains of the heading law, heading_law() in control/heading_law.h, on S = e_dot + lambda e with
-/// the heading error e = psi_d - psi.
+/// Gains of the heading law, heading_law() in control/heading_law.h. It controls the sliding
+/// variable S = e_dot + lambda e of the heading error e = psi_d - psi.
 template <class T>
 struct HeadingGains {
   /// lambda, 1/s, > 0: slope of the sliding surface. Larger: the heading error falls faster.
@@ -17,19 +17,20 @@ struct HeadingGains {
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
-  /// w0, rad/s, >= 0.02: friction width of the steering mode, that is, the yaw rate below which the
-  /// yaw resistance is fed forward smoothly (Gains::friction_width_at()). No effect without Coulomb
-  /// friction in yaw.
+  /// w0, rad/s, >= 0.02: friction width in steering mode. Below this yaw rate, the yaw resistance
+  /// is fed forward smoothly, without its jump at rest (Gains::friction_width_at()). No effect
+  /// without Coulomb friction in yaw.
   T friction_width_radps = feed_forward_rest_speed<T>();
-  /// Friction width of the combined mode, rad/s, >= 0.02. If it is 0, the larger of w0/2 and 0.02
-  /// is used. Has no effect with an observer.
+  /// Friction width in combined mode, rad/s, >= 0.02. If it is 0, the larger of w0/2 and 0.02 is
+  /// used. No effect with an observer, which uses w0 in every mode.
   T combined_friction_width_radps = T(0.0);
 
-  /// T1, s: on the surface S = 0 the error falls as exp(-t/T1).
+  /// Time constant T1 of sliding, s: on the surface S = 0, the heading error falls as exp(-t/T1).
   ///   T1 = 1/lambda                                                              [paper (90)-(91)]
   T sliding_time_constant_s() const { return T(1.0) / lambda; }
 
-  /// T2, s: in the boundary layer V = S^2/2 falls as exp(-t/T2), so S falls as exp(-t/(2 T2)).
+  /// Time constant T2 of reaching the surface S = 0, s: in the boundary layer |S| <= epsilon, V =
+  /// S^2/2 falls as exp(-t/T2), so S falls as exp(-t/(2 T2)).
   ///   T2 = epsilon/(2 mu)                                             [paper (92)-(95), corrected]
   /// Corrected: the paper calls this phase sliding, but during it the surface is still being
   /// reached.
@@ -44,8 +45,8 @@ struct SpeedGains {
   T epsilon;  ///< eps_s, m/s, > 0: for |e_u| <= eps_s, the correction is proportional to e_u
 };
 
-/// The disturbance observer for both laws (control/disturbance_observer.h), if one was tuned with
-/// the gains.
+/// Disturbance observer of the heading and the speed law (control/disturbance_observer.h), if one
+/// was tuned with the gains.
 template <class T>
 struct ObserverGains {
   /// L, rad/s, >= 0: bandwidth; 0: no observer. L T_s < 1 with the controller's sample time T_s.
@@ -64,11 +65,12 @@ struct Gains {
   SpeedGains<T> speed;
   ObserverGains<T> observer = {};
 
-  /// Friction width w, rad/s: at yaw rates below w, the resistance is fed forward as
-  /// g3(w) sat((psi_d_dot + lambda e)/w) (fed_forward()). It depends on the share s of the yaw
-  /// moment that the steering makes: 0.02 for s = 0, that of the combined mode for s = 1/2, w0 for
-  /// s = 1. With an observer, it is w0 in every mode. Larger: less noise of the steering command,
-  /// and a larger heading error at rest, which an observer removes.
+  /// Friction width w, rad/s, in a mode of yaw control. At yaw rates below w, the controller feeds
+  /// forward the resistance g3(w) sat((psi_d_dot + lambda e)/w) instead of g3, which jumps at rest
+  /// (fed_forward()). `steering_share`: the share s of the yaw moment that the steering makes. With
+  /// an observer, w is w0 in every mode. Without, w is 0.02 for s = 0, the width of the combined
+  /// mode for s = 1/2, and w0 for s = 1. A larger w gives less noise in the steering command, but a
+  /// larger heading error at rest, which only an observer removes.
   T friction_width_at(const T& steering_share) const {
     const T w0 = heading.friction_width_radps;
     if (observer.is_on() || steering_share > T(0.5)) return w0;

@@ -23,8 +23,8 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path);
 /// read_json_file; a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
-/// Checks a text of gains.json before it is written: the ReadBack (core/file.h) of this format.
-/// Errors: those of read_gains().
+/// Checks a text of gains.json before it is written, as ReadBack (core/file.h). Errors: those of
+/// read_gains().
 Status check_gains_text(std::string_view text, const std::string& file);
 
 /// As read_gains(), but also checks that the gains suit a controller with this sample time. Errors:

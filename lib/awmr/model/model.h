@@ -28,7 +28,7 @@ enum class Source {
 inline constexpr NameTable<Source, 3> kSourceNames{
     {{"given", Source::kGiven}, {"derived", Source::kDerived}, {"fitted", Source::kFitted}}};
 
-/// A quantile of an estimate's uncertainty that model.json can contain.
+/// One of the quantiles by which model.json can describe the uncertainty of an estimate.
 struct QuantileInfo {
   std::string_view key;       ///< in model.json
   double probability = 0.5;   ///< in (0, 1)
@@ -47,15 +47,16 @@ using Quantiles = std::array<double, kQuantileCount>;
 
 /// One identified number with its uncertainty and its origin.
 struct Estimate {
-  std::optional<double> value;      ///< in the parameter's unit; absent if the data do not
-                                    ///< determine it
-  std::optional<double> std_error;  ///< in the same unit, > 0; absent for a given value, or with
-                                    ///< too few data
-  std::optional<Interval> ci95;     ///< 95 % confidence interval; absent if `std_error` is
+  /// In the parameter's unit. Absent if the data do not determine it.
+  std::optional<double> value;
+  /// In the parameter's unit, > 0. Absent for a given value, or if there are too few data.
+  std::optional<double> std_error;
+  std::optional<Interval> ci95;  ///< 95 % confidence interval; absent if `std_error` is absent
   Source source = Source::kGiven;
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
-  /// Quantiles of the uncertainty if it is not normal about `value`: the ends of the 95 % interval,
-  /// the quartiles and the median. Plants are drawn from them (simulate/plant_sampler.h).
+  /// Quantiles of the estimate if its error is not normal about `value`: the ends of the 95 %
+  /// interval, the quartiles and the median. Monte-Carlo simulations draw plants from them
+  /// (simulate/plant_sampler.h).
   std::optional<Quantiles> quantiles = {};
 };
 
@@ -66,20 +67,22 @@ struct Covariance {
 };
 
 /// Tyre scrub: the yaw moment that resists differential (skid) turns in addition to the resistance
-/// of steered turns. It is modelled as a Coulomb friction, the same at every yaw rate, over F_max:
-///   2 d (F'R - F'L) = g3(r) + moment
+/// g3 of steered turns. It is modelled as a Coulomb friction, the same at every yaw rate. In a
+/// steady differential turn,
+///   2 d (F'R - F'L) = g3(r) + moment_m            (moments over F_max; d: half track)
 struct YawScrub {
   double moment_m = 0.0;     ///< m; negative values are due to noise
   double std_error_m = 0.0;  ///< m, > 0: from the scatter of the turns and the uncertainty of g3
   Interval ci95_m;           ///< 95 % confidence interval
   int rows = 0;              ///< turns from which it was estimated, >= 3
   Interval yaw_rate_radps;   ///< range of the yaw rates of these turns, > 0
-  /// Range of the moment over these turns, widened by its uncertainty, if the moment is found to
-  /// change with the yaw rate. Absent if no change is detected.
+  /// Range of the moment over the yaw rates of these turns, widened by its uncertainty. Absent if
+  /// the moment does not detectably change with the yaw rate.
   std::optional<Interval> changing_m = {};
 };
 
-/// False for a parameter that the vehicle does not have: the servo of a vehicle without steering.
+/// False if the vehicle does not have this parameter. Only the time constant of the servo can be
+/// missing, in a vehicle without steering.
 bool has(const Vehicle& vehicle, ParameterId id);
 /// Description, for messages, of the trial that identifies a parameter of this vehicle.
 std::string_view trial_of(const Vehicle& vehicle, ParameterId id);
@@ -108,10 +111,10 @@ struct Model {
   Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
-  /// Smallest plausible m', s^2/m, > 0: g1(u)/(mu g) with mu = kTyreFriction and the acceleration
-  /// of gravity g, at the highest initial speed u of the coast-downs. With a smaller m', the
-  /// deceleration at the speed u would exceed what tyres permit. Absent if the identified m' is
-  /// plausible.
+  /// Smallest plausible m', s^2/m, > 0: g1(u)/(mu g). Here u is the highest initial speed of the
+  /// coast-downs, mu is kTyreFriction, and g the acceleration of gravity. With a smaller m', the
+  /// resistance g1(u) would brake the vehicle harder than its tyres permit. Absent if the
+  /// identified m' is plausible.
   std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
   /// The largest yaw moment over F_max, m, > 0, that the difference of left and right wheel forces
@@ -132,7 +135,8 @@ struct Model {
   /// these parameters with the trial that identifies it.
   Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
 
-  /// The plant for all motions that the trials in `record` have measured. Errors: those of plant().
+  /// The plant for simulations of the motions that the trials in `record` have measured, such as
+  /// straight driving or turning. Errors: those of plant().
   Result<Plant<double>> plant_of_trials() const;
 
   /// The plant without checks. Parameters without a value are replaced: a resistance by 0, an

@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::string_view kModelSchema = "awmr.model/1";
 
-/// Range of a parameter's quantiles. They must be positive if the coordinate of the parameter is
-/// logarithmic (transform.h). The quantiles of an exponent or of an optional term can be below 0.
+/// Range of a parameter's quantiles. They must be positive if the fit estimates the logarithm of
+/// the parameter (transform.h). The quantiles of an exponent or of an optional term can be below 0.
 NumberRule rule_of_quantile(ParameterId id) {
   return scale_of(id) == Scale::kLogarithmic ? kPositive : kAnyNumber;
 }
@@ -51,7 +51,7 @@ Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
     quantiles[q] = json.number(kQuantiles[q].key, rule_of_quantile(parameter.id));
     if (q == 0 || quantiles[q] >= quantiles[q - 1]) continue;
     json.fault(ErrorCode::kWrongOrder, kQuantiles[q].key,
-               fmt::format("{:g} is less than the quantile before it, {:g}; identify again",
+               fmt::format("the quantile {:g} is less than the one before it, {:g}; identify again",
                            quantiles[q], quantiles[q - 1]));
   }
   json.reject_unknown_keys();
@@ -74,8 +74,8 @@ Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
   return estimate;
 }
 
-/// Reads every estimate. "/surge/alpha" is the key "alpha" in the object "surge"; "/mass_norm" is a
-/// key at the root of the file.
+/// Reads the estimate of every parameter. The pointer "/surge/alpha" is the key "alpha" in the
+/// object "surge"; "/mass_norm" is a key at the root of the file.
 void estimates_from_json(JsonObject& root, Model& model) {
   std::map<std::string, JsonObject, std::less<>> groups;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -228,7 +228,8 @@ Model model_from_json(JsonObject& root) {
 
 namespace {
 
-/// Contradictions between a measured scrub moment, its interval and the vehicle.
+/// Adds a fault for each contradiction between a measured scrub moment, its interval and the
+/// vehicle.
 void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                               std::vector<Fault>& faults) {
   const std::string place = model.file + ":/yaw_scrub";
@@ -239,35 +240,38 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
   };
   const Interval ci = scrub.ci95_m;
   check(ci.contains(scrub.moment_m), "ci95_m",
-        fmt::format("[{:g}, {:g}] does not contain moment_m {:g}; identify again", ci.lo, ci.hi,
-                    scrub.moment_m));
+        fmt::format("the interval [{:g}, {:g}] does not contain moment_m {:g}; identify again",
+                    ci.lo, ci.hi, scrub.moment_m));
   check(ci.hi >= 0.0, "ci95_m",
-        fmt::format("[{:g}, {:g}] is below 0, but tyre scrub always resists a turn; identify again",
+        fmt::format("the interval [{:g}, {:g}] is below 0, but tyre scrub always resists a turn; "
+                    "identify again",
                     ci.lo, ci.hi));
-  // The half width over std_error_m is Student's quantile: 12.7 with one degree of freedom, 1.96
-  // with many.
+  // The half width of a 95 % interval, divided by the standard error, is a quantile of Student's t:
+  // 12.7 with one degree of freedom, 1.96 with many.
   const double quantile = 0.5 * (ci.hi - ci.lo) / scrub.std_error_m;
   check(quantile >= 1.95 && quantile <= 12.8, "std_error_m",
-        fmt::format("{:g} does not match ci95_m [{:g}, {:g}]: its half width is {:.3g} times "
-                    "std_error_m, where 1.96 to 12.7 times is possible; identify again",
+        fmt::format("the standard error {:g} does not match ci95_m [{:g}, {:g}]: the half width of "
+                    "the interval is {:.3g} standard errors, where 1.96 to 12.7 are possible; "
+                    "identify again",
                     scrub.std_error_m, ci.lo, ci.hi, quantile));
   check(std::abs(0.5 * (ci.lo + ci.hi) - scrub.moment_m) <= 0.01 * (ci.hi - ci.lo), "moment_m",
-        fmt::format("{:g} is not the middle of ci95_m [{:g}, {:g}]; identify again", scrub.moment_m,
-                    ci.lo, ci.hi));
+        fmt::format("the moment {:g} is not the middle of ci95_m [{:g}, {:g}]; identify again",
+                    scrub.moment_m, ci.lo, ci.hi));
   check(scrub.yaw_rate_radps.lo > 0.0 && scrub.yaw_rate_radps.hi < 1e3, "yaw_rate_radps",
         "yaw rates must be above 0 and below 1000 rad/s");
-  // The scrub moment was overcome by the wheel forces, so it cannot exceed their largest yaw
+  // The wheel forces overcame the scrub moment in the trials, so it cannot exceed their largest yaw
   // moment.
   const Interval force = model.vehicle.wheel_force;
   const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
   check(scrub.moment_m <= most_m, "moment_m",
-        fmt::format("{:g} exceeds the largest yaw moment of the left and right wheel forces, "
-                    "{:.4g} m; identify again",
+        fmt::format("the moment {:g} m exceeds the largest yaw moment of the left and right wheel "
+                    "forces, {:.4g} m; identify again",
                     scrub.moment_m, most_m));
 }
 
-/// Contradictions between identified quantities and the vehicle: a value of I'z/m' that is
-/// impossible for any distribution of the mass; a dead zone beyond the largest wheel force.
+/// Adds a fault for each contradiction between the identified quantities and the vehicle: a value
+/// of I'z/m' that is impossible for any distribution of the mass; a dead zone beyond the largest
+/// wheel force.
 void add_vehicle_contradictions(const Model& model, std::vector<Fault>& faults) {
   const Estimate& inertia = model[ParameterId::kInertiaNorm];
   const Estimate& mass = model[ParameterId::kMassNorm];
@@ -298,8 +302,9 @@ bool accepts_implausible(const Model& model) {
   });
 }
 
-/// Contradictions in a file that was edited by hand: a value outside its interval, a scrub moment
-/// that does not fit its interval, a standard error that differs from the covariance.
+/// Finds contradictions, which a file can have after it was edited by hand: a value outside its
+/// interval, a scrub moment that does not fit its interval, a standard error that differs from the
+/// covariance.
 std::vector<Fault> self_contradictions(const Model& model) {
   constexpr double kTolerance = 0.01;
   std::vector<Fault> faults;
@@ -308,9 +313,10 @@ std::vector<Fault> self_contradictions(const Model& model) {
     if (!estimate.value || !estimate.ci95 || estimate.ci95->contains(*estimate.value)) continue;
     faults.push_back(
         {ErrorCode::kContradiction, fmt::format("{}:{}/ci95", model.file, parameter.pointer),
-         fmt::format("[{:g}, {:g}] does not contain the value {:g}; identify again, or write null "
-                     "for no interval",
-                     estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
+         fmt::format(
+             "the interval [{:g}, {:g}] does not contain the value {:g}; identify again, or "
+             "write null for no interval",
+             estimate.ci95->lo, estimate.ci95->hi, *estimate.value)});
   }
   add_vehicle_contradictions(model, faults);
   if (model.yaw_scrub) add_scrub_contradictions(*model.yaw_scrub, model, faults);

@@ -17,8 +17,8 @@
 namespace awmr {
 namespace {
 
-/// The kinds of trial in /trials of model.json. These are the tables; logs have no entries in
-/// /trials.
+/// The kinds of trial that /trials of model.json lists. They are the kinds that are tables; logs
+/// are not listed.
 constexpr NameTable<TrialKind, 3> kTableNames{
     {kTrialKindNames[0], kTrialKindNames[1], kTrialKindNames[2]}};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ bool are_correlations(const std::vector<std::vector<double>>& m) {
     }
   }
   if (n == 0 || !correlation.allFinite()) return n == 0;
-  // The solver reads only the lower triangle.
+  // The eigenvalue solver reads only the lower triangle, so only this is filled.
   return symmetric_eigenvalues(correlation).minCoeff() > -kRounding;
 }
 

@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// null for an absent value, and for infinity and NaN, which JSON does not have.
+/// Returns null for an absent value, and for infinity and NaN, which JSON does not have.
 Json number_or_null(const std::optional<double>& value);
 Json interval_or_null(const std::optional<Interval>& interval);
 
@@ -14,8 +14,9 @@ Json report_to_json(const EstimatorReport& report);
 EstimatorReport report_from_json(JsonObject json);
 
 Json covariance_to_json(const Covariance& covariance);
-/// Faults: unknown or repeated parameters; a matrix that has the wrong size, is not symmetric, has
-/// a negative variance, or correlations that contradict each other.
+/// Reads the covariance of the parameters. Faults: unknown or repeated parameters; a matrix that
+/// has the wrong size, is not symmetric, has a negative variance, or correlations that contradict
+/// each other.
 Covariance covariance_from_json(JsonObject json);
 
 Finding finding_from_json(JsonObject json);

@@ -1,4 +1,5 @@
-/// Limit of a disturbance observer's bandwidth, by the controller's sample time.
+/// Upper limit of the bandwidth of a disturbance observer, which follows from the controller's
+/// sample time.
 #pragma once
 
 #include <string>

@@ -36,8 +36,8 @@ struct ParameterInfo {
   std::string_view unit;     ///< "1" if dimensionless
   std::string_view meaning;  ///< description for messages
   std::string_view trial;    ///< the trial that identifies it, as text for messages
-  bool term = false;         ///< true: optional term, 0 and not in model.json unless it is fitted
-                             ///< or given
+  /// True for an optional term. It is 0 and not in model.json unless it was fitted or given.
+  bool term = false;
 };
 
 /// Names of quantities that a fit of logs can estimate in addition to the parameters. They are only
@@ -46,9 +46,9 @@ inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";
 inline constexpr std::string_view kBiasPrefix = "bias.";  ///< followed by the channel's column name
-/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). Of the power law, a coast-down without a surge
-/// trial determines only this ratio and b1. For other families it determines the ratios of
-/// ratio_names.h.
+/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). Without a surge trial, a coast-down determines
+/// only ratios of parameters: this one and, if the resistance family has their terms, those of
+/// ratio_names.h. It also determines the exponent b1, if the family has one.
 inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";
 
 /// The table, in the order of ParameterId.

@@ -15,8 +15,8 @@ namespace awmr {
 template <class T>
 using ParameterValues = std::array<T, kParameterCount>;
 
-/// The plant from these values, and from the vehicle's geometry, drive and steering limits; without
-/// tyre scrub (Plant::yaw_scrub_m is 0).
+/// The plant with these parameter values and the vehicle's geometry, drive and steering limits. It
+/// has no tyre scrub: Plant::yaw_scrub_m is 0.
 template <class T>
 Plant<T> plant_of(const Vehicle& vehicle, const ParameterValues<T>& values) {
   const auto value = [&values](ParameterId id) { return values[static_cast<std::size_t>(id)]; };

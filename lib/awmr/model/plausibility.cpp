@@ -32,8 +32,8 @@ constexpr std::array<Guess, 5> kInertia{{{1e-4, "looks like kg cm^2"},
                                          {1e-7, "looks like g cm^2"},
                                          {1e-9, "looks like g mm^2"}}};
 
-/// Of the guesses whose factor brings `ratio` into `range`, returns the one whose result is nearest
-/// to `usual`; none if no factor does.
+/// Of the guesses whose factor brings `ratio` into the plausible `range`, returns the one whose
+/// result is nearest to the `usual` ratio; none if no factor does.
 std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interval range,
                             double usual) {
   std::optional<Guess> best;
@@ -154,11 +154,12 @@ void check_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
   const auto guess = likely(ratio, kInertia, {0.3, 3.0}, 1.0);
   found.push_back(
       {"/yaw_inertia_kgm2",
-       fmt::format("yaw_inertia_kgm2 is {:.3g} times that of a box of this mass and size, {:.4g} "
-                   "kg m^2 (all mass in the corners makes 3 times){}",
-                   ratio, box.inertia_kgm2(),
-                   guess ? remedy(*vehicle.yaw_inertia_kgm2, guess)
-                         : "; measure it again, or omit the key: then that of the box is used")});
+       fmt::format(
+           "yaw_inertia_kgm2 is {:.3g} times that of a box of this mass and size, {:.4g} "
+           "kg m^2 (with all mass in the corners, it would be 3 times){}",
+           ratio, box.inertia_kgm2(),
+           guess ? remedy(*vehicle.yaw_inertia_kgm2, guess)
+                 : "; measure it again, or omit the key: then the inertia of the box is used")});
 }
 
 void check_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {

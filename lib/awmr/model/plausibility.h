@@ -28,10 +28,11 @@ inline constexpr Interval kInertiaOverBox{0.05, 3.0};
 /// Largest plausible time constant of a steering servo, s; a larger number is probably in ms.
 inline constexpr double kSlowestServo_s = 2.0;
 
-/// The ratio of the identified I'z/m' to Iz/m of the vehicle. Precondition: mass_norm > 0.
+/// Ratio of the identified I'z/m' to Iz/m of the vehicle; 1 if they agree. Precondition: mass_norm
+/// > 0.
 double inertia_over_vehicle(const Vehicle& vehicle, double inertia_norm, double mass_norm);
-/// Range of this ratio from the 95 % intervals; without intervals, a factor of 2 around the value.
-/// Precondition: both estimates have a value.
+/// Range of the ratio above that follows from the 95 % intervals of I'z and m'. If one has no
+/// interval: half to twice the ratio of the values. Precondition: both estimates have a value.
 Interval inertia_over_vehicle(const Vehicle& vehicle, const Estimate& inertia,
                               const Estimate& mass);
 

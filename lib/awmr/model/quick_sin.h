@@ -14,9 +14,10 @@ namespace awmr {
 namespace float_math {
 namespace detail {
 
-/// sin(pi/2 t) in units of 2^-15, for t in [0, 1) given in units of 2^-16. The polynomial
+/// Sine of pi/2 t with fixed-point numbers: `t` is 2^16 times a number in [0, 1), the result 2^15
+/// times the sine. The polynomial
 ///   t (pi/2 - z (c1 - z (c2 - z c3))),   z = t^2
-/// is within 6e-7 of the sine. The code has its coefficients times 2^15.
+/// is within 6e-7 of the sine. The constants in the code are its coefficients times 2^15.
 AWMR_CALLED inline uint16_t sin15(uint16_t t) {
   const uint16_t z = product16(t, t);
   uint16_t p = static_cast<uint16_t>(2605U - product16(z, 143U));
@@ -27,7 +28,8 @@ AWMR_CALLED inline uint16_t sin15(uint16_t t) {
 
 }  // namespace detail
 
-/// sin(x + quarters pi/2), |x| <= kAngleMax, within 9e-5 for |x| <= 100; NaN beyond kAngleMax.
+/// sin(x + quarters pi/2), so that quarters = 1 gives the cosine. The error is at most 9e-5 for |x|
+/// <= 100. NaN for |x| > kAngleMax.
 AWMR_CALLED inline float quick_sin(float x, uint8_t quarters) {
   if (!(magnitude_bits(x) <= bits_of(kAngleMax))) return not_a_number();
   // x in quarter turns, times 2^16.
@@ -45,7 +47,8 @@ AWMR_CALLED inline float quick_sin(float x, uint8_t quarters) {
 
 namespace math {
 
-/// sin x and cos x for displacements: for float within 9e-5 (|x| <= 100), for double as ::sin.
+/// sin x and cos x for displacements along a heading. For float, the error is at most 9e-5 for |x|
+/// <= 100; for double, they are ::sin and ::cos.
 inline float quick_sin(float x) { return float_math::quick_sin(x, 0); }
 inline double quick_sin(double x) { return ::sin(x); }
 inline float quick_cos(float x) { return float_math::quick_sin(x, 1); }

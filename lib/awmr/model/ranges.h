@@ -33,14 +33,15 @@ inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};
 /// Dead zone of a wheel's command, relative to the largest command.
 inline constexpr NumberRule kCommandDeadZone{.min = 0.0, .max = 1.0, .max_excluded = true};
 inline constexpr NumberRule kExponent{.min = 0.0, .max = 20.0};
-/// Tyres. The friction coefficient ranges from that of ice to more than that of rubber on dry
-/// asphalt; cornering stiffness over load, from that of a soft tyre to that of a rigid wheel.
+/// Tyres. The range of the friction coefficient includes ice and rubber on dry asphalt. The range
+/// of the cornering stiffness over load includes soft tyres and rigid wheels.
 inline constexpr NumberRule kTyreFrictionRule{.min = 0.01, .max = 5.0};
 inline constexpr NumberRule kCorneringStiffnessRule_per_rad{.min = 0.1, .max = 100.0};
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kFrictionWidth_radps{.min = feed_forward_rest_speed<double>(),
                                                  .max = 1e3};
-/// check_observer_rate() also requires a bandwidth below 1/sample_time_s.
+/// Bandwidth of an observer, rad/s. check_observer_rate() also requires it to be below
+/// 1/sample_time_s.
 inline constexpr NumberRule kObserverBandwidth{.min = 1e-6, .max = 1e4};
 inline constexpr NumberRule kObserverLimit{.min = 1e-9, .max = 1e6};
 

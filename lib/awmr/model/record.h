@@ -86,16 +86,16 @@ struct Diagnostic {
 /// The estimates of a fit without one row of its table.
 struct LeaveOneOut {
   std::string file;
-  int line = 0;                ///< 0 in files of older versions: a log that was left out as a whole
+  int line = 0;                ///< 0 (only in files of older versions): a whole log was left out
   std::vector<double> values;  ///< in the order of EstimatorReport::parameters
 };
 
 /// One initial guess of a multistart search, and how the search from it ended.
 struct SearchStart {
   std::vector<double> values;  ///< the guess, in the order of EstimatorReport::parameters
-  double cost = 0.0;           ///< cost at the end of the search: half the sum of squared
-                               ///< standardised residuals
-  bool chosen = false;         ///< true: the estimates are the end of this search
+  /// Cost at the end of the search: half the sum of squared standardised residuals.
+  double cost = 0.0;
+  bool chosen = false;  ///< true: the estimates are the end of this search
   std::string stop_reason;
 };
 
@@ -105,15 +105,15 @@ struct EstimatorReport {
   Estimator estimator = Estimator::kLogLinear;
   std::string noise;  ///< noisy quantity: "log force", "force", "speed", "time", ...
   std::vector<EstimatorParameter> parameters;
-  double residual_std = 0.0;      ///< in the unit of the noisy quantity; logs: 1
+  double residual_std = 0.0;      ///< of the residuals, in the unit of the noisy quantity; logs: 1
   int rows_used = 0;              ///< number of rows; logs: of measurements of all channels
   int degrees_of_freedom = 0;     ///< rows_used minus unknowns; 0: not computed
   int rank = 0;                   ///< number of parameter combinations that the data determine
   double condition_number = 0.0;  ///< of the Jacobian, >= 1 or infinite; 0: not computed
   std::string stop_reason;        ///< reason why the solver stopped
   std::string family = {};        ///< family of resistance; empty: the paper's power law
-  /// Weight of this report in the average over noise models, (0, 1]: the probability that the noisy
-  /// quantity is that of `noise`. Absent: the estimates were not averaged.
+  /// Weight, in (0, 1], of this report in the average over noise models: the probability that
+  /// `noise` names the quantity that is noisy. Absent: the estimates were not averaged.
   std::optional<double> weight = {};
   /// Akaike information criterion, less is better: AICc of tables and coast-downs, AIC of logs
   /// under the noise model of the chosen fit. Compare only reports of the same subject and `noise`.
@@ -129,9 +129,9 @@ struct TrialPoint {
   TrialKind kind = TrialKind::kSurge;  ///< not kLog
   std::string file;
   int line = 0;
-  /// surge: tau_speed; turning: tau_turn in m; coastdown: initial speed in m/s
+  /// Input of the run. Surge: tau_speed; turning: tau_turn in m; coastdown: initial speed in m/s.
   double input = 0.0;
-  /// surge: speed in m/s; turning: yaw rate in rad/s; coastdown: stop time in s
+  /// Result of the run. Surge: speed in m/s; turning: yaw rate in rad/s; coastdown: stop time in s.
   double measured = 0.0;
   std::optional<double> predicted;  ///< by the model's values, in the unit of `measured`
 };

@@ -21,11 +21,10 @@ struct Resistance {
   /// beta, dimensionless, >= 0: exponent of the speed. Surge: b1, in [0, 1] in the paper; yaw: b3.
   /// Below 1 the slope at rest is infinite.
   T beta;
-  /// Speed below which g(w) is replaced by its chord, the straight line from the origin to the
-  /// curve at this speed. >= 0; surge: m/s, yaw: rad/s. 0 keeps the law exact, for fits and steady
-  /// states. A simulation needs a chord, because the curve at rest jumps for c > 0 and has an
-  /// infinite slope for beta < 1. rest_speed() in steady.h computes rest_speed from the length of
-  /// the steps.
+  /// Speed, m/s or rad/s, >= 0, below which the chord replaces g(w): the straight line from the
+  /// origin to the curve at this speed. 0 keeps the law exact, for fits and steady states. A
+  /// simulation needs a chord, because the curve jumps at rest for c > 0 and has an infinite slope
+  /// there for beta < 1. rest_speed() in steady.h computes this speed from the length of the steps.
   T rest_speed = T(0.0);
   /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);
@@ -46,7 +45,7 @@ struct Resistance {
     using math::select;
     const T magnitude = abs(speed);
     if (!MaskOf<T>::kOneLane) {
-      // A batch has one vehicle per lane and therefore no branches. The quotient 1/chord is the
+      // A batch has one vehicle per lane, so this code has no branches. The quotient 1/chord is the
       // same in every step, so the compiler can compute it once for several calls.
       const T chord = larger(rest_speed, T(1e-30));
       const T sign = select(speed < T(0.0), T(-1.0), T(1.0));

@@ -18,9 +18,9 @@ inline constexpr double kMaxHalves = 5e7;
 
 /// Rate at which a deviation from the speed w decays, 1/s: g'(w)/inertia with
 ///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
-/// Returns 0 where the rate needs no check: on the chord (below law.rest_speed), and for beta < 1
-/// with q = 0. There it is at most 1/h for steps of h, because rest_speed() in steady.h chooses the
-/// chord accordingly.
+/// Returns 0 where the rate needs no check: below law.rest_speed, where the chord replaces g, and
+/// for beta < 1 with q = 0. There the rate is at most 1/h for steps of h, because rest_speed() in
+/// steady.h chooses the chord accordingly.
 template <class T>
 T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   using math::abs;
@@ -30,8 +30,8 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   const T w = abs(speed);
   const Mask<T> counts = (law.beta >= T(1.0) || law.quadratic > T(0.0)) && !(w < law.rest_speed);
   if (!any(counts)) return T(0.0);
-  // Lanes whose result is 0, and lanes at rest, compute with the speed 1 so that pow() is valid.
-  // The select() calls below replace their results.
+  // pow() is not valid for all lanes (vehicles of a batch): lanes at rest, and lanes whose result
+  // is 0, compute with the speed 1. The select() calls below replace their results.
   const Mask<T> moves = w > T(0.0);
   const T power = pow(select(counts && moves, w, T(1.0)), T(law.beta - T(1.0)));
   const T share = select(moves || !(law.beta > T(1.0)), power, T(0.0));
@@ -72,8 +72,8 @@ struct Resolution {
   Mask<T> resolved = Mask<T>(true);  ///< false: no step is short enough, or a number is not finite
 };
 
-/// Declared here because advance_by_halves() calls it; defined below. In these functions, `body` is
-/// a Plant or another type that has a fastest_rate(), such as FourWheels (tyres.h). `step(from, h)`
+/// advance() is declared here because advance_by_halves() calls it. In these functions, `body` is a
+/// Plant or another type that has a fastest_rate(), such as FourWheels (tyres.h). `step(from, h)`
 /// returns the state after one integration step, without step control.
 template <class Body, class T, class Step>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,

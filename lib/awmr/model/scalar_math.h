@@ -101,8 +101,8 @@ T flushed(const T& x) {
 }
 inline float flushed(float x) { return float_math::leading_bits(x) < 0x1280U ? 0.0F : x; }
 
-/// a - b. For float, returns -b without a subtraction if a is 0, as the rate of a constant
-/// reference is; this is faster on the chip.
+/// a - b. If a is 0, the float version returns -b without a subtraction, which is faster on the
+/// chip. This is common: the rate of a constant reference is 0.
 template <class T>
 T difference(const T& a, const T& b) {
   return a - b;
@@ -132,15 +132,15 @@ AWMR_CALLED inline bool is_above(float x, float y) {
          !float_math::is_nan(y);
 }
 
-/// True if x and y differ; false for NaN. For float, this compares only the bits. It is valid if x
-/// is either a copy of y or the limit to which y was clamped.
+/// True if x and y differ; false for NaN. The float version compares only the bits. Use it only if
+/// x is a copy of y, or the limit to which y was clamped.
 template <class T>
 Mask<T> is_different(const T& x, const T& y) {
   return x < y || x > y;
 }
 inline bool is_different(float x, float y) { return bits_of(x) != bits_of(y); }
 
-/// |x| > limit, limit >= 0. For float, by comparing bits; there NaN is beyond every limit.
+/// |x| > limit, limit >= 0. The float version compares the bits; for it, NaN is beyond every limit.
 template <class T>
 Mask<T> is_beyond(const T& x, const T& limit) {
   return x > limit || -x > limit;

@@ -8,8 +8,9 @@
 namespace awmr {
 namespace {
 
-/// If the variance of Q is below this fraction of its positive terms, it is only a rounding error
-/// and counts as 0. This happens if Q does not depend on m', because the terms then cancel.
+/// If the variance of a quantity Q in SI units is below this fraction of its positive terms, it is
+/// only a rounding error and counts as 0. This happens if Q does not depend on m', because the
+/// terms then cancel.
 constexpr double kRounding = 1e-14;
 
 /// True for parameters that are divided by F_max in the equations of motion: all except exponents
@@ -19,8 +20,8 @@ bool is_over_max_force(ParameterId id) {
          id != ParameterId::kSteeringTimeConstant;
 }
 
-/// C_ab of the model's covariance: 0 for given values, which are exact; none if the covariance does
-/// not contain a or b.
+/// Covariance of the parameters a and b. 0 if one of them is a given value, which is exact; none if
+/// the model's covariance does not contain both.
 std::optional<double> covariance_of(const Model& model, ParameterId a, ParameterId b) {
   if (model[a].source == Source::kGiven || model[b].source == Source::kGiven) return 0.0;
   const std::vector<ParameterId>& ids = model.covariance.parameters;
@@ -30,8 +31,9 @@ std::optional<double> covariance_of(const Model& model, ParameterId a, Parameter
   return model.covariance.matrix[row][column];
 }
 
-/// Half of the 95 % interval divided by the standard error, in the parameter's coordinate
-/// (transform.h); 0 for given values, which are exact; none without an interval.
+/// Half width of the 95 % interval of a parameter, in standard errors; both refer to the
+/// parameter's coordinate (transform.h). 0 for a given value, which is exact; none without an
+/// interval.
 std::optional<double> quantile_of(const Model& model, ParameterId id) {
   const Estimate& estimate = model[id];
   if (estimate.source == Source::kGiven) return 0.0;
@@ -79,7 +81,8 @@ Estimate max_force(const Model& model) {
   return force;
 }
 
-/// A parameter over F_max, multiplied by F_max. The unit of I'z, s^2 m, times N is kg m^2.
+/// Converts a parameter over F_max to SI units by multiplying it by F_max. For example, I'z in s^2
+/// m times N is kg m^2.
 SiQuantity quantity_of(const Model& model, const ParameterInfo& parameter) {
   if (parameter.id == ParameterId::kInertiaNorm) {
     return {"/yaw_inertia", "Iz", "kg m^2", times_max_force(model, parameter.id)};

@@ -17,14 +17,15 @@ struct SiQuantity {
 };
 
 /// Returns F_max, the mass, the yaw inertia, and each resistance, dead zone and back-EMF of the
-/// model; empty if m' has no value. The mass of the vehicle is assumed exact, so
+/// model in SI units; empty if m' has no value. The mass of the vehicle is assumed exact, so
 ///   F_max = m/m'                                                                      [paper (66)]
 ///   Q     = p F_max = p m/m'      of each quantity p over F_max
-/// The covariance of p and m' is propagated: with the gradient (m/m', -p m/m'^2),
+/// The variance of Q follows from the covariances C of p and m', with the gradient (m/m', -p
+/// m/m'^2) of Q:
 ///   Var Q = (m/m')^2 (C_pp - 2 (p/m') C_pm' + (p/m')^2 C_m'm')
-/// For p = I'z = m' Iz/m, the terms cancel and Iz is exact again. The interval uses the wider of
-/// the quantiles of p and m'. Q has no standard error if p or m' was estimated and the covariance
-/// of the model does not contain it.
+/// For p = I'z = m' Iz/m, the terms cancel, so that Iz is exact again. The half width of the
+/// interval in standard errors is the larger of those of p and m'. Q has no standard error if p or
+/// m' was estimated and the covariance of the model does not contain it.
 ///
 /// F_max is the largest force of one driven wheel: if one motor drives both wheels of a side, the
 /// largest force of this motor is twice F_max.

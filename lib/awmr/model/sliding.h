@@ -1,14 +1,14 @@
 /// Integration with exact Coulomb friction: a vehicle can stop, be held at rest, and start again.
 /// Templates on the scalar.
 ///
-/// At rest, the resistance g1 jumps from -c to c. During an integration step, the friction keeps
-/// the direction s of the motion, 1 or -1. With the surge force X of the wheels,
-///
-///     u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
-///
-/// A step in which u passes 0 is cut at the time at which u is 0. Then friction holds the vehicle
-/// (u_dot = 0) as long as the driving force |X + m' r v| is at most c. Yaw is treated in the same
-/// way. If a chord (rest.h) replaced the jump, a vehicle that friction should hold would creep.
+/// At rest, the surge resistance g1 jumps from -c to c, the Coulomb friction. During an integration
+/// step, the friction keeps the direction s of the motion, 1 or -1. With the surge force X of the
+/// wheels,
+///   u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
+/// An integration step in which the speed u passes 0 is cut at the time at which u is 0. Then
+/// friction holds the vehicle (u_dot = 0) as long as the driving force |X + m' r v| is at most c.
+/// Yaw is treated in the same way. If a chord (rest.h) replaced the jump, a vehicle that friction
+/// should hold would creep.
 #pragma once
 
 #include "awmr/model/rest.h"
@@ -36,8 +36,8 @@ Plant<T> without_friction(Plant<T> plant) {
   return plant;
 }
 
-/// As resolved_at_rest(), for integration with exact friction: the chords are computed from the
-/// resistances without c.
+/// As resolved_at_rest(), for integration with exact Coulomb friction c: the chords are computed
+/// from the resistances without c.
 template <class T>
 Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   const Plant<T> resolved = resolved_at_rest(without_friction(plant), step_s);
@@ -98,8 +98,8 @@ inline double share_until_rest(double way, double from, double to) {
 /// again.
 inline constexpr int kMaxStopsInAStep = 4;
 
-/// rk4_step() with friction: the state h seconds after s. `rates(state)`: the rates without
-/// friction.
+/// One Runge-Kutta step, rk4_step(), with Coulomb friction: the state h seconds after s.
+/// `rates(state)`: the rates without friction.
 template <class T, class Rates>
 State<T> rk4_step_with_friction(const FrictionRates<T>& friction, State<T> s, T h,
                                 const Rates& rates) {

@@ -7,12 +7,11 @@
 
 namespace awmr {
 
-/// The speed w > 0 at which the resistance equals a force: g(w) = force. With g1 and force =
-/// tau_speed, w is the steady speed in m/s; with g3 and force = tau_turn in m, the steady yaw rate
-/// in rad/s. With `viscous` > 0 (the unit of g over that of w), w is the solution of g(w) + viscous
-/// w = force. Back-EMF in four motors is such a term: straight ahead, viscous = 4 k_e. None if the
-/// force does not exceed the Coulomb friction c, or if there is no finite solution, as for a power
-/// law with beta = 0.
+/// The steady speed w > 0, at which the resistance equals the driving force: g(w) = force. For g1,
+/// `force` is tau_speed and w is in m/s; for g3, it is tau_turn in m, and w is a yaw rate in rad/s.
+/// `viscous` >= 0 adds a term that is linear in w: g(w) + viscous w = force. Back-EMF is such a
+/// term: straight ahead with four motors, viscous = 4 k_e. None if the force does not exceed the
+/// Coulomb friction c, or if no finite w exists, as for a power law with beta = 0.
 std::optional<double> steady_rate(const Resistance<double>& law, double force,
                                   double viscous = 0.0);
 

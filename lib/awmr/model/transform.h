@@ -1,10 +1,8 @@
 /// Coordinates of the parameters. Fits search in these coordinates, and random plants are drawn in
 /// them. The coordinate of a parameter is its value or the logarithm of its value; its error is
 /// assumed to be normally distributed:
-///
-///     linear:       coordinate = value        d value / d coordinate = 1
-///     logarithmic:  coordinate = ln value     d value / d coordinate = value
-///
+///   linear:       coordinate = value        d value / d coordinate = 1
+///   logarithmic:  coordinate = ln value     d value / d coordinate = value
 /// Positive quantities have the logarithmic coordinate. The linear coordinate is for exponents,
 /// which have a fixed range, and for optional terms, which can be exactly zero.
 #pragma once

@@ -23,9 +23,9 @@ struct Tyres {
   /// c_a, 1/rad, > 0: cornering stiffness over the load on the wheel, the slope of the side force
   /// at a small slip angle.
   T cornering_per_rad = T(kCorneringStiffness_per_rad);
-  /// v_0, m/s, > 0: makes the slip of a wheel at rest defined. A wheel that rolls more slowly is
-  /// treated as rolling at about this speed. Tyres below it resist like a viscous fluid: a vehicle
-  /// that is pushed sideways at rest creeps.
+  /// Rest speed v_0, m/s, > 0, without which the slip of a wheel at rest would be undefined. A
+  /// wheel that rolls more slowly is treated as rolling at about this speed. Its tyre then resists
+  /// like a viscous fluid: a vehicle that is pushed sideways at rest creeps.
   T rest_speed_mps = T(kTyreRestSpeed_mps);
 };
 
@@ -86,7 +86,7 @@ T side_force(const Tyres<T>& tyres, const T& load, const T& along, const T& roll
   const T left_over = sqrt(larger(T(0.0), T(grip * grip - along * along)));
   const T rolls = sqrt(rolls_mps * rolls_mps + tyres.rest_speed_mps * tyres.rest_speed_mps);
   const T elastic = tyres.cornering_per_rad * load * abs(slides_mps) / rolls;
-  // If F'm is 0, the quotient is undefined, and the force is 0.
+  // If F'm is 0, the quotient in z is undefined; the force is then 0.
   const Mask<T> slides = !(elastic < T(3.0) * left_over);
   const T sticks = T(1.0) - elastic / select(slides, T(1.0), T(T(3.0) * left_over));
   const T force = select(slides, left_over, T(left_over * (T(1.0) - sticks * sticks * sticks)));
@@ -142,9 +142,11 @@ T tyre_power_mps(const FourWheels<T>& p, const State<T>& s, const Forces& f) {
            (y.rear_left * slides.rear_left + y.rear_right * slides.rear_right));
 }
 
-/// Rates of the state on four tyres. A front wheel's forces in the body's frame are
+/// Rates of the state of a vehicle on four tyres. In the body's frame, the forces of a front wheel
+/// i are
 ///   X_i = F'x cos d_r - F'y sin d_r,   Y_i = F'x sin d_r + F'y cos d_r
-/// and a rear one's F'x and F'y. Newton and Euler, as in [paper (39)] except for the resistances:
+/// and those of a rear wheel are F'x and F'y. The equations of Newton and Euler are those of
+/// [paper (39)] with tyre forces in place of the resistances:
 ///   u_dot = (sum of X_i)/m' + r v
 ///   v_dot = (sum of Y_i)/m' - r u
 ///   r_dot = (l_f (Y_FL + Y_FR - Y_RL - Y_RR) + d (X_FR - X_FL + X_RR - X_RL))/I'z
@@ -180,9 +182,9 @@ State<T> state_rates(const FourWheels<T>& p, const State<T>& s, const Forces& f,
   return d;
 }
 
-/// Smallest effective inertia m'_w, s^2/m, in surge or yaw, that a force along the rolling
-/// direction of a wheel acts on. The lever of the force is at most the distance of the wheel from
-/// the centre of gravity:
+/// Smallest inertia m'_w, s^2/m, that opposes a force along the rolling direction of a wheel. The
+/// force accelerates the vehicle (m') or turns it (I'z); its lever is at most the distance of the
+/// wheel from the centre of gravity:
 ///   m'_w = min(m', I'z/(l_f^2 + d^2))
 template <class T>
 T rolling_inertia(const Plant<T>& p) {
@@ -192,19 +194,19 @@ T rolling_inertia(const Plant<T>& p) {
   return select(turning < p.mass_norm, turning, p.mass_norm);
 }
 
-/// resolved_at_rest() of rest.h for a vehicle on tyres, where g1 acts at the wheels.
+/// As resolved_at_rest() of rest.h, for a vehicle on tyres, where g1 acts at the wheels.
 inline Plant<double> resolved_at_rest_on_tyres(const Plant<double>& body, double step_s) {
   Plant<double> resolved = resolved_at_rest(body, step_s);
   resolved.surge.rest_speed = rest_speed(body.surge, rolling_inertia(body), step_s);
   return resolved;
 }
 
-/// Upper bound of the rate at which the tyres damp a sideways motion, 1/s: their stiffness c_a F'z
-/// divided by each wheel's rolling speed,
+/// Upper bound of the rate at which the tyres damp a sideways motion, 1/s. Each wheel damps it with
+/// its stiffness c_a F'z divided by its rolling speed V_i:
 ///   max(1/m' sum_i c_a F'z/V_i,  1/I'z sum_i a_i^2 c_a F'z/V_i),   V_i = sqrt(w_i^2 + v_0^2)
-/// with the lever a_i = l_f at the rear and, for any steering angle, sqrt(l_f^2 + d^2) at the
-/// front. The first term is the rate of sway, the second that of yaw. The rates of the coupled
-/// motion are at most twice the larger one.
+/// The first term is the rate of sway, the second that of yaw. The lever a_i is l_f at the rear; at
+/// the front, sqrt(l_f^2 + d^2) is its upper bound for any steering angle. The rates of the coupled
+/// motion are at most twice the larger term.
 template <class T>
 T tyre_rate(const FourWheels<T>& p, const State<T>& s) {
   using math::sqrt;

@@ -62,9 +62,9 @@ struct Vehicle {
 
   /// Form of the simulated controller's allocation; the firmware's is always exact.
   AllocationForm allocation = AllocationForm::kExact;
-  SensorQuality sensors = {};  ///< sensor errors that are assumed when gains are tuned
-                               ///< (tune/tune.h)
-  /// s, >= 0: time constant of the first-order lag from the motors' command to their force. Gains
+  /// Errors of the sensors, for which gains are tuned (tune/tune.h).
+  SensorQuality sensors = {};
+  /// Time constant of the first-order lag from the motors' command to their force, s, >= 0. Gains
   /// are tuned for it, and log fits filter the logged commands with it. Absent: no lag, unless a
   /// log identifies one.
   std::optional<double> motor_time_constant_s;
@@ -74,11 +74,12 @@ struct Vehicle {
   /// P_s, W, > 0: power of one motor under full voltage at standstill, where all of it becomes
   /// heat; absent: electrical work is not reported in joules.
   std::optional<double> motor_stall_power_w;
-  /// deg/s, > 0: largest yaw rate for which the yaw resistance is known; absent: the largest yaw
+  /// Largest yaw rate for which the yaw resistance is known, deg/s, > 0. Absent: the largest yaw
   /// rate of the turning trials and fitted logs.
   std::optional<double> yaw_rate_max_degps;
 
-  /// Column mappings of this vehicle's files: column -> expression (core/column_mapping.h).
+  /// For columns of awmr, by name: the column or formula of this vehicle's files that gives the
+  /// column (core/column_mapping.h).
   std::map<std::string, std::string> columns = {};
 
   bool has_steering() const { return drive != Drive::kDifferential; }

@@ -141,7 +141,7 @@ constexpr SmallerUnit kSmallerUnits[] = {{"/length_m", kSize_m, 1e-3, "mm"},
                                          {"/half_track_m", kSize_m, 1e-3, "mm"},
                                          {"/sample_time_s", kSampleTime_s, 1e-3, "ms"}};
 
-/// For each number above its range, adds to the message the unit in which the number was probably
+/// Adds to the message of each number above its range the smaller unit in which it was probably
 /// given, and the converted number.
 void name_units(const Json& document, const std::string& file, std::vector<Fault>& faults) {
   for (Fault& fault : faults) {
