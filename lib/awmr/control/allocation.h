@@ -1,10 +1,11 @@
 /// Allocation: computes the left and right wheel forces F'L, F'R and the steering angle d_r from
 /// the surge force tau_speed and the yaw moment tau_turn. Freestanding C++14.
 ///
-/// The limits are applied in this order: tau_speed is clipped to the motors' thrust, d_r to
-/// |d_r| <= d_max, and then each F', computed with the clipped d_r, to [F'min, F'max]. With
-/// CombinedSplit::kRedistribute, the wheel forces make the moment that the steering cannot make, or
-/// the reverse.
+/// The limits are applied in this order: tau_speed is clipped to the motors' thrust, d_r to |d_r|
+/// <= d_max, and then each F', computed with the clipped d_r, to [F'min, F'max]. In combined mode
+/// with CombinedSplit::kRedistribute, the wheel forces make the moment that the steering cannot
+/// make at its limit. Likewise, the steering makes the moment that clipped wheel forces cannot
+/// make.
 #pragma once
 
 #include "awmr/control/allocation_limits.h"
@@ -18,9 +19,9 @@ namespace awmr {
 
 namespace detail {
 
-/// The steering that makes a yaw moment: q, a function of the steering angle (steering_geometry.h;
-/// tan(d_r/2) with four driven wheels). `limited`: q was clipped. `powerless`: q is 0 because
-/// tau_speed is below steering_authority_min().
+/// Steering that makes a yaw moment. q is a measure of the steering angle d_r: tan(d_r/2) with four
+/// driven wheels, see steering_geometry.h. `limited`: q was clipped. `powerless`: q is 0, because
+/// the surge force tau_speed is below steering_authority_min().
 template <class T>
 struct Steering {
   T q;
@@ -28,8 +29,9 @@ struct Steering {
   Mask<T> powerless;
 };
 
-/// Computes the q that makes the yaw moment `moment_m` with the surge force tau_speed:
+/// Computes the steering q that makes the yaw moment `moment_m` with the surge force tau_speed:
 ///   q = moment/(l_f tau_speed), clipped to |q| <= limit
+/// l_f is the distance from the centre of gravity to the front axle, m.
 template <class T>
 AWMR_INLINE Steering<T> steer(const AllocationConstants<T>& c, const T& tau_speed,
                               const T& moment_m, const T& limit) {
@@ -40,8 +42,8 @@ AWMR_INLINE Steering<T> steer(const AllocationConstants<T>& c, const T& tau_spee
   return {clipped, math::is_different(clipped, q), powerless};
 }
 
-/// The steering angle d_r for q. It is exactly +-d_max if `at_stop` is true, that is, if q was
-/// clipped to +-q_max.
+/// Converts q to the steering angle d_r, rad. With `at_stop` (q was clipped to +-q_max), the result
+/// is exactly +-d_max.
 template <class T>
 AWMR_INLINE T steering_angle_rad(const SteeringGeometry& geometry, const AllocationConstants<T>& c,
                                  const T& q, const Mask<T>& at_stop) {
@@ -52,7 +54,9 @@ AWMR_INLINE T steering_angle_rad(const SteeringGeometry& geometry, const Allocat
   return select(at_stop, stop_rad, math::saturate(geometry.to_angle_rad(q), c.steering_max_rad));
 }
 
-/// Computes the forces F'R,L = (tau_speed +- moment/d) k, each clipped to [F'min, F'max].
+/// Computes the forces of a right and a left wheel and clips each to [F'min, F'max]:
+///   F'R,L = (tau_speed +- moment/d) k
+/// d: half the track width, m. k: force share, steering_geometry.h.
 template <class T>
 AWMR_INLINE void split_forces(const AllocationConstants<T>& c, const T& tau_speed,
                               const T& moment_m, const T& k, Allocation<T>& a) {
@@ -67,16 +71,18 @@ AWMR_INLINE void split_forces(const AllocationConstants<T>& c, const T& tau_spee
 
 }  // namespace detail
 
-/// Computes the commands that make tau_speed (dimensionless, forward positive) and tau_turn (m,
-/// counter-clockwise positive). The three modes are one formula, in which s is the share of the yaw
-/// moment that steering makes: 0 (differential), 1 (steering) or 1/2 (combined). q and k depend on
-/// d_r (steering_geometry.h): with four driven wheels, q = tan(d_r/2) and k = (1 + q^2)/4.
+/// Computes the commands that make the surge force tau_speed (dimensionless, forward positive) and
+/// the yaw moment tau_turn (m, counter-clockwise positive):
 ///   l_f tau_speed q = s tau_turn
 ///   F'R,L           = (tau_speed +- (1 - s) tau_turn/d) k                 [paper (42), corrected]
-/// Inverse of generalised_forces(). Corrected: the paper prints the combined mode with L and R
-/// swapped against its (41), and with d instead of l_f in d_r. The paper's small-angle form, also
-/// available (steering_geometry.h), omits 3 % of the thrust at 20 deg. The result is finite for
-/// finite input.
+/// s is the share of the yaw moment that steering makes: 0 in differential mode, 1 in steering
+/// mode, 1/2 in combined mode. q and k depend on the steering angle d_r (steering_geometry.h): with
+/// four driven wheels, q = tan(d_r/2) and k = (1 + q^2)/4. l_f: centre of gravity to front axle, m;
+/// d: half the track width, m. generalised_forces() is the inverse function.
+///
+/// Corrected: the paper prints the combined mode with L and R swapped against its (41), and with d
+/// instead of l_f in d_r. The paper's small-angle form, also available (steering_geometry.h), omits
+/// 3 % of the thrust at 20 deg. The result is finite for finite input.
 template <class T>
 AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& split,
                           const T& tau_speed, const T& tau_turn_m, const AllocationConstants<T>& c,
@@ -91,8 +97,8 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
   const T limit = steering_limit(c, speed);
   detail::Steering<T> steering = detail::steer(c, speed, steered_m, limit);
 
-  // The wheel forces make the remaining moment. If the split redistributes, this includes the
-  // moment that the steering cannot make, at its stop or because tau_speed is too small.
+  // The wheel forces make the remaining moment. With CombinedSplit::kRedistribute, they also make
+  // the moment that the steering cannot make, because it is at its stop or tau_speed is too small.
   const Mask<T> leaves = split.redistributes && (steering.limited || steering.powerless);
   T moment_m = tau_turn_m - steered_m;
   if (any(leaves))
@@ -100,10 +106,11 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
   const T k = geometry.to_force_share(steering.q);
   detail::split_forces(c, speed, moment_m, k, a);
 
-  // If forces were clipped, the steering makes the moment that they do not make, up to its stop.
-  // Clipped forces make tau_speed = (F'L + F'R)/(2 k) and the moment tau_diff =
-  // d (F'R - F'L)/(2 k). In q = (tau_turn - tau_diff)/(l_f tau_speed), numerator and denominator
-  // are multiplied by 2 k.
+  // If wheel forces were clipped, the steering makes the moment that is missing, up to its stop.
+  // The clipped forces make the surge force tau_speed = (F'L + F'R)/(2 k) and the yaw moment
+  // tau_diff = d (F'R - F'L)/(2 k). So the steering needs
+  //   q = (tau_turn - tau_diff)/(l_f tau_speed)
+  // The code multiplies numerator and denominator by 2 k, which avoids two divisions.
   const Mask<T> returns = split.redistributes && a.force_limited && !leaves;
   if (any(returns)) {
     const T rest_m = (k + k) * tau_turn_m - c.half_track_m * (a.force.right - a.force.left);
@@ -118,8 +125,8 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
       geometry, c, steering.q, a.steering_limited && !math::is_different(limit, c.q_max));
 }
 
-/// allocate() for a yaw mode. The speed u, m/s, forward positive, has an effect only if the motors
-/// have back-EMF, because back-EMF lowers the force limits by k_e u. `constants`: the result of
+/// Allocates in the given yaw mode. `u_mps` is the speed u, forward positive. It has an effect only
+/// for motors with back-EMF, which lowers the force limits by k_e u. `constants`: the result of
 /// prepared(limits).
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
@@ -132,8 +139,8 @@ Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   return a;
 }
 
-/// allocate() that also computes the constants from the limits, for use where computing time does
-/// not matter.
+/// Same as allocate() above, but also computes the constants from the limits. For use where
+/// computing time does not matter.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {

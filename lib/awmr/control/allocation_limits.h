@@ -14,18 +14,20 @@ namespace awmr {
 /// Geometry and actuator limits of the vehicle.
 template <class T>
 struct AllocationLimits {
-  T front_axle_m;           ///< l_f, m, > 0: centre of gravity to front axle
-  T half_track_m;           ///< d, m, > 0: centre line to the middle of a wheel
-  T force_min;              ///< F'min of one wheel, over F_max, in [-1, F'max); < 0 reverses
-  T force_max;              ///< F'max of one wheel, over F_max, in (0, 1]
+  T front_axle_m;  ///< l_f, m, > 0: centre of gravity to front axle
+  T half_track_m;  ///< d, m, > 0: centre line to the middle of a wheel
+  /// F'min, smallest force of a wheel divided by F_max, in [-1, F'max). Below 0: motors can
+  /// reverse.
+  T force_min;
+  T force_max;              ///< F'max, largest force of a wheel divided by F_max, in (0, 1]
   T steering_max_rad;       ///< d_max, rad, in (0, pi/2): stop of the front wheels, either side
-  T steering_max_tan_half;  ///< tan_half(d_max): precomputed for the chip
+  T steering_max_tan_half;  ///< tan(d_max/2), stored because the chip computes no tangent
   /// Reaction of the combined mode when the steering or a wheel force saturates.
   CombinedSplit split = CombinedSplit::kRedistribute;
-  /// Exact equations, or those for small angles (kPaper). The chip supports only kExact.
+  /// Form of the equations: exact, or for small angles (kPaper). The chip supports only kExact.
   AllocationForm form = AllocationForm::kExact;
-  /// F'0, the dead zone of every motor, over F_max, >= 0. It is not contained in the allocated
-  /// forces and in the limits above; with_dead_zone() adds it to the motor command.
+  /// Dead zone F'0 of every motor, divided by F_max, >= 0. The allocated forces and the limits
+  /// above do not contain it; with_dead_zone() adds it to the motor command.
   T dead_zone = T(0.0);
   /// k_e, s/m, >= 0: back-EMF coefficient of every motor (motor_force() in model/dynamics.h). The
   /// force of a wheel that rolls at u m/s is within [F'min - k_e u, F'max - k_e u].
@@ -54,8 +56,8 @@ SteeringGeometry geometry_of(const AllocationLimits<T>& limits) {
   return {limits.is_rear_driven, limits.form};
 }
 
-/// Computes the constants from the limits. With the geometry of the chip, q_max is the stored value
-/// steering_max_tan_half, so the chip computes no tangent.
+/// Computes the constants from the limits. With four driven wheels and the exact form, as on the
+/// chip, q_max is the stored value steering_max_tan_half, so that the chip computes no tangent.
 template <class T>
 AllocationConstants<T> prepared(const AllocationLimits<T>& l) {
   const SteeringGeometry geometry = geometry_of(l);
@@ -72,24 +74,25 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& l) {
           on_chip ? l.steering_max_tan_half : geometry.to_q(l.steering_max_rad)};
 }
 
-/// At a tau_speed (dimensionless) below this, the front wheels push too little to turn the vehicle,
-/// and d_r is 0.
+/// Smallest surge force tau_speed (dimensionless) at which the allocation steers. Below it, the
+/// front wheels push too little to turn the vehicle, and the steering angle d_r is 0.
 template <class T>
 constexpr T steering_authority_min() {
   return T(1e-6);
 }
-/// Smallest tau_speed (dimensionless) at which d_r may reach its stop: 1/64 of the thrust of four
-/// motors.
+/// Smallest surge force tau_speed (dimensionless) at which the allocation uses the full steering
+/// angle d_max: 1/64 of the thrust of four motors.
 template <class T>
 constexpr T steering_authority_full() {
   return T(0.0625);
 }
 
-/// Limit of |q| (steering_geometry.h) at tau_speed:
+/// Limit of |q| at the surge force tau_speed, where q measures the steering (steering_geometry.h):
 ///   q_max sat(tau_speed/steering_authority_full(), [0, 1])
-/// The q of a given moment grows as 1/tau_speed and is 0 for tau_speed <= 0. With a constant limit,
-/// the wheels would jump from the stop to straight ahead at tau_speed = 0. This reduction lowers
-/// the steering moment by at most 1/256 of that available at full thrust.
+/// Reason: the q that makes a given moment grows as 1/tau_speed, but is 0 for tau_speed <= 0. With
+/// a constant limit, the wheels would jump from their stop to straight ahead when tau_speed reaches
+/// 0. The reduced limit costs at most 1/256 of the steering moment that is available at full
+/// thrust.
 template <class T>
 AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
   using math::any;
@@ -98,15 +101,15 @@ AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed
   return c.q_max * math::clamp(T(tau_speed * (T(1.0) / full)), T(0.0), T(1.0));
 }
 
-/// The allocated commands, and which limits changed them.
+/// The allocated commands, and flags that tell which limits changed them.
 template <class T>
 struct Allocation {
-  SideForces<T> force;       ///< F' of each wheel of a side, in [F'min, F'max]
+  SideForces<T> force;       ///< force F' of each left and of each right wheel, in [F'min, F'max]
   T steering_rad;            ///< the commanded d_r, rad, left positive, |d_r| <= d_max
   Mask<T> speed_limited;     ///< tau_speed was clipped
   Mask<T> steering_limited;  ///< d_r was clipped
   Mask<T> force_limited;     ///< an F' was clipped
-  /// The mode steers, but tau_speed is below steering_authority_min(), so d_r is 0.
+  /// True: the mode uses steering, but tau_speed is below steering_authority_min(), so d_r is 0.
   Mask<T> steering_powerless;
 };
 

@@ -1,7 +1,7 @@
-/// Arming: motors can turn only between the command ARM and the first reason to stop. Freestanding
-/// C++14.
+/// Arming: the motors can turn only after the command ARM and until the first reason to stop.
+/// Freestanding C++14.
 ///
-/// The state after a reset is disarmed. ARM is refused while there is any fault other than the
+/// After a reset, the vehicle is disarmed. ARM is refused while there is any fault other than the
 /// command time-out. STOP, a command time-out, any fault and the end of a route disarm the vehicle.
 /// It then stays disarmed until the next ARM, even after the reason has ended.
 #pragma once
@@ -17,8 +17,8 @@ enum class DisarmReason : uint8_t {
   kNone = 0,     ///< the vehicle is armed
   kReset = 1,    ///< not armed since the start
   kStop = 2,     ///< the command STOP
-  kTimeout = 3,  ///< no valid command for AWMR_COMMAND_TIMEOUT_MS
-  kFault = 4,    ///< a fault; stored in `fault` and `cause`
+  kTimeout = 3,  ///< no valid command arrived for AWMR_COMMAND_TIMEOUT_MS
+  kFault = 4,    ///< a fault disarmed the vehicle; `fault` and `cause` give it
   kArrived = 5   ///< the route is finished
 };
 
@@ -29,8 +29,8 @@ struct Arming {
 
   bool is_armed() const { return reason == DisarmReason::kNone; }
 
-  /// Arms the vehicle and returns true. Refuses this (false, the state is unchanged) if the last
-  /// step had a sensor fault, or a fault other than the command time-out.
+  /// Arms the vehicle and returns true. If the last step had a sensor fault, or a fault other than
+  /// the command time-out, changes nothing and returns false.
   bool arm(uint8_t step_fault, uint8_t sensor_fault) {
     if ((step_fault & ~static_cast<unsigned>(kFaultCommandTimeout)) != 0 || sensor_fault != 0) {
       return false;
@@ -40,12 +40,13 @@ struct Arming {
     cause = 0;
     return true;
   }
-  /// Disarms the vehicle. If it is already disarmed, only kStop replaces the stored reason.
+  /// Disarms the vehicle and stores the reason. If the vehicle is already disarmed, the first
+  /// reason is kept, unless the new one is kStop.
   void disarm(DisarmReason why) {
     if (is_armed() || why == DisarmReason::kStop) reason = why;
   }
-  /// Call after each step: disarms the vehicle if the step had any fault. True: this step disarmed
-  /// it.
+  /// Disarms the vehicle if the last step had any fault. Call it after each step. Returns true if
+  /// this call disarmed the vehicle.
   bool observe(uint8_t step_fault, uint8_t sensor_fault) {
     if (!is_armed() || (step_fault == kFaultNone && sensor_fault == 0)) return false;
     const bool is_silence = step_fault == kFaultCommandTimeout && sensor_fault == 0;

@@ -20,7 +20,8 @@ namespace detail {
 /// Maximum magnitude of a position coordinate, m: its square cannot overflow.
 constexpr float kPositionMax = 1e6F;
 
-/// Returns kFaultStepLate if too much time has passed since the last step, never in the first step.
+/// Returns kFaultStepLate if more than step_timeout_ms have passed since the last step. The first
+/// step is never late.
 template <class G, class P>
 AWMR_INLINE uint8_t check_period(Autopilot<G, P>& a, uint32_t now_ms) {
   const bool is_late = a.has_stepped && is_older(now_ms, a.last_step_ms, a.limits.step_timeout_ms);
@@ -72,7 +73,8 @@ AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
   predict_speed(a.direction, a.controller.surge, a.mass_inverse, a.limits.speed_max_mps, dt_s);
 }
 
-/// Corrects the predicted speed by the reading of the speed sensor, if the reading is new.
+/// Corrects the predicted speed by the reading of the speed sensor. No-op if the reading is not
+/// new.
 template <class G, class P>
 AWMR_CALLED void read_speed(Autopilot<G, P>& a, const AutopilotInput& in) {
   const bool is_new = !a.direction.has_fix || in.times.speed_ms != a.direction_ms;
@@ -90,13 +92,13 @@ inline bool is_finite(const AutopilotOutput& out) {
          float_math::leading_bits(out.tau_speed) < infinity;
 }
 
-/// Returns the tau_speed that acts until the next step: the requested one, limited to the range of
-/// the four motors.
+/// Returns the surge force that acts until the next step: the requested tau_speed, limited to the
+/// range of the four motors.
 inline float acting_force(const AllocationConstants<float>& c, float tau_speed) {
   return math::clamp(tau_speed, c.tau_speed_min, c.tau_speed_max);
 }
 
-/// Computes both laws, the allocation and the motor drives for a reference.
+/// Computes speed law, heading law, allocation and motor drives for a reference.
 template <class G, class P>
 AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
                          const Measurement<float>& measured, const Reference<float>& ref,
@@ -114,8 +116,8 @@ AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
   make_up_back_emf(motors, at_rest, measured, out.command.force);
 }
 
-/// Stops the motors and straightens the wheels. Resets avoidance, shaping and observers, so that
-/// they start again in the next step without a fault.
+/// Sets the safe command (motors off, wheels straight). Resets obstacle avoidance, heading shaping
+/// and disturbance observers, so that they start anew in the next step without a fault.
 template <class G, class P>
 AWMR_INLINE void stop(Autopilot<G, P>& a, AutopilotOutput& out) {
   reset(part_of<typename P::Avoidance>(a));
@@ -129,8 +131,8 @@ AWMR_INLINE void stop(Autopilot<G, P>& a, AutopilotOutput& out) {
 
 }  // namespace detail
 
-/// Performs one step. Call it once per sample time. On a fault of the input or of the command, the
-/// motors are off and the wheels straight, and `out.fault` has the reason.
+/// Performs one control step. Call it once per sample time. If the input or the computed command
+/// has a fault, the motors are off, the wheels straight, and `out.fault` names the fault.
 template <class G, class P>
 void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutput& out) {
   out.arrived = false;

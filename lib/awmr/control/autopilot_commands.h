@@ -29,8 +29,8 @@ void follow_line(Autopilot<G, P>& a, const typename P::Line::Route& line, float 
 }
 
 /// Makes the autopilot follow this timed path from the next step on, instead of any waypoints or
-/// line. The next step is at t = 0 of the path. `gain_per_s`: k of closed_path(), > 0; 0: without
-/// position feedback.
+/// line. The next step is at t = 0 of the path. `gain_per_s`: gain k of the position feedback in
+/// closed_path(), > 0; 0: no position feedback.
 template <class G, class P>
 void follow_path(Autopilot<G, P>& a, const Lissajous<float>& path, float gain_per_s) {
   follow_waypoints(a, Waypoints<float>{0, 0, 0.0F, false});
@@ -66,8 +66,8 @@ void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, flo
   part.is_started = false;
 }
 
-/// Makes the autopilot estimate the position with these constants, from the next step on whose
-/// position is a fix (AutopilotInput::position_is_fix).
+/// Makes the autopilot estimate the position with these constants. The estimate starts in the next
+/// step whose input has a GPS fix as its position (AutopilotInput::position_is_fix).
 template <class G, class P>
 void filter_position(Autopilot<G, P>& a, const PositionFilter<float>& filter) {
   part_of<Positioner<>>(a).estimate = PositionEstimate<float>(filter);

@@ -1,5 +1,6 @@
-/// Optional parts of a firmware: disturbance observer, compensation of dead zone and back-EMF, and
-/// position estimate. The parts of the guidance are in guidance/parts.h. Freestanding C++14.
+/// Optional parts of a firmware: disturbance observer, compensation of the motors' dead zone and
+/// back-EMF, and position estimate. The optional parts of the guidance are in guidance/parts.h.
+/// Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -25,23 +26,26 @@ struct Observer {
   bool is_started;
 };
 
-/// Compensates the dead zone and the back-EMF of the motors.
+/// Increases the motor commands to compensate the dead zone and the back-EMF of the motors.
 struct MotorCurve {
-  float dead_zone;         ///< F'0 of a wheel, over F_max; 0: none
+  float dead_zone;         ///< dead zone F'0 of a motor, divided by F_max; 0: none
   float back_emf_s_per_m;  ///< k_e of a motor, s/m; 0: none
-  const RestBlock* rest;   ///< the parameters, in flash on an AVR; null: none of these features
-  uint8_t mode;            ///< YawMode for which RestingTable::rest_speed of g3 is set
+  /// Parameters of this part, in flash on an AVR. Null: no dead zone, no back-EMF and no friction
+  /// that jumps at rest.
+  const RestBlock* rest;
+  uint8_t mode;  ///< YawMode to which the friction width of the yaw resistance g3 is set
 };
 
-/// Estimates the position from the fixes of a GPS receiver. Filter: see PositionEstimate.
+/// Estimates the position from the fixes of a GPS receiver. `Filter` is the type of the constants,
+/// see PositionEstimate.
 template <class Filter = PositionFilter<float>>
 struct Positioner {
   PositionEstimate<float, Filter> estimate{};
-  uint32_t fix_ms = 0;  ///< AutopilotInput::fix_ms of the last fix
+  uint32_t fix_ms = 0;  ///< time of the last fix (AutopilotInput::fix_ms)
 };
 
 /// List of parts for a firmware without optional parts. A firmware with some parts defines its own
-/// struct with these names, such as AllParts below.
+/// struct with the same member names. AllParts below is an example.
 struct NoParts {
   typedef Disabled<LineFollower<float>> Line;
   typedef Disabled<PathFollower<float, uint32_t>> Path;
@@ -52,10 +56,12 @@ struct NoParts {
   typedef Disabled<MotorCurve> Motors;
   typedef Disabled<Positioner<>> Positioning;
   static constexpr CombinedSplit kSplit = CombinedSplit::kRedistribute;
-  static constexpr bool kIsDirected = true;  ///< AutopilotInput::speed_unsigned is supported
+  /// True: speed sensors without a sign are supported (AutopilotInput::speed_unsigned).
+  static constexpr bool kIsDirected = true;
 };
 
-/// List of all parts, for a firmware with the given split of the combined mode.
+/// List of all parts. `split` determines how combined mode distributes the yaw moment when an
+/// actuator is at its limit.
 template <CombinedSplit split = CombinedSplit::kRedistribute>
 struct AllParts {
   typedef LineFollower<float> Line;
@@ -70,7 +76,7 @@ struct AllParts {
   static constexpr bool kIsDirected = true;
 };
 
-/// Makes the part estimate the disturbance from the next step on. The first estimate is 0.
+/// Makes the observer estimate the disturbance from the next step on. The first estimate is 0.
 inline void enable(Observer& part, const Observers<float>& observers, float sample_time_s) {
   part.observers = observers;
   part.sample_time_s = sample_time_s;
@@ -95,10 +101,10 @@ AWMR_INLINE void reset(Positioner<Filter>& part) {
   part.estimate.restart();
 }
 
-/// Returns the present position: the estimate, or position_m of the input if the part is not
-/// compiled in or position_m is not a fix. Call it only if the input has no fault other than the
-/// command time-out. `speed_mps`: predicted speed, which gives a measured speed without a sign its
-/// sign.
+/// Returns the present position: the estimate, or the input's position_m if position_m is not a GPS
+/// fix or the estimate is not compiled in. Call it only if the input has no fault other than the
+/// command time-out. `speed_mps` is the predicted speed. Its sign is used if the speed sensor
+/// measures no sign.
 template <class Filter>
 AWMR_INLINE const Position<float>& position_now(const Disabled<Positioner<Filter>>&,
                                                 const AutopilotInput& in, const float&) {
@@ -119,15 +125,16 @@ AWMR_CALLED Position<float> position_now(Positioner<Filter>& part, const Autopil
   return part.estimate.step({in.position_m, age_s, is_new}, motion);
 }
 
-/// Replaces each force by the motor command that makes this force in spite of the dead zone.
+/// Replaces each force by the motor command that makes this force in spite of the dead zone. No-op
+/// if MotorCurve is not compiled in.
 AWMR_INLINE void make_up_dead_zone(const Disabled<MotorCurve>&, SideForces<float>&) {}
 inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) {
   force = with_dead_zone(force, part.dead_zone);
 }
 
-/// Sets the friction width of g3 to that of the mode, if the mode has changed and MotorCurve is
-/// compiled in. The friction width is the yaw rate below which Coulomb friction is fed forward
-/// smoothly (Gains::friction_width_at()).
+/// Sets the friction width of the yaw resistance g3 to that of `mode`, if the mode has changed. The
+/// friction width is the yaw rate below which Coulomb friction is fed forward smoothly
+/// (Gains::friction_width_at()). No-op if MotorCurve is not compiled in.
 template <class G>
 AWMR_INLINE void use_friction_width(Disabled<MotorCurve>&, uint8_t, G&) {}
 template <class G>
@@ -137,7 +144,8 @@ void use_friction_width(MotorCurve& part, uint8_t mode, G& yaw) {
   if (part.rest != 0) set_friction_width(part.rest, mode, yaw);
 }
 
-/// Allocation limits at the speed u, m/s. If MotorCurve is compiled in, back-EMF reduces them.
+/// Returns the allocation limits at the speed u, m/s. They are those at rest, `c`, reduced by
+/// back-EMF if MotorCurve is compiled in.
 AWMR_INLINE const AllocationConstants<float>& limits_at(const Disabled<MotorCurve>&,
                                                         const AllocationConstants<float>& c,
                                                         const float& /*u_mps*/) {
@@ -149,7 +157,8 @@ inline AllocationConstants<float> limits_at(const MotorCurve& part,
   return at_speed(c, part.back_emf_s_per_m, u_mps);
 }
 
-/// Replaces each force by the motor drive that makes this force in spite of the back-EMF.
+/// Replaces each force by the motor drive that makes this force in spite of the back-EMF. No-op if
+/// MotorCurve is not compiled in.
 AWMR_INLINE void make_up_back_emf(const Disabled<MotorCurve>&, const AllocationConstants<float>&,
                                   const Measurement<float>&, SideForces<float>&) {}
 inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<float>& c,
@@ -157,8 +166,8 @@ inline void make_up_back_emf(const MotorCurve& part, const AllocationConstants<f
   force = motor_drives(force, c, part.back_emf_s_per_m, m.u_mps, m.r_radps);
 }
 
-/// Allocates the outputs of the control laws, minus the estimated disturbance if the observer is
-/// compiled in and on.
+/// Computes the commands for the outputs of the control laws. If the disturbance observer is
+/// compiled in and on, its estimate is subtracted from these outputs first.
 template <class G>
 AWMR_INLINE void allocate_observed(Disabled<Observer>&, const PreparedController<float, G>& c,
                                    const Measurement<float>& m,

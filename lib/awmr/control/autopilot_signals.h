@@ -14,13 +14,15 @@ namespace awmr {
 struct AutopilotInput {
   uint8_t mode;                 ///< a YawMode
   Measurement<float> measured;  ///< motion of the vehicle from the sensors
-  Position<float> position_m;   ///< world frame; used only if guidance or a flag below needs it
-  Reference<float> reference;   ///< its heading is ignored while guidance is active
-  InputTimes times;             ///< time stamps of all inputs
+  /// Position in the world frame. It is used only by guidance, and if one of the flags below is
+  /// set.
+  Position<float> position_m;
+  Reference<float> reference;  ///< desired motion; guidance, while active, replaces the heading
+  InputTimes times;            ///< time stamps of all inputs
   /// Not 0: measured.u_mps is |u|, as from a GPS; its sign is computed (directed_speed.h).
   uint8_t speed_unsigned = 0;
-  /// Not 0: position_m is the last fix of a receiver, taken at fix_ms, and the step estimates the
-  /// present position (position_estimate.h). 0: position_m is the present position.
+  /// Not 0: position_m is the last fix of a GPS receiver, taken at fix_ms. The step then estimates
+  /// the present position from it (position_estimate.h). 0: position_m is the present position.
   uint8_t position_is_fix = 0;
   uint32_t fix_ms = 0;
 };
@@ -28,13 +30,15 @@ struct AutopilotInput {
 /// Output of one step.
 struct AutopilotOutput {
   Allocation<float> command;  ///< for the motors and the servo
-  /// Output of the speed law minus the estimated disturbance, dimensionless, before any limit; 0 on
-  /// a fault.
+  /// Requested surge force, dimensionless, before any limit: output of the speed law minus the
+  /// estimated disturbance. 0 on a fault.
   float tau_speed;
-  float tau_turn_m;   ///< like tau_speed, of the heading law: yaw moment over F_max, m
-  float psi_ref_rad;  ///< heading reference of the law, rad; 0 on a fault
+  /// Requested yaw moment divided by F_max, m, before any limit: output of the heading law minus
+  /// the estimated disturbance. 0 on a fault.
+  float tau_turn_m;
+  float psi_ref_rad;  ///< desired heading, input of the heading law, rad; 0 on a fault
   bool arrived;       ///< the route is finished
-  uint8_t fault;      ///< SafetyFault bits; not 0: `command` is the safe command
+  uint8_t fault;      ///< SafetyFault bits; if not 0, `command` is the safe command
 };
 
 }  // namespace awmr

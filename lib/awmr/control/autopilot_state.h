@@ -14,31 +14,31 @@
 
 namespace awmr {
 
-/// State of the autopilot between two steps. G is the type of the resistances, as in Controller; P
-/// lists the compiled parts (autopilot_parts.h).
+/// State of the autopilot between two steps. G is the type of the resistances g1 and g3, as in
+/// Controller. P lists the optional parts that are compiled in (autopilot_parts.h).
 template <class G, class P = NoParts>
 struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Positioning {
   PreparedController<float, G> controller;
   SafetyLimits limits;
   uint32_t last_step_ms;           ///< time of the last step, valid if has_stepped
-  DirectedSpeed<float> direction;  ///< direction of travel, for a speed without a sign
-  uint32_t direction_ms;           ///< InputTimes::speed_ms of the last reading
+  DirectedSpeed<float> direction;  ///< direction of travel, for a speed sensor without a sign
+  uint32_t direction_ms;           ///< time of the last speed reading (InputTimes::speed_ms)
   float mass_inverse;              ///< 1/m'
-  bool has_stepped;                ///< at least one step since the start
-  bool are_parameters_good;        ///< the check sum was correct at the start
+  bool has_stepped;                ///< at least one step has been made since the start
+  bool are_parameters_good;        ///< the check sum of the parameters was correct at the start
 };
 
-/// Sets dead zone and back-EMF of the motors, if MotorCurve is compiled in.
+/// Sets dead zone and back-EMF of the motors. No-op if MotorCurve is not compiled in.
 inline void set_motors(const RestBlock*, Disabled<MotorCurve>&) {}
 inline void set_motors(const RestBlock* rest, MotorCurve& part) {
   part.rest = rest;
-  part.mode = 0;  // the mode for which start_autopilot() sets g3
+  part.mode = 0;  // start_autopilot() sets the yaw resistance g3 for this mode
   part.dead_zone = rest != 0 ? flash_float(&rest->dead_zone) : 0.0F;
   part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
 }
 
-/// Enables the observer with the parameters `tuned`. No-op if the observer is not compiled in or
-/// `tuned` is null.
+/// Enables the disturbance observer with the parameters `tuned`. No-op if the observer is not
+/// compiled in or `tuned` is null.
 inline void set_observer(const ObserverBlock*, Disabled<Observer>&) {}
 inline void set_observer(const ObserverBlock* tuned, Observer& part) {
   if (tuned == 0) return;
@@ -49,9 +49,9 @@ inline void set_observer(const ObserverBlock* tuned, Observer& part) {
          read.sample_time_s);
 }
 
-/// Reads the parameters and compares their check sum with `crc`, the check sum in the emitted
-/// header. If the two differ, returns false; every step then outputs the safe command. `rest` has
-/// the parameters of RestingTable and MotorCurve, `observer` those of Observer; null: none. On an
+/// Reads the parameters. Returns true if their check sum equals `crc`, which the header of the
+/// emitted library defines. If not, every step outputs the safe command. `rest` has the parameters
+/// of RestingTable and MotorCurve, `observer` those of Observer; null: no such parameters. On an
 /// AVR, all pointers are addresses in flash.
 template <class G, class P>
 bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,

@@ -35,7 +35,7 @@ enum class CommandVerdict : uint8_t {
   kTextLocked  ///< text is refused after the first frame
 };
 
-/// Maximum length of a line, without its end.
+/// Maximum number of characters of a line, without the line end.
 constexpr uint8_t kCommandLength = 31;
 
 class CommandReader {
@@ -45,8 +45,9 @@ class CommandReader {
   bool is_framed = false;  ///< the last line was a frame
   uint8_t sequence = 0;    ///< sequence number of the last new frame
 
-  /// Processes a character. Returns the result for the line that this character completes, and
-  /// kTaken at the last letter of STOP; kNone within a line and for an empty line.
+  /// Processes a character. If it completes a line, returns the result for this line; within a
+  /// line, and for an empty line, returns kNone. Exception: the last letter of STOP gives kTaken at
+  /// once.
   CommandVerdict take(char c) {
     if (is_stop_at(c)) {
       // Skip the rest of this line.
@@ -132,8 +133,8 @@ class CommandReader {
     const uint8_t ahead = static_cast<uint8_t>(number - sequence);
     if (has_sequence_ && (ahead == 0 || ahead > 127)) return CommandVerdict::kRepeated;
     const CommandVerdict verdict = read_text(text + 1);
-    // The sequence number also counts as used if the command is unknown: a repetition of the frame
-    // is then refused.
+    // The sequence number counts as used even if the command is unknown, so that a repetition of
+    // this frame is refused.
     sequence = static_cast<uint8_t>(number);
     has_sequence_ = true;
     return verdict;
@@ -160,8 +161,8 @@ class CommandReader {
     return CommandVerdict::kTaken;
   }
 
-  /// Reads [+-]d*[.d*] up to the end of the text, with one to eight digits. False: the text has
-  /// another form.
+  /// Reads a decimal number of one to eight digits, [+-]d*[.d*], that ends with the text. Returns
+  /// false if the text has another form.
   static bool read_number(const char* text, float& number) {
     const bool is_negative = *text == '-';
     if (*text == '-' || *text == '+') ++text;

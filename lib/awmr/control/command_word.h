@@ -16,11 +16,11 @@ enum class CommandWord : uint8_t {
   kHeading,  ///< H: heading, deg
   kSpeed,    ///< S: speed, m/s
   kMode,     ///< M: YawMode, 0, 1 or 2
-  kForce     ///< T: wheel force, over F_max
+  kForce     ///< T: wheel force divided by F_max
 };
 
-/// The command with this name, of 1 to 4 capital letters; kNone if no command has it. STOP is not
-/// found here: CommandReader recognises it letter by letter.
+/// Returns the command with this name of 1 to 4 capital letters; kNone if no command has it. The
+/// name STOP is not in the list, because CommandReader recognises STOP letter by letter.
 inline CommandWord find_command(const char* name, uint8_t letters) {
   if (letters == 1) {
     switch (name[0]) {

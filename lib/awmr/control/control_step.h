@@ -1,5 +1,5 @@
-/// One sample of the controller for a given reference: control laws, disturbance observer,
-/// allocation. Freestanding C++14.
+/// One sample of the controller for a given reference: control laws, compensation of the estimated
+/// disturbance, allocation. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/allocation.h"
@@ -12,15 +12,17 @@
 
 namespace awmr {
 
-/// Requested force and moment, and the commands that the allocation makes of them.
+/// Surge force and yaw moment that the laws request, and the commands that the allocation computes.
 template <class T>
 struct Command {
-  T tau_speed;               ///< dimensionless, forward positive: requested, before any limit
-  T tau_turn_m;              ///< m, counter-clockwise positive: requested, before any limit
-  Allocation<T> allocation;  ///< forces and angle, within their limits
+  /// requested surge force, dimensionless, forward positive, before any limit
+  T tau_speed;
+  /// requested yaw moment, m, counter-clockwise positive, before any limit
+  T tau_turn_m;
+  Allocation<T> allocation;  ///< wheel forces and steering angle, within their limits
 };
 
-/// Input of the allocation (request and limits), and the command that the allocation fills in.
+/// Input of the allocation (request and limits), and its output: the command.
 template <class T>
 struct AllocationRequest {
   const SteeringGeometry& geometry;
@@ -31,8 +33,8 @@ struct AllocationRequest {
   Allocation<T>& command;
 };
 
-/// Momentum, resistance and coupling force m' r v at the measured motion, computed by the
-/// controller's model. Input of the observers.
+/// Computes momentum, resistance and coupling force m' r v of the measured motion from the
+/// controller's model. The disturbance observers need them.
 template <class T, class G>
 ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measurement<T>& m) {
   const ControlConstants<T>& k = c.constants;
@@ -41,8 +43,8 @@ ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measu
           k.mass_norm * m.r_radps * m.v_mps};
 }
 
-/// Generalised forces (41) that the allocated wheel forces and steering angle make. The constants
-/// `c` must be those of the vehicle.
+/// Generalised forces (surge force and yaw moment) that the allocated wheel forces and steering
+/// angle make, by [paper (41)]. The constants `c` must be those of the vehicle.
 template <class T>
 GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
                                       const AllocationConstants<T>& c, const Allocation<T>& a) {
@@ -51,8 +53,9 @@ GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
              : front_wheel_forces(c.front_axle_m, c.half_track_m, a.force, a.steering_rad);
 }
 
-/// Subtracts the estimated disturbance from the request, allocates it, and passes the limited
-/// command to the observers. `observers` null: no observers, and `state` is not used.
+/// Subtracts the estimated disturbance from the requested force and moment, allocates the result,
+/// and passes the limited command to the observers. If `observers` is null, nothing is subtracted
+/// and `state` is not used.
 template <class T, class G>
 AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
                                       const PreparedController<T, G>& c, const Measurement<T>& m,
@@ -75,7 +78,7 @@ AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
   }
 }
 
-/// Computes both laws and the allocation for one sample, without observers and without
+/// Computes both laws and the allocation for one sample. Without disturbance observers, and without
 /// compensation of the motors' dead zone.
 template <class T, class G>
 Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,

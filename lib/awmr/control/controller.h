@@ -8,12 +8,12 @@
 
 namespace awmr {
 
-/// Model, gains and limits of the controller. G is the type of a resistance: the law itself or a
-/// table of it (resistance_table.h). A call g(w) returns the resistance at the speed w.
+/// Model, gains and limits of the controller. G is the type of a resistance g: the formula itself,
+/// or a table of it (resistance_table.h). The call g(w) returns the resistance at the speed w.
 template <class T, class G = Resistance<T>>
 struct Controller {
-  G surge;                     ///< g1 of the model, dimensionless, of u in m/s: fed forward
-  G yaw;                       ///< g3 of the model, m, of r in rad/s: fed forward
+  G surge;                     ///< surge resistance g1(u), dimensionless, u in m/s; fed forward
+  G yaw;                       ///< yaw resistance g3(r), m, r in rad/s; fed forward
   T mass_norm;                 ///< m' of the model, s^2/m, > 0
   T inertia_norm;              ///< I'z of the model, s^2 m, > 0
   Gains<T> gains;              ///< tuned gains
@@ -36,7 +36,7 @@ struct ControlConstants {
   AllocationConstants<T> allocation;
 };
 
-/// The controller in the form that the laws use: resistances and precomputed constants.
+/// Form of the controller that the laws use: resistances and precomputed constants.
 template <class T, class G = Resistance<T>>
 struct PreparedController {
   G surge;  ///< g1: surge resistance

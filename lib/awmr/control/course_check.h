@@ -6,19 +6,21 @@
 
 namespace awmr {
 
-/// Integral over the distance driven of the heading error beyond e0, m rad:
-///   off = max(0, off + int (|psi_d - psi| - e0) |u| dt),  e0 = on_course_rad
-/// It keeps growing while the vehicle does not turn to the commanded heading. Possible reasons: a
-/// gyroscope with the wrong sign, a failed or reversed servo or motor, a target inside the turning
-/// circle. A turn by 180 deg with the radius R adds
+/// Integral of the heading error beyond e0 = on_course_rad over the distance driven, m rad:
+///   off = max(0, off + int (|psi_d - psi| - e0) |u| dt)
+/// psi_d is the commanded heading, psi the heading, u the speed. The integral keeps growing while
+/// the vehicle does not turn to psi_d. Possible reasons: a gyroscope with the wrong sign, a failed
+/// or reversed servo or motor, a target inside the turning circle. For comparison, a healthy turn
+/// by 180 deg with the radius R adds
 ///   R int_e0^pi (e - e0) de = R (pi - e0)^2/2
 class CourseCheck {
  public:
   void restart() { off_course_mrad_ = 0.0F; }
 
-  /// Processes the motion up to a fix. True: the integral exceeds its limit. The integral restarts
-  /// at 0 while the commanded speed is 0, and at a new command (kNewCourse_rad). `Limits`:
-  /// GpsLimits, or a type with the same names as constants.
+  /// Processes the motion from the previous fix to this one. Returns true if the integral exceeds
+  /// its limit. The integral restarts at 0 while the commanded speed is 0, and when the commanded
+  /// heading changes by more than kNewCourse_rad. `Limits`: GpsLimits, or a type with constants of
+  /// the same names.
   template <class Limits>
   AWMR_CALLED_MEMBER bool is_off(const Limits& limits, const GpsMotion& motion,
                                  const GpsContext& at) {
@@ -36,11 +38,11 @@ class CourseCheck {
   }
 
  private:
-  /// The commanded heading counts as a new command if it changes by more than this, rad, between
-  /// two fixes.
+  /// If the commanded heading changes by more than this between two fixes, rad, it is a new
+  /// command.
   static constexpr float kNewCourse_rad = 0.35F;
 
-  float off_course_mrad_ = 0.0F;  // integral of the heading error beyond e0 over the distance
+  float off_course_mrad_ = 0.0F;  // heading error beyond e0, integrated over the distance
   float course_rad_ = 0.0F;       // commanded heading at the previous fix
 };
 

@@ -1,18 +1,18 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
 /// The speed law needs a signed speed: with |u| as its input, it can accelerate a vehicle that
-/// rolls backward (runs_away_unsigned()). The sign is taken from a predicted speed u, which the
-/// identified model gives for the commanded force:
+/// rolls backward (runs_away_unsigned()). Here, the sign is that of a predicted speed u. The
+/// prediction uses the identified model (mass m', resistance g1) and the commanded force tau_speed:
 ///   m' u_dot = tau_speed - g1(u)
-/// The sensor corrects the magnitude of the prediction; the displacement along the heading verifies
-/// its sign. Rules:
+/// Readings of the sensor correct the magnitude of the prediction. The displacement along the
+/// heading verifies its sign. Rules:
 ///   - Braking (a force against the direction of travel) requires a known direction.
 ///   - The predicted speed of a braking vehicle stops at 0: braking cannot become driving backward.
 ///   - A direction is verified only while the vehicle does not brake, after 1 m along the heading.
 ///   - If the direction is unknown and |u| > |u_ref|, the vehicle coasts: tau_speed is 0.
 ///   - At u_ref = 0, tau_speed is 0 while |u| <= kStandstill_mps.
-/// On a slope, a vehicle therefore brakes in pulses. A pulse ends when the predicted speed is 0.
-/// The next one starts when the displacement has verified the direction again.
+/// So a vehicle that stops on a slope brakes in pulses. A pulse ends when the predicted speed is 0.
+/// The next pulse starts when the displacement has verified the direction again.
 #pragma once
 
 #include <stdint.h>
@@ -26,24 +26,27 @@
 
 namespace awmr {
 
-/// The direction is unknown while the magnitude of the predicted speed is at most this, m/s.
+/// Up to this magnitude of the predicted speed, m/s, the direction of travel is unknown.
 constexpr float kDirected_mps = 0.1F;
 /// Distance along the heading that verifies a direction, m.
 constexpr float kVerified_m = 1.0F;
-/// Time after the last braking before a displacement can verify a direction, s. It is longer than
-/// the latency of a GPS plus the time in which the vehicle stops.
+/// A displacement verifies the direction only if the last braking ended at least this time ago, s.
+/// The time is longer than the latency of a GPS plus the time in which the vehicle stops.
 constexpr float kSettled_s = 1.0F;
 
-/// Direction of travel between two steps. All zero: at rest, direction unknown.
+/// Direction of travel between two steps. With all members 0, the vehicle is at rest and its
+/// direction unknown.
 template <class T>
 struct DirectedSpeed {
-  T predicted_mps;    ///< u predicted by the model, signed; |u| <= kDirected_mps: direction unknown
-  T tau_speed;        ///< command applied since the last step, dimensionless
-  T along_m;          ///< displacement along the heading, m, since the last braking, standstill or
-                      ///< verification of the direction
-  T settled_s;        ///< time since the last braking, s, counted up to kSettled_s
-  Position<T> fix_m;  ///< position of the last reading, valid if has_fix
-  bool has_fix;       ///< at least one reading since the start
+  /// Signed speed u that the model predicts. The direction is unknown for |u| <= kDirected_mps.
+  T predicted_mps;
+  T tau_speed;  ///< commanded surge force since the last step, dimensionless
+  /// Displacement along the heading, m, since the last braking, standstill or verification of the
+  /// direction.
+  T along_m;
+  T settled_s;        ///< time since the last braking, s; stops counting at kSettled_s
+  Position<T> fix_m;  ///< position at the last reading, valid if has_fix
+  bool has_fix;       ///< at least one reading has arrived since the start
 };
 
 /// Reading of a speed sensor without a sign.
@@ -64,9 +67,10 @@ T magnitude(const T& value) {
 inline float magnitude(const float& value) { return float_of(float_math::magnitude_bits(value)); }
 }  // namespace detail
 
-/// Predicts the speed over the step of `dt_s` that ends now:
+/// Predicts the speed u from u0 over the step of `dt_s` that ends now:
 ///   u = u0 + dt (tau_speed - g1(u0))/m'
-/// Friction and braking can bring u to 0 but do not reverse it.
+/// Friction and braking can bring u to 0 but do not reverse it. `surge`: surge resistance g1;
+/// `mass_inverse`: 1/m'.
 template <class T, class G>
 void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
                    const T& speed_max_mps, const T& dt_s) {
@@ -85,9 +89,9 @@ void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
   }
 }
 
-/// Corrects the predicted speed with a reading; no effect if the reading is not new. If the
-/// displacement verifies the direction, the predicted speed becomes the measured one with this
-/// direction.
+/// Corrects the predicted speed by a reading of the sensor. No-op if the reading is not new. When
+/// the displacement verifies the direction, the predicted speed is set to the measured speed with
+/// the sign of the displacement.
 template <class T>
 void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   if (!reading.is_new) return;
@@ -106,8 +110,9 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
     return;
   }
   T size = detail::magnitude(d.predicted_mps);
-  // While a force drives the vehicle: average of prediction and reading. While it coasts or brakes:
-  // only a smaller reading is used, because a larger one can belong to the other direction.
+  // While a force drives the vehicle, the predicted speed becomes the mean of prediction and
+  // reading. While the vehicle coasts or brakes, only a reading below the prediction is used: a
+  // larger one can belong to motion in the other direction.
   if (d.predicted_mps * d.tau_speed > T(0.0)) {
     size = T(0.5) * (size + speed);
   } else if (size > speed) {
@@ -116,8 +121,9 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   d.predicted_mps = math::with_sign(size, d.predicted_mps);
 }
 
-/// Replaces |u| in `m` by the signed speed. Where the rules above forbid a force, sets the measured
-/// and the reference speed to 0, so that the vehicle coasts.
+/// Replaces the unsigned speed |u| in `m` by the signed speed. Where the rules at the top of this
+/// file forbid a force, sets the measured speed and the reference speed to 0, so that the vehicle
+/// coasts.
 template <class T>
 void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>& ref) {
   const T speed = detail::magnitude(m.u_mps);
@@ -135,11 +141,13 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
   m.u_mps = math::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
 }
 
-/// Force, over F_max, with which the speed law accelerates a vehicle that rolls backward, if the
-/// input of the law is |u|. The vehicle rolls at u = speed_mps > 0. At u_ref = 0 the law commands
+/// Force, divided by F_max, with which the speed law pushes a vehicle backward that rolls backward
+/// at the speed u = speed_mps > 0, if the law receives |u|. For the reference speed 0, the law
+/// commands
 ///   tau_speed = -(m' mu_s sat(u/eps_s) + f)
-/// f is the Coulomb friction that the law feeds forward. If g1 jumps at rest, f = g1(w0) sat(u/w0)
-/// with w0 = feed_forward_rest_speed(); else f = 0. `surge`: g1 of the model.
+/// m' is `mass_norm`; mu_s, eps_s are `gains`; f is the Coulomb friction that the law feeds
+/// forward. If the surge resistance g1 = `surge` jumps at rest, f = g1(w0) sat(u/w0) with w0 =
+/// feed_forward_rest_speed(), else f = 0.
 template <class T>
 T unsigned_push(const Resistance<T>& surge, const T& mass_norm, const SpeedGains<T>& gains,
                 const T& speed_mps) {
@@ -148,7 +156,8 @@ T unsigned_push(const Resistance<T>& surge, const T& mass_norm, const SpeedGains
 }
 
 /// True if the speed law, with |u| as its input, would accelerate a vehicle that rolls backward at
-/// the speed u = speed_mps, because unsigned_push() exceeds the resistance g1(u).
+/// the speed u = speed_mps. This happens if its force, unsigned_push(), exceeds the resistance
+/// g1(u).
 template <class T>
 bool runs_away_unsigned(const Resistance<T>& surge, const T& mass_norm, const SpeedGains<T>& gains,
                         const T& speed_mps) {

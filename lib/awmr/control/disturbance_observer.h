@@ -1,6 +1,6 @@
-/// Disturbance observer for surge and yaw. The control laws omit the unknown disturbance. The
-/// observer estimates it, and the estimate is subtracted from the outputs of the laws. Freestanding
-/// C++14.
+/// Disturbance observer for surge and yaw. The control laws do not know external forces such as a
+/// slope. The observer estimates them, and the estimate is subtracted from the outputs of the laws.
+/// Freestanding C++14.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -12,16 +12,19 @@ namespace awmr {
 ///
 /// The model from which the laws are derived has an unknown disturbance d:
 ///   J w_dot = tau - g(w) + d                                                    [paper (80), (96)]
-/// Yaw: J = I'z, w = r, d in m. Surge: J = m', w = u, d dimensionless, and m' r v added to tau. The
-/// laws omit d; inside the boundary layer this causes a steady heading error of d/(J lambda
-/// mu/eps). The observer
+/// J: inertia, w: speed, tau: commanded force or moment, g: resistance. Yaw: J = I'z, w = r, d in
+/// m. Surge: J = m', w = u, d dimensionless, and m' r v is added to tau. The laws omit d. Inside
+/// the boundary layer of the heading law (gains lambda, mu, eps), this causes a steady heading
+/// error of d/(J lambda mu/eps). The observer with the state z and the bandwidth L
 ///   d_hat = z + L J w
 ///   z_dot = -L (tau - g(w) + d_hat)
-/// has d_hat_dot = L (d - d_hat): a first-order low pass of bandwidth L without differentiation.
+/// has d_hat_dot = L (d - d_hat): a first-order low pass of d that needs no differentiation.
 template <class T>
 struct DisturbanceObserver {
-  T bandwidth_radps;  ///< L, rad/s, > 0, L T_s < 1. Larger: follows d faster, passes more noise
-  T limit;            ///< > 0, in the unit of tau: |d_hat| <= limit
+  /// Bandwidth L, rad/s, > 0, with L T_s < 1 for the sample time T_s. With a larger L, the estimate
+  /// follows the disturbance faster and passes more noise.
+  T bandwidth_radps;
+  T limit;  ///< limit of |d_hat|, > 0, in the unit of tau
 };
 
 /// State of an observer between samples.
@@ -30,14 +33,15 @@ struct ObserverState {
   T z;  ///< z, in the unit of tau
 };
 
-/// The state for which d_hat = 0. `momentum` is J w.
+/// Returns the initial state z, for which the estimate d_hat is 0. `momentum` is J w.
 template <class T>
 ObserverState<T> start_observer(const DisturbanceObserver<T>& observer, const T& momentum) {
   return {-observer.bandwidth_radps * momentum};
 }
 
-/// The estimated disturbance d_hat, in the unit of tau. If it exceeds the limit, the state z is set
-/// to the value for which d_hat equals the limit. So d_hat decreases as soon as d does.
+/// Returns the estimated disturbance d_hat, in the unit of tau. If d_hat exceeds the limit, sets
+/// the state z to the value for which d_hat equals the limit. So the estimate decreases as soon as
+/// the disturbance does.
 template <class T>
 T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverState<T>& state) {
   const T share = observer.bandwidth_radps * momentum;
@@ -46,8 +50,9 @@ T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverSt
   return d;
 }
 
-/// Advances the state by one sample. `known` is tau - g(w). If tau is the requested command and not
-/// the limited one, a saturated actuator looks like a disturbance, and d_hat winds up.
+/// Advances the state by one sample. `known` is tau - g(w), the force that is known. Its tau must
+/// be the limited command: with the requested one, a saturated actuator looks like a disturbance,
+/// and d_hat winds up.
 template <class T>
 void advance(const DisturbanceObserver<T>& observer, const T& d_hat, const T& known,
              const T& sample_time_s, ObserverState<T>& state) {
@@ -59,8 +64,8 @@ template <class T>
 struct Observers {
   DisturbanceObserver<T> yaw;    ///< limit in m
   DisturbanceObserver<T> surge;  ///< dimensionless limit
-  /// true: the observers use the limited command. false: they use the requested command and wind up
-  /// at a limit, for comparison.
+  /// True: the observers use the limited command. False, for comparison: they use the requested
+  /// command, so the estimate winds up while an actuator is at its limit.
   bool anti_windup;
 };
 
@@ -71,7 +76,7 @@ struct ObserversState {
   ObserverState<T> surge;
 };
 
-/// Surge force and yaw moment, over F_max.
+/// Surge force and yaw moment, each divided by F_max.
 template <class T>
 struct AxisForces {
   T surge;  ///< dimensionless, forward positive
@@ -86,14 +91,14 @@ struct ObservedMotion {
   T coupling;                ///< m' r v
 };
 
-/// The states for which both d_hat are 0.
+/// Returns the initial states, for which the estimates d_hat of both observers are 0.
 template <class T>
 ObserversState<T> start_observers(const Observers<T>& observers, const AxisForces<T>& momentum) {
   return {start_observer(observers.yaw, momentum.yaw_m),
           start_observer(observers.surge, momentum.surge)};
 }
 
-/// The estimated disturbances d_hat in surge and yaw.
+/// Returns the estimated disturbances d_hat in surge and yaw.
 template <class T>
 AWMR_CALLED AxisForces<T> estimate(const Observers<T>& observers, const ObservedMotion<T>& motion,
                                    ObserversState<T>& state) {
@@ -101,8 +106,8 @@ AWMR_CALLED AxisForces<T> estimate(const Observers<T>& observers, const Observed
           estimate(observers.yaw, motion.momentum.yaw_m, state.yaw)};
 }
 
-/// Advances both states by one sample. `requested`: the outputs of the laws minus d_hat.
-/// `allocated`: the forces that the allocation makes of this request.
+/// Advances both observers by one sample. `requested`: outputs of the laws minus d_hat.
+/// `allocated`: forces that the allocated commands make.
 template <class T>
 AWMR_CALLED void advance(const Observers<T>& observers, const AxisForces<T>& d_hat,
                          const AxisForces<T>& requested, const GeneralisedForces<T>& allocated,

@@ -7,16 +7,16 @@
 
 namespace awmr {
 
-/// Resistance that a control law adds to its command, at the speed w (u in the speed law, r in the
+/// Resistance that a control law adds to its command at the speed w (u in the speed law, r in the
 /// heading law):
 ///   g(w)                                        for |w| >= rest_speed
 ///   g(rest_speed) sat((w + intent)/rest_speed)  below
-/// The second line is for resistances that jump at rest (feed_forward() in resistance.h). Below
-/// rest_speed the sign of w is noise, so the force has the direction in which the vehicle is to
-/// move. `intent` is the speed error e_u, or the sliding variable S in the heading law. The noise
-/// of w cancels in w + intent. This sum is psi_d_dot + lambda e in the heading law, and u_d in the
-/// speed law. (At u_d = 0, the speed law passes w = 0, and the sum is -u: friction then helps to
-/// brake.)
+/// The second line is for resistances that jump at rest (feed_forward() in resistance.h). Near
+/// rest, the sign of the measured w is noise, so this line takes the direction in which the vehicle
+/// shall move. `intent` is the error that the law corrects: the speed error e_u, or the sliding
+/// variable S of the heading law. The noise of w cancels in w + intent: this sum is psi_d_dot +
+/// lambda e in the heading law, and u_d in the speed law. (For u_d = 0 the speed law passes w = 0.
+/// The sum is then -u, and friction helps to brake.)
 template <class T>
 T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   using math::abs;
@@ -30,13 +30,13 @@ T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   if (MaskOf<T>::kOneLane || all(rests)) return held;
   return select(rests, held, law(speed));
 }
-/// Resistance that the law feeds forward, for a resistance table with a jump at rest.
+/// Resistance that the law feeds forward, for a table whose resistance jumps at rest.
 inline float fed_forward(const RestingTable& law, const float& speed, const float& intent) {
   if (!law.is_resting(speed)) return law.table(speed);
   return law.at_rest * math::saturate((speed + intent) / law.rest_speed, 1.0F);
 }
-/// Resistance that the law feeds forward, for a resistance without a jump at rest: g(w). The intent
-/// is not used.
+/// Resistance g(w) that the law feeds forward if the resistance does not jump at rest. `intent` is
+/// not used.
 template <class T, class G>
 T fed_forward(const G& table, const T& speed, const T&) {
   return table(speed);

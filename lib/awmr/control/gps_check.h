@@ -1,5 +1,5 @@
-/// Plausibility checks of GPS fixes. All time stamps are of one clock in ms that can wrap.
-/// Freestanding C++14.
+/// Plausibility checks of GPS fixes. All time stamps are readings of one clock, in ms, that can
+/// wrap to 0. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/motion_check.h"
@@ -8,15 +8,17 @@ namespace awmr {
 
 /// Bounds that a healthy vehicle and its GPS do not exceed.
 struct GpsLimits {
-  float speed_max_mps;    ///< largest speed
-  float on_course_rad;    ///< e0: largest heading error in steady motion
-  float off_course_mrad;  ///< largest integral of (heading error - e0) over the distance, m rad
-  uint32_t timeout_ms;    ///< longest time without a fix
-  /// True: the work on a fix is spread over several steps (GpsReceiver).
+  float speed_max_mps;  ///< largest speed
+  float on_course_rad;  ///< e0: largest heading error of a healthy vehicle in steady motion
+  /// largest integral of (heading error - e0) over the distance driven, m rad
+  float off_course_mrad;
+  uint32_t timeout_ms;  ///< longest time without a fix
+  /// True: the work on a fix is spread over several control steps (GpsReceiver).
   static constexpr bool spreads_work = true;
 };
 
-/// Plausibility of GPS fixes. Limits: GpsLimits, or a type with the same names as constants.
+/// Checks whether GPS fixes are plausible. `Limits`: GpsLimits, or a type with constants of the
+/// same names.
 template <class Limits = GpsLimits>
 class GpsCheck {
  public:
@@ -25,22 +27,23 @@ class GpsCheck {
   /// Starts the time-out for the first GPS sentence.
   void begin(uint32_t now_ms) { sentence_ms_ = now_ms; }
 
-  /// Processes a sentence without a usable fix; sentences other than RMC are ignored.
+  /// Processes a GPS sentence that contains no usable fix. Sentences other than RMC are ignored.
   void take_unusable(GpsSentence kind, uint32_t now_ms) {
     if (kind == GpsSentence::kOther) return;
     sentence_ms_ = now_ms;
     last_ = kGpsNoFix;
   }
 
-  /// Processes a fix at (x, y), m, received at `now_ms`. True: it is accepted.
+  /// Processes a fix at (x, y), m, that was received at `now_ms`. Returns true if the fix is
+  /// accepted.
   bool take_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
     const bool is_believed = accept_fix(fix, x_m, y_m, now_ms, at);
     finish_motion();
     return is_believed;
   }
 
-  /// First part of take_fix(): decides whether to accept the fix. The rest can be done by
-  /// check_motion() in later steps, before the next fix.
+  /// First part of take_fix(): decides whether to accept the fix. The second part, the checks of
+  /// the motion, can follow in later steps by check_motion(), but must be done before the next fix.
   bool accept_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
     sentence_ms_ = now_ms;
     if (has_utc_) {
@@ -49,7 +52,8 @@ class GpsCheck {
       if (fix.utc_ms < utc_ms_) advance_ms += kDay_ms;
       if (advance_ms == 0) return refuse(kGpsRepeated);
       if (advance_ms > kDay_ms / 2) {
-        unsettled_ = kRelocations;  // UTC ran back: wait until it has advanced for a while
+        // UTC ran backward: refuse fixes until UTC has advanced for a while.
+        unsettled_ = kRelocations;
       } else {
         note_lag(detail::elapsed_ms(now_ms, utc_at_ms_), advance_ms);
       }
@@ -68,7 +72,8 @@ class GpsCheck {
       motion_.restart();
       has_fix_ = false;
     }
-    // Disarmed and at rest: clear a fault of the motion check, so that the vehicle can be armed.
+    // The vehicle is disarmed and at rest: clear the faults of the motion checks, so that it can be
+    // armed.
     if (!at.is_armed && fix.speed_mps < kStandstill_mps) motion_.restart();
     elsewhere_ = 0;
     if (has_fix_) motion_.take(motion, at);
@@ -86,7 +91,7 @@ class GpsCheck {
     }
   }
 
-  /// Reason why the GPS is not used; kSensorGood: it is used.
+  /// Returns the reason why the GPS must not be used; kSensorGood: the GPS can be used.
   SensorFault fault(uint32_t now_ms) const {
     if (detail::elapsed_ms(now_ms, sentence_ms_) > limits_.timeout_ms) return kGpsSilent;
     if (!has_fix_ || detail::elapsed_ms(now_ms, fix_.time_ms) > limits_.timeout_ms) {
@@ -101,14 +106,14 @@ class GpsCheck {
     uint32_t time_ms;
   };
 
-  /// Maximum difference, ms, between the latency of a fix and the smallest latency so far. A fix
-  /// with a larger one is refused as kGpsOld.
+  /// A fix is refused as kGpsOld if its latency exceeds the smallest latency so far by more than
+  /// this, ms.
   static constexpr int32_t kGpsLag_ms = 500;
-  /// Displacement between two fixes that counts as noise, m.
+  /// Displacement that the noise of two fixes can cause, m.
   static constexpr float kNoise_m = 3.0F;
-  /// While the vehicle is disarmed, the last of this many consecutive fixes out of reach is
-  /// accepted as a new position. After UTC ran back, the last of this many further fixes is
-  /// accepted.
+  /// Number of consecutive fixes out of reach of the vehicle that must arrive while it is disarmed;
+  /// the last of them is accepted as its new position. Likewise, after UTC ran backward, this
+  /// number of further fixes must arrive, and the last of them is accepted.
   static constexpr uint8_t kRelocations = 10;
 
   Limits limits_;
@@ -118,8 +123,8 @@ class GpsCheck {
   int32_t lag_ms_ = 0;
   Place fix_ = {0.0F, 0.0F, 0.0F, 0};  // last accepted fix
   MotionCheck motion_;
-  uint8_t elsewhere_ = 0;  // consecutive fixes out of reach
-  uint8_t unsettled_ = 0;  // fixes to wait for after UTC ran back
+  uint8_t elsewhere_ = 0;  // consecutive fixes that the vehicle cannot have reached
+  uint8_t unsettled_ = 0;  // fixes that are still refused because UTC ran backward
   SensorFault last_ = kSensorGood;
   bool has_utc_ = false;
   bool has_fix_ = false;
@@ -129,23 +134,24 @@ class GpsCheck {
     return false;
   }
 
-  /// Updates lag_ms_, the latency of the last fix minus the smallest latency so far. Between two
-  /// fixes, lag_ms_ grows by the advance of the board's clock minus that of UTC. 1/64 of the time
-  /// is deducted, because a board's clock can be wrong by up to 0.5 %.
+  /// Updates lag_ms_, the latency of the last fix minus the smallest latency so far. From one fix
+  /// to the next, the latency grows by the advance of the board's clock minus the advance of UTC.
+  /// The clock of a board can be wrong by up to 0.5 %, so 1/64 of the time is subtracted.
   void note_lag(uint32_t wait_ms, uint32_t advance_ms) {
     lag_ms_ += static_cast<int32_t>(wait_ms - advance_ms) - static_cast<int32_t>(advance_ms / 64U);
     if (lag_ms_ < 0) lag_ms_ = 0;
   }
 
-  /// Displacement and time from the last accepted fix to this one.
+  /// Displacement and time from the last accepted fix to the place `to`.
   GpsMotion motion_to(const Place& to) const {
     return {to.x_m - fix_.x_m, to.y_m - fix_.y_m,
             1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, fix_.time_ms)), to.speed_mps};
   }
 
-  /// True if the vehicle can have moved from the last accepted fix to this one: the displacement is
-  /// at most
-  ///   kNoise_m + (1.5 u + 1 m/s) t,   u: the larger speed of both fixes, t: the time between them
+  /// True if the vehicle can have moved from the last accepted fix to the place `to`, that is, if
+  /// the displacement is at most
+  ///   kNoise_m + (1.5 u + 1 m/s) t
+  /// u is the larger of the speeds at the two fixes, t the time between them.
   bool is_reachable(const Place& to, const GpsMotion& motion) const {
     float speed_mps = to.speed_mps > fix_.speed_mps ? to.speed_mps : fix_.speed_mps;
     if (speed_mps > limits_.speed_max_mps) speed_mps = limits_.speed_max_mps;

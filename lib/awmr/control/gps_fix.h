@@ -1,5 +1,5 @@
-/// Position fix of a GPS receiver, and its conversion from the numbers of an RMC sentence.
-/// Freestanding C++14.
+/// Position fix of a GPS receiver, and its conversion from the numbers of an RMC sentence (NMEA
+/// 0183). Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -17,8 +17,10 @@ struct GpsFix {
 enum class GpsSentence : uint8_t {
   kOther,    ///< complete, but not RMC
   kDamaged,  ///< check sum missing or wrong, a field empty or malformed
-  kNoFix,    ///< complete, but the receiver has no fix, or a fix that is not measured
-  kFix       ///< complete, with a usable fix
+  /// complete, but the receiver has no fix, or one that is not measured (simulated or entered by
+  /// hand)
+  kNoFix,
+  kFix  ///< complete, with a usable fix
 };
 
 /// A GPS speed below this, m/s, can be the noise of a receiver at rest.
@@ -29,20 +31,19 @@ constexpr uint32_t kDay_ms = 1000 * kDay_s;
 /// Units of GpsFix::lat_e7 in a degree.
 constexpr uint32_t kDegree_e7 = 10000000;
 
-/// A number in a GPS sentence. `whole`: the digits before the decimal point. `part`: the fraction
-/// in units of the last decimal place that is kept; with three places, .5 is 500. Hours or degrees,
-/// minutes and seconds are combined with base 60: the digits 1234 of 12 deg 34 min become
-/// 12 * 60 + 34.
+/// A number in a GPS sentence. `whole` has the digits before the decimal point, `part` the decimal
+/// places: with three places, ".5" gives 500. Hours, minutes and seconds are combined with base 60,
+/// and so are degrees and minutes: the digits 1234 for 12 deg 34 min give whole = 12 * 60 + 34.
 struct RmcNumber {
   uint32_t whole;
   uint32_t part;
 };
 
-/// The numbers of a sentence before they are converted.
+/// Numbers of one RMC sentence, not yet converted to the units of GpsFix.
 struct RmcNumbers {
   RmcNumber utc;    ///< in s since midnight, and ms
-  RmcNumber lat;    ///< in minutes of arc, and 1e-7 minutes of arc
-  RmcNumber lon;    ///< in minutes of arc, and 1e-7 minutes of arc
+  RmcNumber lat;    ///< latitude: `whole` in minutes of arc, `part` in 1e-7 minutes
+  RmcNumber lon;    ///< longitude: `whole` in minutes of arc, `part` in 1e-7 minutes
   RmcNumber knots;  ///< in knots, and 1e-3 knots
   bool is_south;
   bool is_west;
@@ -50,8 +51,9 @@ struct RmcNumbers {
 
 namespace detail {
 
-/// Converts minutes of arc to 1e-7 deg: 1e7 (whole + 1e-7 part)/60. Degrees and minutes are
-/// converted separately to stay within 32 bits.
+/// Converts minutes of arc to 1e-7 deg:
+///   1e7 (whole + 1e-7 part)/60
+/// Whole degrees and the rest are converted separately, so that all products fit into 32 bits.
 inline int32_t degrees_e7(const RmcNumber& minutes, bool is_negative) {
   const uint16_t whole = static_cast<uint16_t>(minutes.whole);
   const uint16_t degrees = static_cast<uint16_t>(whole / 60U);
@@ -63,7 +65,7 @@ inline int32_t degrees_e7(const RmcNumber& minutes, bool is_negative) {
 
 }  // namespace detail
 
-/// Converts the numbers of a sentence for which RmcReader::kind() is kFix to a fix.
+/// Converts the numbers of a sentence to a fix. Precondition: RmcReader::kind() is kFix.
 inline GpsFix to_fix(const RmcNumbers& numbers) {
   return {numbers.utc.whole * 1000U + numbers.utc.part,
           detail::degrees_e7(numbers.lat, numbers.is_south),

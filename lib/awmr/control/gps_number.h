@@ -1,4 +1,4 @@
-/// Reader for one number of a GPS sentence. Freestanding C++14.
+/// Reader for one number of a GPS sentence, digit by digit. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/gps_fix.h"
@@ -8,12 +8,14 @@ namespace awmr {
 /// Reads a number digit by digit.
 class RmcNumberReader {
  protected:
-  RmcNumber* number_ = 0;    // number into which the field is read; 0: the field is not a number
-  uint32_t value_ = 0;       // value of the field's digits since its start or its point
-  uint8_t digits_left_ = 0;  // digits still expected before the point
-  uint8_t places_left_ = 0;  // digits still kept behind the point
-  uint8_t sixties_ = 0;      // bit 0: the next digit is the first of two that are below 60, such as
-                             // minutes; bit 1: the same for the digit after it; and so on
+  // Destination of the number. 0: the current field is not a number.
+  RmcNumber* number_ = 0;
+  uint32_t value_ = 0;       // value of the digits read so far, before or after the point
+  uint8_t digits_left_ = 0;  // digits still expected before the decimal point
+  uint8_t places_left_ = 0;  // decimal places still to be read; later ones are ignored
+  // Positions of digits that are tens of minutes or seconds, which must be below 6. Bit 0: the next
+  // digit, bit 1: the digit after it, and so on.
+  uint8_t sixties_ = 0;
   bool has_point_ = false;
   bool is_malformed_ = false;
 
@@ -40,8 +42,9 @@ class RmcNumberReader {
     }
     append(digit, is_sixties);
   }
-  /// value = 10 value + digit, or 6 value + digit if `is_sixties`. By shifts, because a product
-  /// takes an AVR 50 cycles.
+  /// Appends a digit: value = 10 value + digit, or, if `is_sixties`, value = 6 value + digit,
+  /// because the tens of minutes and seconds count 0 to 5. The code uses shifts, because a product
+  /// takes 50 cycles on an AVR.
   void append(uint8_t digit, bool is_sixties) {
     const uint32_t twice = value_ << 1U;
     uint32_t rest = twice << 1U;
@@ -53,7 +56,7 @@ class RmcNumberReader {
     value_ = 0;
     has_point_ = true;
   }
-  /// Stores the number, with zeros for the decimal places that the field does not have.
+  /// Stores the number. Decimal places that the field does not have are 0.
   void end_number() {
     if (!has_point_) end_whole();
     for (; places_left_ > 0; --places_left_) append(0, false);

@@ -29,24 +29,25 @@ class GpsReceiver {
   float x_m = 0.0F;
   float y_m = 0.0F;
   float speed_mps = 0.0F;  ///< speed over ground, without a sign
-  uint32_t time_ms = 0;    ///< arrival time of the fix's sentence, valid once has_fix()
+  uint32_t time_ms = 0;    ///< arrival time of the sentence of the fix, valid once has_fix()
 
   constexpr explicit GpsReceiver(const Limits& limits = Limits()) : check_(limits) {}
 
   void begin(uint32_t now_ms) { check_.begin(now_ms); }
   bool has_fix() const { return has_fix_; }
-  /// Reason why fixes are rejected; kSensorGood: fixes are accepted.
+  /// Returns the reason why the GPS must not be used; kSensorGood: the GPS can be used.
   SensorFault fault(uint32_t now_ms) const { return check_.fault(now_ms); }
 
-  /// Reads all characters that have arrived. Call it before the port's buffer is full, and never
-  /// during step(). `port` has available() and read(), like Arduino's Stream.
+  /// Reads all characters that have arrived at the port. Call it often enough that the port's
+  /// buffer does not overflow, and never during step(). `port` has available() and read(), like
+  /// Arduino's Stream.
   template <class Port>
   void receive(Port& port, uint32_t now_ms) {
     while (port.available() > 0) take(static_cast<char>(port.read()), now_ms);
   }
 
-  /// Does the next part of the work on the fix. Call it once per step. `project` converts a GpsFix
-  /// to a GpsPlace.
+  /// Does the next part of the work on the fix, as listed at the top of this file. Call it once per
+  /// control step. `project` converts a GpsFix to a GpsPlace.
   template <class Projection>
   void step(Projection& project, const GpsContext& at) {
     do {
@@ -59,9 +60,10 @@ class GpsReceiver {
 
   RmcReader reader_;
   GpsCheck<Limits> check_;
-  RmcNumbers numbers_ = {};           // numbers of the current sentence
-  GpsPlace believed_ = {0.0F, 0.0F};  // position of this sentence, valid from Work::kAccept on
-  GpsFix fix_ = {};                   // fix of this sentence, valid from Work::kAccept on
+  RmcNumbers numbers_ = {};  // numbers of the current sentence
+  // position of the fix in the world frame, valid from Work::kAccept on
+  GpsPlace believed_ = {0.0F, 0.0F};
+  GpsFix fix_ = {};  // the fix in GPS coordinates, valid from Work::kAccept on
   uint32_t sentence_ms_ = 0;
   Work due_ = Work::kNone;
   bool has_fix_ = false;

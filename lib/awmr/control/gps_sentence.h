@@ -1,7 +1,7 @@
-/// Strict reader for the RMC sentence of a GPS (NMEA 0183). An empty or malformed field, or a
-/// missing or wrong check sum, makes the whole sentence unusable. The reader processes each
-/// character when it arrives, with integers only. So its computing time is spread over the steps in
-/// which the sentence arrives. Freestanding C++14.
+/// Strict reader for the RMC sentence of a GPS receiver (NMEA 0183). An empty or malformed field,
+/// or a missing or wrong check sum, makes the whole sentence unusable. The reader processes each
+/// character when it arrives, with integers only. So the computing time is spread over the control
+/// steps in which the sentence arrives. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/gps_fix.h"
@@ -23,12 +23,14 @@ inline uint8_t hex_value(char c) {
 
 }  // namespace detail
 
-/// Reads $xxRMC,time,A,lat,N,lon,E,knots,course,date,variation,E,mode*hh from the characters of a
-/// port, and ignores everything else; xx are two characters of the talker, as in $GPRMC and $GNRMC.
+/// Reads sentences of this form from the characters of a port, and ignores everything else:
+///   $xxRMC,time,A,lat,N,lon,E,knots,course,date,variation,E,mode*hh
+/// xx are two characters for the satellite system, as in $GPRMC and $GNRMC; hh is the check sum.
 class RmcReader : RmcNumberReader {
  public:
-  /// Processes a character. True: it ended a sentence; kind() and numbers() are then valid until
-  /// the next $, which starts a sentence. A sentence that is too long is dropped.
+  /// Processes a character. Returns true if the character ended a sentence. kind() and numbers()
+  /// are then valid until the next $, which starts a sentence. A sentence that is too long is
+  /// dropped.
   bool take(char c) {
     const uint8_t digit = static_cast<uint8_t>(c - '0');
     if (c == '$') {
@@ -36,7 +38,7 @@ class RmcReader : RmcNumberReader {
     } else if (!is_open_ || ++length_ > kLengthMax) {
       is_open_ = false;
     } else if (number_ != 0 && digit <= 9) {
-      // Digits in a number field are the most frequent characters and need none of the tests below.
+      // Most characters are digits of a number field. They need none of the tests below.
       add_to_sum(c);
       take_digit(digit);
     } else if (c == '\n' || c == '\r') {
@@ -59,7 +61,8 @@ class RmcReader : RmcNumberReader {
     if (!is_rmc_ || field_ == kTalker) return GpsSentence::kOther;
     if (field_ < kKnots) return GpsSentence::kDamaged;
     if (status_ == 'V') return GpsSentence::kNoFix;
-    // NMEA 2.3 and later: mode of the fix. N none, E by dead reckoning, M by hand, S simulated.
+    // Since NMEA 2.3, the sentence has the mode of the fix: N no fix, E dead reckoning, M entered
+    // by hand, S simulated. In these modes, the position is not measured.
     if (status_ == 'A' && (mode_ == 'N' || mode_ == 'E' || mode_ == 'M' || mode_ == 'S')) {
       return GpsSentence::kNoFix;
     }
@@ -68,7 +71,7 @@ class RmcReader : RmcNumberReader {
   const RmcNumbers& numbers() const { return numbers_; }
 
  private:
-  /// Length of the longest sentence, with its $ and the first character of its end.
+  /// Maximum length of a sentence, counted from the $ to the first character of the line end.
   static constexpr uint8_t kLengthMax = 96;
 
   enum Field : uint8_t {
@@ -83,7 +86,7 @@ class RmcReader : RmcNumberReader {
     kMode = 12,
     kBeyond
   };
-  /// Role of the next character in the check sum.
+  /// Role of the next character: covered by the check sum, digit of the check sum, or after it.
   enum SumPlace : uint8_t { kSummed, kHighDigit, kLowDigit, kComplete, kTooMuch };
 
   RmcNumbers numbers_ = {};
@@ -165,8 +168,9 @@ class RmcReader : RmcNumberReader {
   void begin_field() {
     size_ = 0;
     if (field_ < kBeyond) ++field_;
-    // time hhmmss[.s*] (no leap second), latitude ddmm.m*, longitude dddmm.m*; knots: up to five
-    // digits before the point
+    // Arguments: digits before the point (for the speed at most five), decimal places, and tens of
+    // minutes and seconds (RmcNumberReader::sixties_). Forms: time hhmmss[.s*] without leap
+    // seconds, latitude ddmm.m*, longitude dddmm.m*.
     if (field_ == kUtc) begin_number(numbers_.utc, 6, 3, 0x14);
     if (field_ == kLat) begin_number(numbers_.lat, 4, 7, 0x04);
     if (field_ == kLon) begin_number(numbers_.lon, 5, 7, 0x08);

@@ -1,16 +1,16 @@
-/// Zero-rate offset of a gyroscope, measured before the vehicle moves. Freestanding C++14.
+/// Measures the zero-rate offset of a gyroscope before the vehicle moves. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/sensor_fault.h"
 
 namespace awmr {
 
-/// Measures the zero-rate offset of a gyroscope as the mean of 100 readings. The measurement starts
-/// again if the vehicle was not at rest, that is, if the spread or the mean of the readings or the
-/// change of the compass heading is too large.
+/// Measures the zero-rate offset of a gyroscope as the mean of 100 readings. If the spread or the
+/// mean of these readings, or the change of the compass heading, shows that the vehicle was not at
+/// rest, the measurement starts again.
 class GyroCalibration {
  public:
-  /// Processes the gyroscope's raw reading `word` of one sample; one count is `rate_per_word`
+  /// Processes the gyroscope's raw reading `word` of one sample; a count of 1 is `rate_per_word`
   /// rad/s. `heading_rad` is the compass heading, valid if `has_heading`.
   void take(int16_t word, float rate_per_word, bool has_heading, float heading_rad) {
     if (is_done_) return;
@@ -35,13 +35,14 @@ class GyroCalibration {
 
  private:
   static constexpr uint8_t kSamples = 100;
-  /// Largest difference of two readings at rest, rad/s: six times the peak-to-peak noise of an
-  /// MPU9250 with its 41 Hz filter.
+  /// Maximum difference between two readings of a vehicle at rest, rad/s. It is six times the
+  /// peak-to-peak noise of an MPU9250 with its 41 Hz filter.
   static constexpr float kSpreadMax_radps = 0.05F;
-  /// Largest accepted zero-rate offset, rad/s: 5.2 deg/s; the data sheet specifies at most 5 deg/s.
+  /// Maximum zero-rate offset, rad/s (5.2 deg/s). The data sheet specifies at most 5 deg/s. A
+  /// larger mean is taken for a rotation of the vehicle.
   static constexpr float kBiasMax_radps = 0.09F;
-  /// Maximum change of the compass heading from first to last reading, rad: 3.4 deg, of which 1.4
-  /// deg can be noise.
+  /// Maximum change of the compass heading during the measurement, rad (3.4 deg, of which 1.4 deg
+  /// can be noise).
   static constexpr float kTurnMax_rad = 0.06F;
 
   int32_t sum_ = 0;
@@ -52,7 +53,7 @@ class GyroCalibration {
   float bias_radps_ = 0.0F;
   int16_t bias_word_ = 0;
   float first_rad_ = 0.0F;
-  float turned_rad_ = 0.0F;  // compass heading change since its first reading
+  float turned_rad_ = 0.0F;  // change of the compass heading since the first reading
   bool has_first_ = false;
 
   void start(int16_t word) {

@@ -1,5 +1,5 @@
-/// Plausibility checks of compass and gyroscope on their raw readings. All time stamps are of one
-/// clock in ms that can wrap. Freestanding C++14.
+/// Plausibility checks of the raw readings of compass and gyroscope. All time stamps are readings
+/// of one clock, in ms, that can wrap to 0. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/gyro_calibration.h"
@@ -7,16 +7,17 @@
 
 namespace awmr {
 
-/// Time without a change of the raw word after which a sensor counts as frozen, ms: 50 readings at
-/// 100 Hz. In a working sensor, noise changes the word by 5 counts RMS (gyroscope) or 4 (compass).
+/// A sensor counts as frozen if its raw word has not changed for this time, ms: 50 readings at 100
+/// Hz. In a working sensor, noise changes the word all the time, by 5 counts RMS (gyroscope) or 4
+/// (compass).
 constexpr uint32_t kFrozen_ms = 500;
-/// Longest time without a new magnetic field reading of the compass, ms.
+/// Longest permitted time between two readings of the compass, ms.
 constexpr uint32_t kCompassSilent_ms = 500;
 
-/// Detects a raw word that does not change for kFrozen_ms.
+/// Detects a sensor whose raw word has not changed for kFrozen_ms.
 class FrozenCheck {
  public:
-  /// Processes the raw reading `words` of the time `now_ms`.
+  /// Processes the raw word `words`, read at the time `now_ms`.
   AWMR_CALLED_MEMBER void take(uint32_t words, uint32_t now_ms) {
     if (!has_words_ || words != words_) {
       words_ = words;
@@ -36,13 +37,13 @@ class FrozenCheck {
   bool is_frozen_ = false;
 };
 
-/// Compares compass and gyroscope by their innovation e. The heading is the integral of the
-/// gyroscope's yaw rate, corrected by the compass with the time constant T. In the steady state,
-/// the innovation e = wrap(compass - heading) is T times the difference of the two sensors' yaw
-/// rates.
+/// Compares compass and gyroscope. The heading is the integral of the gyroscope's yaw rate,
+/// corrected by the compass with the time constant T. The innovation e = wrap(compass - heading) is
+/// the difference that the compass corrects. In the steady state, e is T times the difference
+/// between the yaw rates of the two sensors.
 class StepCheck {
  public:
-  /// Processes one innovation e, `dt_s` seconds after the last.
+  /// Processes one innovation e, rad. `dt_s` is the time since the previous one.
   void take(float innovation_rad, float dt_s) {
     slow_rad_ += dt_s * kSlow_per_s * (innovation_rad - slow_rad_);
     const float slow_rad = detail::size_of(slow_rad_);
@@ -53,12 +54,13 @@ class StepCheck {
   bool is_apart() const { return is_apart_; }
 
  private:
-  /// Fault: an innovation above 20 deg for 0.2 s. Causes: the compass jumped, or the scale of the
-  /// gyroscope is wrong and the vehicle turns.
+  /// Limits of a sudden fault: an innovation above 20 deg for 0.2 s. Causes: the compass jumped, or
+  /// the vehicle turns and the scale of the gyroscope is wrong.
   static constexpr float kJump_rad = 0.35F;
   static constexpr float kJump_s = 0.2F;
-  /// Fault: a mean innovation above 6 deg (low pass of 5 s). With T = 2 s, this is a difference
-  /// between the two yaw rates of 3 deg/s. Causes: the compass is frozen, or the gyroscope drifts.
+  /// Limits of a slow fault: a mean innovation above 6 deg, where the mean is a low pass of 5 s.
+  /// With the time constant T = 2 s, 6 deg is a difference between the two yaw rates of 3 deg/s.
+  /// Causes: the compass is frozen, or the gyroscope drifts.
   static constexpr float kSlow_per_s = 0.2F;
   static constexpr float kSlowMax_rad = 0.105F;
 
@@ -67,19 +69,20 @@ class StepCheck {
   bool is_apart_ = false;
 };
 
-/// Compares the yaw rate with the commanded yaw moment, to detect swapped left and right motors, a
-/// reversed servo, or a gyroscope with the wrong sign. The fault: the vehicle turns by 90 deg
-/// against the moment, and its yaw rate stays above three quarters of its maximum. (A falling yaw
-/// rate means that the moment is braking an earlier turn.)
+/// Compares the yaw rate with the commanded yaw moment. This detects swapped left and right motors,
+/// a reversed servo, and a gyroscope with the wrong sign. It is a fault if the vehicle turns by 90
+/// deg against the moment while its yaw rate stays above three quarters of its maximum. (If the yaw
+/// rate falls, the moment brakes an earlier turn, which is no fault.)
 class TurnCheck {
  public:
-  /// rate_per_word: rad/s per count of the gyroscope. dt_s: time between two readings, s.
+  /// Sets the scale. `rate_per_word`: rad/s per count of the gyroscope. `dt_s`: time between two
+  /// readings, s.
   void begin(float rate_per_word, float dt_s) {
     quarter_turn_words_ = static_cast<int32_t>(float_math::kPiBy2 / (rate_per_word * dt_s));
   }
-  /// Adds a reading of the gyroscope, with its offset removed. `moment_m` is the yaw moment
-  /// commanded since the last reading, m; 0: the motors are off. Integer arithmetic, which is fast
-  /// on the chip.
+  /// Processes a reading of the gyroscope from which the zero-rate offset was subtracted.
+  /// `moment_m` is the yaw moment commanded since the last reading, m; 0: the motors are off. The
+  /// arithmetic uses integers, because these are fast on the chip.
   AWMR_CALLED_MEMBER void take(int16_t word, float moment_m) {
     if (word <= kTurning && word >= -kTurning) {
       if (is_wrong_ && float_math::magnitude_bits(moment_m) == 0) restart();
@@ -100,11 +103,11 @@ class TurnCheck {
   bool is_wrong() const { return is_wrong_; }
 
  private:
-  /// Smallest word that counts as turning: 5.7 deg/s for an MPU9250 at +-500 deg/s, above the
-  /// noise.
+  /// Smallest |word| that counts as turning. It is above the noise: 5.7 deg/s for an MPU9250 with
+  /// the range +-500 deg/s.
   static constexpr int16_t kTurning = 375;
-  int32_t quarter_turn_words_ = 0;  // sum of the words over a turn of 90 deg
-  int32_t against_words_ = 0;       // sum of the words against the moment
+  int32_t quarter_turn_words_ = 0;  // sum of the words during a turn of 90 deg
+  int32_t against_words_ = 0;       // sum of |word| while turning against the moment
   uint16_t fastest_ = 0;            // largest |word| since against_words_ was 0
   bool is_wrong_ = false;
 
@@ -126,26 +129,26 @@ class HeadingCheck {
     gyro_ms_ = now_ms;
     field_ms_ = now_ms;
   }
-  /// Processes a raw reading of the gyroscope.
+  /// Processes a raw reading of the gyroscope, read at the time `now_ms`.
   void take_gyro(int16_t word, uint32_t now_ms) {
     gyro_ms_ = now_ms;
     gyro_.take(static_cast<uint16_t>(word), now_ms);
   }
-  /// Processes the result of reading the gyroscope's range register. `is_right`: the register still
-  /// holds the range that was set at the start.
+  /// Processes a check of the gyroscope's range register. `is_right`: the register still holds the
+  /// range that was set at the start. If not, the sensor was reset.
   void take_range(bool is_right) { is_range_wrong_ = !is_right; }
-  /// Processes a new magnetic field reading of the compass, as three raw words.
+  /// Processes a new reading of the compass: three raw words of the magnetic field.
   void take_field(int16_t x, int16_t y, int16_t z, uint32_t now_ms) {
     field_ms_ = now_ms;
-    // Combines the three 16-bit words into one 32-bit word. The changes of two words can cancel in
-    // it, but not in every reading of half a second.
+    // Combine the three 16-bit words into one 32-bit word. Changes of two words can cancel each
+    // other in it, but not in every reading of half a second.
     const uint32_t low = static_cast<uint16_t>(x);
     const uint32_t high = static_cast<uint16_t>(y);
     field_.take(
         (low | high << 16U) ^ static_cast<uint32_t>(static_cast<uint16_t>(z)) * 0x9E3779B1UL,
         now_ms);
   }
-  /// The first fault in the order of the tests below; kSensorGood: none.
+  /// Returns the first fault that is found by the tests below, in their order; kSensorGood: none.
   SensorFault fault(uint32_t now_ms) const {
     if (detail::elapsed_ms(now_ms, gyro_ms_) > kGyroSilent_ms) return kGyroSilent;
     if (is_range_wrong_) return kGyroRange;

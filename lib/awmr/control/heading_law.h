@@ -9,22 +9,26 @@
 
 namespace awmr {
 
-/// The sliding variable of the heading law, rad/s:
+/// Sliding variable S of the heading law, rad/s:
 ///   S     = e_dot + lambda e
 ///   e     = wrap(psi_d - psi)
 ///   e_dot = psi_d_dot - r                                                        [paper (81)-(82)]
+/// e: heading error, psi_d: desired heading, psi: heading, r: yaw rate, lambda: a gain.
 template <class T>
 AWMR_INLINE T sliding_surface(const T& lambda, const T& error_rate_radps, const T& error_rad) {
   return error_rate_radps + lambda * wrap_angle(error_rad);
 }
 
-/// The heading law, m:
+/// Computes the yaw moment that the heading law commands, m:
 ///   tau_turn = g3(r) + I'z (psi_d_ddot + lambda e_dot) + I'z mu sat(S/eps)
 ///   sat(z)   = z for |z| <= 1, sgn z beyond                           [paper (84)-(89), corrected]
+/// g3: yaw resistance, r: yaw rate, I'z: normalised yaw inertia, psi_d: desired heading, e: heading
+/// error, S: sliding variable; lambda, mu, eps: gains.
+///
 /// Corrected: (84)-(85) print r_ddot instead of r_dot. (88)-(89) print psi_d_dot - r_dot instead of
 /// psi_d_dot - r. (87) and (78) print the condition |e| <= eps of sat instead of |S| <= eps. The
-/// printed law also subtracts the disturbance. It is omitted here because it is unknown, and mu
-/// must dominate it.
+/// printed law also subtracts the disturbance. It is omitted here because it is unknown; mu must be
+/// large enough to dominate it.
 template <class T, class G>
 AWMR_INLINE T heading_law(const PreparedController<T, G>& c, const Measurement<T>& m,
                           const Reference<T>& ref) {

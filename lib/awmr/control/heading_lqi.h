@@ -10,18 +10,20 @@
 
 namespace awmr {
 
-/// Weights of the quadratic cost, each given as the largest acceptable value (Bryson's rule).
+/// Weights of the quadratic cost. Each weight is given as the largest acceptable value of a
+/// quantity (Bryson's rule).
 template <class T>
 struct LqiWeights {
   T heading_rad;     ///< e_max, rad, > 0: largest heading error e
-  T yaw_rate_radps;  ///< r_max, rad/s, > 0: largest rate e_dot of e
-  T integral_rad_s;  ///< z_max, rad s, > 0: largest integral z of e
-  /// tau_max, m, > 0: largest yaw moment over F_max in addition to those for the yaw resistance and
-  /// for the acceleration of the reference.
+  T yaw_rate_radps;  ///< r_max, rad/s, > 0: largest rate e_dot of the error
+  T integral_rad_s;  ///< z_max, rad s, > 0: largest integral z of the error
+  /// tau_max, m, > 0: largest yaw moment, divided by F_max, that the law adds to the moments for
+  /// the yaw resistance and for the acceleration of the reference.
   T tau_turn_m;
 };
 
-/// Gains of the LQI law, each from one error to the commanded yaw acceleration w.
+/// Gains of the LQI law: w = a1 e + a2 e_dot + a0 z is the commanded yaw acceleration for the
+/// heading error e, its rate e_dot and its integral z.
 template <class T>
 struct LqiGains {
   T integral_per_s3;  ///< a0, 1/s^3
@@ -32,21 +34,23 @@ struct LqiGains {
 /// Computes the gains that minimise
 ///   J = integral of (e/e_max)^2 + (e_dot/r_max)^2 + (z/z_max)^2 + (w/w_max)^2,
 ///   w_max = tau_max/I'z
-/// With yaw resistance fed forward, tau_turn = g3(r) + I'z (psi_d_ddot + w), the plant of this law
-/// is linear at every yaw rate:
+/// for the heading error e, its integral z and the commanded yaw acceleration w. The law tau_turn =
+/// g3(r) + I'z (psi_d_ddot + w) feeds the yaw resistance g3 forward, so the plant for w is linear
+/// at every yaw rate:
 ///   z_dot = e,  e_ddot = -w
-/// The optimal w = a1 e + a2 e_dot + a0 z usually requires the stabilising solution of the
-/// algebraic Riccati equation. For this chain of integrators, w follows by spectral factorisation
-/// (Kalman, When is a linear control system optimal?, 1964): p(s) = s^3 + a2 s^2 + a1 s + a0 is the
-/// stable factor of
+/// The optimal law is w = a1 e + a2 e_dot + a0 z. In general, its gains require the stabilising
+/// solution of an algebraic Riccati equation. For this chain of integrators, they follow by
+/// spectral factorisation (Kalman, When is a linear control system optimal?, 1964): the polynomial
+/// p(s) = s^3 + a2 s^2 + a1 s + a0 is the stable factor of
 ///   p(s) p(-s) = -s^6 + w_max^2 (s^4/r_max^2 - s^2/e_max^2 + 1/z_max^2)
-/// or, power by power,
+/// Comparing powers of s gives
 ///   a0   = w_max/z_max
 ///   a2^2 = w_max^2/r_max^2 + 2 a1
 ///   a1^2 = w_max^2/e_max^2 + 2 a0 a2
-/// The last two give one equation for a1, whose left side minus right side is convex and below 0 at
-/// a1 = 0. It has one positive root, to which Newton's method converges monotonically from any
-/// larger value. The initial value is larger, and less than three times the root, because
+/// The last two lines give one equation for a1. Its left side minus its right side is convex, and
+/// below 0 at a1 = 0, so there is one positive root. Newton's method converges to this root
+/// monotonically from any larger value. The initial value is larger than the root and less than
+/// three times as large, because
 ///   a1^2 <= c1 + 2 a0 sqrt(c2) + 2 a0 sqrt(2 a1),  c1 = w_max^2/e_max^2,  c2 = w_max^2/r_max^2
 template <class T>
 LqiGains<T> lqi_gains(const LqiWeights<T>& weights, const T& inertia_norm) {
@@ -66,14 +70,15 @@ LqiGains<T> lqi_gains(const LqiWeights<T>& weights, const T& inertia_norm) {
   return {a0, a1, sqrt(c2 + T(2.0) * a1)};
 }
 
-/// True if the sampled closed loop, with T_s = sample_time_s > 0, is stable. During a sample w is
-/// constant, so the loop is, with + for the value at the next sample,
+/// True if the closed loop, sampled with T_s = sample_time_s > 0, is stable. The commanded yaw
+/// acceleration w = a1 e + a2 e_dot + a0 z is constant over a sample. With + for the value at the
+/// next sample, the loop is
 ///   e+ = e + T_s e_dot - w T_s^2/2,  e_dot+ = e_dot - w T_s,  z+ = z + T_s e
 /// Its characteristic polynomial in l = (eigenvalue) - 1 is
 ///   l^3 + A l^2 + B l + C,  A = a2 T_s + a1 T_s^2/2,  B = a1 T_s^2 + a0 T_s^3/2,  C = a0 T_s^3
-/// The eigenvalues are within the unit circle if all zeros s of the bilinear image l = 2 s/(1 - s),
-///   (8 - 4 A + 2 B - C) s^3 + (4 A - 4 B + 3 C) s^2 + (2 B - 3 C) s + C,
-/// are in the left half-plane, which is tested by Hurwitz's criterion.
+/// The bilinear transformation l = 2 s/(1 - s) gives the polynomial
+///   (8 - 4 A + 2 B - C) s^3 + (4 A - 4 B + 3 C) s^2 + (2 B - 3 C) s + C
+/// The loop is stable if all zeros s are in the left half-plane, which Hurwitz's criterion tests.
 template <class T>
 bool settles_when_sampled(const LqiGains<T>& gains, const T& sample_time_s) {
   const T a = gains.rate_per_s * sample_time_s +
@@ -93,10 +98,11 @@ struct LqiState {
   T error_rad;       ///< e of the current sample, rad
 };
 
-/// The heading law, m:
+/// Computes the yaw moment that the LQI law commands, m:
 ///   tau_turn = g3(r) + I'z (psi_d_ddot + a1 e + a2 e_dot + a0 z)
 ///   e        = wrap(psi_d - psi),  e_dot = psi_d_dot - r
-/// G as in Controller. Stores e for integrate_error().
+/// `yaw` is the yaw resistance g3, of type G as in Controller; `inertia_norm` is I'z. Stores the
+/// heading error e in `state`, for integrate_error().
 template <class T, class G>
 T lqi_law(const G& yaw, const T& inertia_norm, const LqiGains<T>& gains, const Measurement<T>& m,
           const Reference<T>& ref, LqiState<T>& state) {
@@ -108,17 +114,18 @@ T lqi_law(const G& yaw, const T& inertia_norm, const LqiGains<T>& gains, const M
          inertia_norm * (ref.psi_accel_radps2 + w);
 }
 
-/// Largest relative difference between two moments that are equal except for rounding.
+/// Two moments count as equal if they differ by at most this fraction, which covers rounding.
 template <class T>
 constexpr T same_moment_share() {
   return T(1e-6);
 }
 
-/// Advances z by one sample:
+/// Advances the integral z of the heading error e by one sample:
 ///   z_dot = e
 ///   z_dot = 0 while a limit reduces the moment and e requires more of it
-/// The second line is a conditional integration. Without it, z would wind up at a limit.
-/// `requested_m`: the moment requested from the allocation `a`. `made`: the moment that it gives.
+/// The second line prevents windup at a limit (conditional integration). `requested_m`: the moment
+/// that the law requested. `a`: the allocation of this moment. `made`: the forces that the
+/// allocation makes.
 template <class T>
 void integrate_error(const T& requested_m, const Allocation<T>& a, const GeneralisedForces<T>& made,
                      const T& sample_time_s, LqiState<T>& state) {

@@ -1,5 +1,5 @@
-/// Plausibility of the motion between GPS fixes: compares the displacement with the measured speed,
-/// the command and the heading. Freestanding C++14.
+/// Plausibility checks of the motion from one GPS fix to the next: they compare the displacement
+/// with the measured speed, the commanded direction and the heading. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/course_check.h"
@@ -9,19 +9,20 @@
 
 namespace awmr {
 
-/// Checks of the motion between fixes. A fault lasts until restart().
+/// Checks of the motion between GPS fixes. A fault lasts until restart().
 class MotionCheck : MotionLimits {
  public:
-  /// Starts the four comparisons of check() for this motion.
+  /// Stores a motion from one fix to the next. check() then makes its four comparisons.
   void take(const GpsMotion& motion, const GpsContext& at) {
     motion_ = motion;
     context_ = at;
     due_ = Due::kDirection;
   }
 
-  /// Makes the next of the four comparisons for the last motion: 1. displacement and command, 2.
-  /// displacement and speed, 3. displacement and heading, 4. heading and commanded heading. Returns
-  /// false once all four are done. `Limits`: GpsLimits, or a type with the same names as constants.
+  /// Makes the next of four comparisons for the last motion: 1. displacement with commanded
+  /// direction, 2. displacement with measured speed, 3. displacement with heading, 4. heading with
+  /// commanded heading. Returns false once all four are done. `Limits`: GpsLimits, or a type with
+  /// constants of the same names.
   template <class Limits>
   bool check(const Limits& limits) {
     switch (due_) {
@@ -52,10 +53,10 @@ class MotionCheck : MotionLimits {
     return due_ != Due::kNothing;
   }
 
-  /// The first fault detected since restart(); kSensorGood: none.
+  /// Returns the first fault since restart(); kSensorGood: none.
   SensorFault fault() const { return fault_; }
 
-  /// Clears the fault and all sums, for the next arming.
+  /// Clears the fault and all sums, so that the vehicle can be armed again.
   AWMR_CALLED_MEMBER void restart() {
     restart_window();
     same_m_ = against_m_ = 0.0F;
@@ -72,23 +73,25 @@ class MotionCheck : MotionLimits {
   GpsMotion motion_ = {0.0F, 0.0F, 0.0F, 0.0F};  // valid if a comparison is due
   GpsContext context_ = {0.0F, 0.0F, 0, false};
   CourseCheck course_;
-  float window_s_ = 0.0F;            // time since the window began
-  float window_m_ = 0.0F;            // displacement along the heading in the window
-  float window_left_m_ = 0.0F;       // displacement to the left in the window's straight motions
-  float travelled_m_ = 0.0F;         // integral of the speed in the window
-  float same_m_ = 0.0F;              // integral of the speed while the position did not change
-  float against_m_ = 0.0F;           // displacement against the commanded direction
-  float ahead_m_ = 0.0F;             // displacement of the last motion along the heading
-  float track_s_ = 0.0F;             // time of the straight motions since the last track comparison
-  float track_ahead_m_ = 0.0F;       // displacement of these motions along the heading
-  float track_left_m_ = 0.0F;        // displacement of these motions to the left of the heading
+  float window_s_ = 0.0F;       // time since the window began
+  float window_m_ = 0.0F;       // displacement along the heading in the window
+  float window_left_m_ = 0.0F;  // displacement to the left in the window, in straight motion
+  float travelled_m_ = 0.0F;    // integral of the speed in the window
+  float same_m_ = 0.0F;         // integral of the speed since the position last changed
+  float against_m_ = 0.0F;      // displacement against the commanded direction of travel
+  float ahead_m_ = 0.0F;        // displacement along the heading since the previous fix
+  // Time in straight motion since the last comparison of displacement and heading.
+  float track_s_ = 0.0F;
+  float track_ahead_m_ = 0.0F;       // displacement along the heading in this time
+  float track_left_m_ = 0.0F;        // displacement to the left of the heading in this time
   float track_psi_rad_ = 0.0F;       // heading at the previous fix
   float braking_s_ = 0.0F;           // time left for braking
-  float braked_from_mps_ = 0.0F;     // speed when the commanded direction changed
-  int8_t direction_ = 0;             // GpsContext::direction of the last motion
-  uint8_t against_fixes_ = 0;        // consecutive fixes beyond kAgainst_m
+  float braked_from_mps_ = 0.0F;     // measured speed when the commanded direction changed
+  int8_t direction_ = 0;             // commanded direction at the last fix (GpsContext::direction)
+  uint8_t against_fixes_ = 0;        // consecutive fixes with against_m_ above kAgainst_m
   SensorFault fault_ = kSensorGood;  // the first detected fault
-  bool is_straight_ = false;         // the last motion was straight; valid from Due::kTrack on
+  // the motion to the last fix was straight; valid from Due::kTrack on
+  bool is_straight_ = false;
   Due due_ = Due::kNothing;
 
   AWMR_CALLED_MEMBER void note(SensorFault fault) {
@@ -99,12 +102,14 @@ class MotionCheck : MotionLimits {
     window_s_ = window_m_ = window_left_m_ = travelled_m_ = 0.0F;
   }
 
-  /// Compares the displacement with the distance travelled, both since the window began. Always:
+  /// Compares the displacement with the distance travelled, which is the integral of the measured
+  /// speed u. Both are summed over a window of time. `ahead` and `left` are the displacements along
+  /// the heading and to its left. A fault is reported unless, at every fix,
   ///   |sum of ahead| <= 1.25 int |u| dt + kFurther_m
-  /// At the end of a window with int |u| dt > kWindow_m (at u_ref = 0, only if this window was
-  /// shorter than kMoving_s):
+  /// and, at the end of a window with int |u| dt > kWindow_m,
   ///   |sum of ahead| + |sum of left| >= 0.25 int |u| dt
-  /// The sum of left is included so that a compass error is not reported here but as kOffHeading.
+  /// With the commanded speed 0, the second line is tested only in windows shorter than kMoving_s.
+  /// It contains the sum of left so that a compass error is not reported here, but as kOffHeading.
   AWMR_CALLED_MEMBER void compare_with_speed() {
     const bool is_long = travelled_m_ > kWindow_m;
     if (is_long && (direction_ != 0 || window_s_ < kMoving_s) &&
@@ -128,8 +133,8 @@ class MotionCheck : MotionLimits {
     if (same_m_ > kSame_m) note(kGpsInconsistent);
   }
 
-  /// Restarts the sums of displacements when the commanded direction changes. A moving vehicle then
-  /// gets kBraking_s to brake.
+  /// Restarts the sums of displacements when the commanded direction of travel changes. If the
+  /// vehicle is moving then, it has kBraking_s to brake.
   void follow_command() {
     const bool is_moving = motion_.speed_mps > kStandstill_mps;
     if (context_.direction != direction_) {
@@ -144,8 +149,8 @@ class MotionCheck : MotionLimits {
     if (!is_moving || motion_.speed_mps > braked_from_mps_ + kFaster_mps) braking_s_ = 0.0F;
   }
 
-  /// Compares the displacement with the commanded direction: detects a vehicle that moves the
-  /// opposite way.
+  /// Compares the displacement with the commanded direction of travel. Detects a vehicle that moves
+  /// the opposite way.
   AWMR_CALLED_MEMBER void compare_with_direction() {
     follow_command();
     ahead_m_ = displacement_ahead_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
@@ -168,7 +173,7 @@ class MotionCheck : MotionLimits {
     is_straight_ = !(detail::size_of(turned_rad) > kStraight_rad);
   }
 
-  /// Compares the direction of the displacement with the heading: detects a compass that is mounted
+  /// Compares the direction of the displacement with the heading. Detects a compass that is mounted
   /// at an angle or deflected by iron.
   AWMR_CALLED_MEMBER void compare_with_heading() {
     if (direction_ == 0) return restart_track();

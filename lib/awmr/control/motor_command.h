@@ -9,9 +9,10 @@
 
 namespace awmr {
 
-/// Constants of the allocation at the speed u, m/s, for motors with back-EMF: each force limit is
-/// reduced by k_e u. In a turn, the wheel speeds differ from u by -+ d r. This is not taken into
-/// account here, but in motor_drives().
+/// Constants of the allocation for motors with back-EMF at the speed u, m/s: each force limit is
+/// reduced by k_e u, with the back-EMF coefficient k_e. In a turn, the speeds of the wheels differ
+/// from u by -+ d r (d: half the track width, r: yaw rate). motor_drives() takes this into account,
+/// but the limits here do not.
 template <class T>
 AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_per_m, const T& u_mps,
                                 double driven_wheels = 4.0) {
@@ -25,12 +26,13 @@ AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_pe
   return c;
 }
 
-/// Motor drives e, over F_max, that make these forces at the speed u, m/s, and yaw rate r, rad/s:
+/// Motor drives e, divided by F_max, that make the forces F' at the speed u, m/s, and the yaw rate
+/// r, rad/s. A drive is the force that the motor would make at rest.
 ///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
-/// w is the speed of a rear wheel. The speed of a front wheel differs by w d_r^2/2 and by l_f r
-/// d_r, which are neglected. A drive of 0 switches the motor off, and the wheel rolls freely. So a
-/// vehicle that cannot reverse its motors (F'min = 0) brakes by back-EMF only while its drive is
-/// above 0. NaN stays NaN.
+/// k_e: back-EMF coefficient; d: half the track width. w is the speed of a rear wheel. The speed of
+/// a front wheel differs by w d_r^2/2 and l_f r d_r, which are neglected. A drive of 0 switches the
+/// motor off, and the wheel rolls freely. So a vehicle that cannot reverse its motors (F'min = 0)
+/// brakes by back-EMF only while its drive is above 0. NaN stays NaN.
 template <class T>
 SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants<T>& c,
                            const T& back_emf_s_per_m, const T& u_mps, const T& r_radps) {
@@ -43,14 +45,14 @@ SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants
                   c.force_max)};
 }
 
-/// Motor commands, over F_max, that give these drives: the magnitude of each drive other than 0 is
-/// increased by the dead zone F'0 = `dead_zone`, which the motor subtracts.
+/// Motor commands, divided by F_max, that give these drives. The dead zone F'0 = `dead_zone`, which
+/// the motor subtracts, is added to the magnitude of each drive other than 0.
 template <class T>
 SideForces<T> with_dead_zone(const SideForces<T>& drive, const T& dead_zone) {
   return {with_dead_zone(drive.left, dead_zone), with_dead_zone(drive.right, dead_zone)};
 }
 
-/// Motor commands, over F_max, that make these forces with motors that have a dead zone and
+/// Motor commands, divided by F_max, that make these forces in spite of the motors' dead zone and
 /// back-EMF.
 template <class T>
 SideForces<T> motor_commands(const SideForces<T>& force, const AllocationConstants<T>& c,

@@ -1,10 +1,11 @@
-/// Parts: features of a firmware that are compiled in or left out. Freestanding C++14.
+/// Parts: features of a firmware that can be compiled in or left out. Freestanding C++14.
 #pragma once
 
 namespace awmr {
 
-/// Empty stand-in for a part that is not compiled in. Each operation on a part has a no-op overload
-/// for the stand-in, which therefore needs no flash, RAM or time.
+/// Empty struct that replaces a part that is not compiled in. Every function on a part has an
+/// overload for this struct that does nothing. So a part that is left out needs no flash, RAM or
+/// time.
 template <class Part>
 struct Disabled {};
 
@@ -18,19 +19,19 @@ struct Optional<false, Part> {
   typedef Disabled<Part> type;
 };
 
-/// Returns the base class `Part` of an object that inherits from its parts, or the base class
-/// Disabled<...> if `Part` is that stand-in.
+/// Returns the part of an object that inherits from its parts: the base class `Part`, which is
+/// Disabled<...> if the part is not compiled in.
 template <class Part, class Whole>
 Part& part_of(Whole& whole) {
   return static_cast<Part&>(whole);
 }
 
-/// Disables a part; a no-op for a part that is not compiled in.
+/// Switches a part off. No-op for a part that is not compiled in.
 template <class Part>
 void disable(Disabled<Part>&) {}
 
-/// Resets a part. Called after a step with the safe command, because the state of the part then no
-/// longer matches the vehicle's motion.
+/// Resets the state of a part. This is called after a step with the safe command, because the state
+/// then no longer matches the motion of the vehicle.
 template <class Part>
 void reset(Disabled<Part>&) {}
 

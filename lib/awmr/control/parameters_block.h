@@ -14,15 +14,16 @@
 
 namespace awmr {
 
-/// Layout of the cells of a ResistanceTable; see its members.
+/// Size and layout of a ResistanceTable, as 32-bit numbers in flash.
 struct TableShape {
-  uint32_t count;          ///< lines; 0: no table, the power law is computed by powf
+  /// Number of lines. 0: there is no table, and the power law is computed by powf.
+  uint32_t count;
   uint32_t first;          ///< ResistanceTable::first
   uint32_t mantissa_bits;  ///< ResistanceTable::mantissa_bits
 };
 
-/// Parameters that every firmware has. All members have 32 bits, so there is no padding: the bytes
-/// and their check sum are the same on every little-endian machine.
+/// Parameters that every firmware has. All members have 32 bits, so there is no padding. The bytes
+/// and their check sum are therefore the same on every little-endian machine.
 struct ParameterBlock {
   float surge_alpha_beta[2];  ///< a1, b1 of g1(u) = a1 u^b1
   float yaw_alpha_beta[2];    ///< a3, b3 of g3(r) = a3 r^b3
@@ -32,36 +33,37 @@ struct ParameterBlock {
   TableShape yaw_table;    ///< table of g3
 };
 
-/// Additional parameters for motors with a dead zone or back-EMF, or for friction that does not
-/// vanish at rest. All members have 32 bits.
+/// Additional parameters for motors with a dead zone or back-EMF, or for friction that jumps at
+/// rest. All members have 32 bits.
 struct RestBlock {
-  float dead_zone;                      ///< F'0 of a wheel, over F_max; 0: none
-  float surge_rest_speed;               ///< RestingTable::rest_speed of g1, m/s; 0: no jump at rest
-  float surge_at_rest;                  ///< RestingTable::at_rest of g1
-  float yaw_rest_speed[kYawModeCount];  ///< RestingTable::rest_speed of g3, rad/s, by YawMode:
-                                        ///< Gains::friction_width_at(); 0: no jump at rest
-  float yaw_at_rest[kYawModeCount];     ///< RestingTable::at_rest of g3, m, by YawMode
-  float back_emf_s_per_m;               ///< k_e of a motor, s/m; 0: none
+  float dead_zone;         ///< dead zone F'0 of a motor, divided by F_max; 0: none
+  float surge_rest_speed;  ///< RestingTable::rest_speed of g1, m/s; 0: no jump at rest
+  float surge_at_rest;     ///< RestingTable::at_rest of g1
+  /// RestingTable::rest_speed of the yaw resistance g3, rad/s, for each YawMode
+  /// (Gains::friction_width_at()); 0: no jump at rest.
+  float yaw_rest_speed[kYawModeCount];
+  float yaw_at_rest[kYawModeCount];  ///< RestingTable::at_rest of g3, m, for each YawMode
+  float back_emf_s_per_m;            ///< k_e of a motor, s/m; 0: none
 };
 
 /// Additional parameters for gains that were tuned with a disturbance observer. All members have 32
 /// bits.
 struct ObserverBlock {
-  float bandwidth_radps;  ///< L of DisturbanceObserver, rad/s
-  float yaw_max_m;        ///< largest moment that is compensated, over F_max
-  float surge_max;        ///< largest force that is compensated, over F_max
+  float bandwidth_radps;  ///< bandwidth L of DisturbanceObserver, rad/s
+  float yaw_max_m;        ///< largest yaw moment that is compensated, divided by F_max
+  float surge_max;        ///< largest surge force that is compensated, divided by F_max
   float sample_time_s;    ///< T_s, s: time between two steps
 };
 
-/// Continues the CRC-32 `crc` over `size` bytes, which are in flash on an AVR.
+/// Continues the CRC-32 `crc` with `size` bytes. On an AVR, `address` is an address in flash.
 inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
   const uint8_t* bytes = static_cast<const uint8_t*>(address);
   for (size_t i = 0; i < size; ++i) crc = crc32_with(crc, flash_byte(bytes + i));
   return crc;
 }
 
-/// The check sum of the firmware's parameters: CRC-32 of the block, the lines of the surge table
-/// and of the yaw table, then `rest` and `observer` if present.
+/// Computes the check sum of the firmware's parameters: CRC-32 of the block, of the lines of the
+/// surge table and of the yaw table, then of `rest` and `observer` if present.
 inline uint32_t crc32_of_parameters(const ParameterBlock* block, const ResistanceLine* surge_lines,
                                     size_t surge_count, const ResistanceLine* yaw_lines,
                                     size_t yaw_count, const RestBlock* rest = 0,
@@ -73,8 +75,8 @@ inline uint32_t crc32_of_parameters(const ParameterBlock* block, const Resistanc
   return ~(observer != 0 ? crc32_of_flash(crc, observer, sizeof *observer) : crc);
 }
 
-/// Sets a resistance from the parameters in flash, in the form that is compiled in: as a table, or
-/// as the power law with alpha and beta.
+/// Sets a resistance from the parameters in flash. The overloads are for the forms in which a
+/// resistance can be compiled in: a table, or the power law with alpha and beta.
 inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
                            const ResistanceLine* lines, ResistanceTable& table) {
   TableShape read;
@@ -96,14 +98,16 @@ inline void set_resistance(const TableShape* shape, const float* alpha_beta,
   set_resistance(shape, alpha_beta, lines, law.table);
 }
 
-/// Sets rest_speed and at_rest from the parameters in flash, if RestingTable is compiled in.
+/// Sets rest_speed and at_rest from the parameters in flash. No-op if the resistance is not a
+/// RestingTable.
 template <class G>
 void set_rest(const float* /*rest_speed*/, const float* /*at_rest*/, G&) {}
 inline void set_rest(const float* rest_speed, const float* at_rest, RestingTable& law) {
   law.rest_speed = flash_float(rest_speed);
   law.at_rest = flash_float(at_rest);
 }
-/// Sets rest_speed and at_rest of g3 to those of a mode, if RestingTable is compiled in.
+/// Sets rest_speed and at_rest of the yaw resistance g3 to those of the yaw mode. No-op if the
+/// resistance is not a RestingTable.
 template <class G>
 void set_friction_width(const RestBlock* rest, uint8_t mode, G& yaw) {
   set_rest(&rest->yaw_rest_speed[mode], &rest->yaw_at_rest[mode], yaw);

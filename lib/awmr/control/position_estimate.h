@@ -5,12 +5,12 @@
 /// u, sway speed v, sample time T_s). c is the correction that has been applied so far:
 ///   p  = D + c
 ///   D += T_s (u cos psi - v sin psi, u sin psi + v cos psi)
-/// A fix z that was taken `age_s` ago is compared with D at that time, from a ring buffer of past
-/// values of D. A Kalman filter estimates the offset o of the true position from D, with one
-/// variance P for both axes and the variance R of a fix:
+/// A fix z that was taken `age_s` ago is compared with the D of that time, which a ring buffer
+/// stores. A Kalman filter estimates the offset o of the true position from D. P is the variance of
+/// o on each axis, R the variance of a fix, q the growth of the variance per second:
 ///   P += q t                        t: time since the previous fix
 ///   K  = P/(P + R),   nu = z - D(age_s ago) - o
-///   o += K nu,   P -= K P
+///   o   += K nu,   P -= K P
 /// The first fix sets P = R, so that the first fixes are averaged. After each fix, c changes
 /// linearly to o within kSpread_s, so that the direction to a near waypoint does not jump.
 ///
@@ -28,7 +28,8 @@
 
 namespace awmr {
 
-/// Estimates the position. `Filter`: PositionFilter, or a type with the same names as constants.
+/// Estimates the position. `Filter` is the type of the constants: PositionFilter, or a type with
+/// constants of the same names.
 template <class T, class Filter = PositionFilter<T>>
 class PositionEstimate {
  public:
@@ -36,12 +37,12 @@ class PositionEstimate {
 
   constexpr explicit PositionEstimate(const Filter& filter = Filter()) : filter_(filter) {}
 
-  /// Restarts the estimate with the fix of the next step.
+  /// Makes the estimate start anew in the next step, from the fix of that step.
   void restart() { is_started_ = false; }
 
-  /// Returns the present position; in the first step and after restart(), that of the fix. Call it
-  /// once per step, with the last fix and the measured motion. A fix that arrives while the
-  /// previous one is being processed is not used.
+  /// Returns the present position. In the first step, and in the first step after restart(), this
+  /// is the position of the fix. Call it once per step, with the last fix and the measured motion.
+  /// A fix that arrives while the previous fix is being processed is not used.
   Position<T> step(const PositionFix<T>& fix, const Measurement<T>& m) {
     if (!is_started_) {
       start(fix.position_m);
@@ -58,8 +59,9 @@ class PositionEstimate {
   }
 
  private:
-  /// If the work is spread over several steps, the processing of a fix starts kWait steps after its
-  /// arrival and takes kWorkSteps steps. GpsReceiver uses the steps before for its checks.
+  /// If the work is spread over several steps, the processing of a fix takes kWorkSteps steps. It
+  /// starts kWait steps after the arrival of the fix, because GpsReceiver uses these steps for its
+  /// checks.
   static constexpr uint8_t kWorkSteps = 4;
   static constexpr uint8_t kWait = 5;
 
@@ -72,15 +74,16 @@ class PositionEstimate {
   Position<T> follow_m_ = {};            // increment of c per step
   Position<T> innovation_m_ = {};        // z, then nu
   Position<T> ring_m_[kTravelled] = {};  // D every `stride` steps
-  T age_s_ = T(0.0);        // age of z; after locate(): fraction of the way from newer_ to the
-                            // element before it
+  // Age of the fix z, s. After locate(), it is the position of z between ring elements: 0 at
+  // newer_, 1 at the element before it.
+  T age_s_ = T(0.0);
   T variance_m2_ = T(0.0);  // P: variance of o
-  uint16_t steps_ = 0;      // steps since the last processed fix
-  uint8_t since_ = 0;       // steps since the newest element of the ring
+  uint16_t steps_ = 0;      // steps since a fix was last processed
+  uint8_t since_ = 0;       // steps since the newest element was stored
   uint8_t newest_ = 0;      // index of the newest element
-  uint8_t newer_ = 0;       // index of the first element newer than z
-  uint8_t phase_ = 0;       // next part of travel(): 0, 1 or 2
-  uint8_t work_ = 0;        // steps of work left for the fix; 0: none
+  uint8_t newer_ = 0;       // index of the first element that is newer than the fix z
+  uint8_t phase_ = 0;       // next of the three parts of travel(): 0, 1 or 2
+  uint8_t work_ = 0;        // steps left until the fix is processed; 0: there is no fix
   uint8_t steps_left_ = 0;  // steps until c equals o
   uint8_t rejected_ = 0;    // fixes rejected in a row
   bool is_started_ = false;
@@ -95,8 +98,9 @@ class PositionEstimate {
     is_started_ = true;
   }
 
-  /// Adds the motion of one step to D. With spread work, cos psi, sin psi and their products with
-  /// the speed are each updated in every third step.
+  /// Adds the motion of one step to the displacement D. If the work is spread over several steps,
+  /// three parts alternate: cos psi, sin psi, and the increment of D are each updated in every
+  /// third step.
   void travel(const Measurement<T>& m) {
     if (phase_ == 0 || !filter_.spreads_work) direction_.x_m = math::quick_cos(m.psi_rad);
     if (phase_ == 1 || !filter_.spreads_work) direction_.y_m = math::quick_sin(m.psi_rad);
@@ -129,9 +133,9 @@ class PositionEstimate {
     if (left == 1) correct();
   }
 
-  /// Finds the ring elements before and after the time of the fix. A fix younger than the newest
-  /// element is extrapolated. The oldest element is not used, because travel() can replace it
-  /// before the next step of work.
+  /// Finds the ring elements before and after the time at which the fix was taken. For a fix
+  /// younger than the newest element, D is extrapolated. The oldest element is not used, because
+  /// travel() can replace it before the next step of the work.
   void locate() {
     const T waited = filter_.spreads_work ? T(kWait) : T(0.0);
     const T steps = age_s_ * filter_.sample_rate_hz + (waited - T(since_));

@@ -12,25 +12,25 @@ template <class T>
 struct PositionFix {
   Position<T> position_m;
   T age_s;      ///< time since the fix was taken, s, >= 0
-  bool is_new;  ///< no step has processed the fix yet
+  bool is_new;  ///< true: this fix has not been processed by a step yet
 };
 
-/// q, m^2/s: rate at which the variance of the dead-reckoned position grows because of heading and
-/// speed errors.
+/// q, m^2/s: growth of the variance of the dead-reckoned position per second, caused by errors of
+/// heading and speed.
 constexpr double kDrift_m2ps = 0.05;
-/// Time over which a correction by a fix is spread, so that the position does not jump, s.
+/// Time over which the correction by a fix is spread, s, so that the estimate does not jump.
 constexpr double kSpread_s = 0.08;
-/// Smallest standard deviation of a fix, m, for a receiver without noise.
+/// Smallest standard deviation of a fix, m. It is used for a receiver without noise.
 constexpr double kFixNoiseMin_m = 0.01;
-/// Largest accepted innovation |nu| over sqrt(P + R). One of 300,000 fixes with normal errors
-/// exceeds it.
+/// Largest permitted innovation |nu| divided by its standard deviation sqrt(P + R). With normally
+/// distributed errors, one of 300,000 fixes exceeds it and is rejected.
 constexpr double kInnovationMax = 5.0;
-/// After this number of consecutive rejected fixes, the estimate is reset.
+/// Number of consecutive rejected fixes after which the estimate is reset to the last fix.
 constexpr uint8_t kRejections = 5;
-/// Number of past dead-reckoned positions in the ring buffer, a power of two.
+/// Number of past dead-reckoned positions that the ring buffer stores, a power of two.
 constexpr uint8_t kTravelled = 8;
 
-/// Constants of the estimate, computed once by position_filter().
+/// Constants of the position estimate. position_filter() computes them once.
 template <class T>
 struct PositionFilter {
   T sample_time_s;       ///< T_s, s
@@ -39,9 +39,9 @@ struct PositionFilter {
   T drift_m2;            ///< q T_s, growth of P in a step
   T stride_inverse;      ///< 1/stride
   T spread_inverse;      ///< 1/spread_steps
-  uint8_t stride;        ///< steps between two stored positions of the ring buffer
-  uint8_t spread_steps;  ///< steps over which a correction is spread
-  bool spreads_work;     ///< the work on a fix is spread over several steps, as in GpsLimits
+  uint8_t stride;        ///< steps between two positions stored in the ring buffer
+  uint8_t spread_steps;  ///< steps over which the correction by a fix is spread
+  bool spreads_work;     ///< the work on a fix is spread over several steps, see GpsLimits
 };
 
 namespace detail {
@@ -62,9 +62,9 @@ constexpr uint8_t to_count(double x) {
 
 }  // namespace detail
 
-/// Computes the constants for fixes with the standard deviation `noise_m` per axis and the latency
-/// `latency_s`. The ring buffer covers the latency plus 0.1 s, because the processing of a fix
-/// takes several steps.
+/// Computes the constants for fixes with the standard deviation `noise_m` on each axis and the
+/// latency `latency_s`. The ring buffer covers the latency plus 0.1 s for the steps in which a fix
+/// is processed.
 template <class T>
 constexpr PositionFilter<T> position_filter(double noise_m, double latency_s,
                                             double sample_time_s) {

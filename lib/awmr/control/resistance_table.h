@@ -1,11 +1,13 @@
-/// Resistance as a table, which replaces powf on the chip. Freestanding C++14.
+/// Table of a resistance g(w) as a function of the speed w. It replaces powf, which is slow on the
+/// chip. Freestanding C++14.
 ///
-/// A cell contains the speeds with the same float exponent and leading m mantissa bits: 2^m cells
-/// per octave, evenly spaced in the octave. So the relative error is similar at all speeds, and the
-/// index of a cell is computed by a shift of the float's bits, without a logarithm. Within a cell,
-/// the table gives the straight line (chord) through the curve's points at both ends of the cell:
-/// one multiplication and one addition. Below the first cell, it gives the line from the origin to
-/// the start of this cell. The table is odd: g(-w) = -g(w).
+/// The table has 2^m cells (ranges of speed) per octave, evenly spaced in the octave. So the
+/// relative error is similar at all speeds. All speeds of a cell have the same float exponent and
+/// the same m leading mantissa bits. So the index of a cell is computed by a shift of the float's
+/// bits, without a logarithm. Within a cell, the table gives the chord: the straight line through
+/// the points of the curve at both ends of the cell. It needs one multiplication and one addition.
+/// Below the first cell, the table gives the line from the origin to the start of this cell. The
+/// table is odd: g(-w) = -g(w).
 #pragma once
 
 #include <stdint.h>
@@ -15,29 +17,30 @@
 
 namespace awmr {
 
-/// The resistance g(w) = offset + slope w at the speeds w >= 0 of a cell. The struct has no
-/// padding, so that a check sum can cover it.
+/// The resistance within one cell of the table: g(w) = offset + slope w for w >= 0. The struct has
+/// no padding, so that a check sum can cover it.
 struct ResistanceLine {
-  float slope;   ///< in the unit of g over that of w
+  float slope;   ///< in the unit of g divided by the unit of w
   float offset;  ///< in the unit of g
 };
 
-/// A view of a table: the lines are not owned.
+/// A table of a resistance. It refers to its lines, but does not own them.
 struct ResistanceTable {
-  /// In flash on an AVR. The first line is for the speeds below all cells, with offset 0; then
-  /// comes one line per cell, in ascending order of speed.
+  /// One line per range of speed, in flash on an AVR. The first line, with offset 0, is for the
+  /// speeds below all cells. Then comes one line per cell, in ascending order of speed.
   const ResistanceLine* lines;
   uint16_t count;         ///< number of lines, >= 2
-  uint16_t first;         ///< cell_of() of the speeds in the first cell, lines[1]
+  uint16_t first;         ///< cell_of() for the speeds of the first cell, whose line is lines[1]
   uint8_t mantissa_bits;  ///< m, in [0, 7]
 
-  /// Number of the cell of a speed: exponent and leading mantissa bits of the float, without sign.
+  /// Number of the cell that contains a speed: the exponent and the leading mantissa bits of the
+  /// float, without its sign.
   static uint16_t cell_of(float speed, uint8_t mantissa_bits) {
     return static_cast<uint16_t>(float_math::leading_bits(speed) >> (7U - mantissa_bits));
   }
 
-  /// g(speed), speed in m/s or rad/s. Beyond the last cell and for NaN the result is NaN: the
-  /// caller must check the range first.
+  /// Returns g(speed), for a speed in m/s or rad/s. For NaN, and beyond the last cell, the result
+  /// is NaN, so the caller must check the range of the speed first.
   float operator()(const float& speed) const {
     const uint16_t cell = cell_of(speed, mantissa_bits);
     const uint16_t index = cell < first ? 0U : static_cast<uint16_t>(cell - first + 1U);
@@ -48,8 +51,8 @@ struct ResistanceTable {
   }
 };
 
-/// A resistance that jumps at rest, such as Coulomb friction. At speeds of at least `rest_speed` it
-/// is a table, at lower speeds the straight line from the origin to g(rest_speed).
+/// A resistance that jumps at rest, such as Coulomb friction. At speeds of at least `rest_speed`,
+/// it is a table. At lower speeds, it is the straight line from the origin to g(rest_speed).
 struct RestingTable {
   ResistanceTable table;
   float rest_speed;  ///< m/s or rad/s; 0: the resistance does not jump

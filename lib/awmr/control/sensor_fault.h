@@ -1,8 +1,8 @@
 /// Fault codes of compass, gyroscope and GPS. Freestanding C++14.
 ///
 /// While a sensor has a fault, its readings are not used. Their time stamp becomes too old, and the
-/// autopilot gives the safe command (safety.h). A fault ends with its cause. The exceptions, each
-/// with the condition that ends it, are:
+/// autopilot outputs the safe command (safety.h). A fault usually ends with its cause. The
+/// following faults last longer, until the condition beside them is fulfilled:
 ///   kHeadingOutOfStep           compass and gyroscope have agreed again for a while
 ///   kWrongTurn                  the vehicle does not turn and its motors are off
 ///   kGpsOld                     if UTC ran backward: ten fixes with advancing UTC have arrived
@@ -19,23 +19,24 @@
 
 namespace awmr {
 
-/// Reason why a sensor is not used. The number is the code in messages and in the log.
+/// Reason why a sensor is not used. Messages and the log give the number of the reason.
 enum SensorFault : uint8_t {
   kSensorGood = 0,
   kGyroSilent = 1,         ///< the gyroscope does not answer
   kGyroFrozen = 2,         ///< the raw word of the gyroscope did not change for kFrozen_ms
   kGyroRange = 3,          ///< the range register of the gyroscope changed: the sensor was reset
-  kGyroNotCalibrated = 4,  ///< the vehicle was not at rest long enough since the start
-  kCompassSilent = 5,      ///< no new field for kCompassSilent_ms
+  kGyroNotCalibrated = 4,  ///< the vehicle has not been at rest long enough since the start
+  kCompassSilent = 5,      ///< no new magnetic field reading for kCompassSilent_ms
   kCompassFrozen = 6,      ///< the raw words of the compass did not change for kFrozen_ms
-  kHeadingOutOfStep = 7,   ///< compass heading and integrated yaw rate disagree
+  kHeadingOutOfStep = 7,   ///< the compass and the integrated yaw rate disagree
   kGpsSilent = 8,          ///< no complete sentence within GpsLimits::timeout_ms
   kGpsNoFix = 9,           ///< the receiver reports no fix, or fields are empty or damaged
-  kGpsRepeated = 10,       ///< sentences arrive, but their UTC does not change
-  kGpsOld = 11,   ///< latency of fixes over kGpsLag_ms above its minimum, or UTC ran backward
-  kGpsJump = 12,  ///< a displacement that the vehicle cannot achieve
-  kGpsInconsistent = 13,  ///< speed and displacement contradict each other
-  kWrongWay = 14,         ///< the vehicle moves against the commanded direction
+  kGpsRepeated = 10,       ///< sentences arrive, but their time (UTC) does not change
+  /// The latency of the fixes exceeds its minimum by more than kGpsLag_ms, or UTC ran backward.
+  kGpsOld = 11,
+  kGpsJump = 12,          ///< a displacement larger than the vehicle can achieve
+  kGpsInconsistent = 13,  ///< measured speed and displacement contradict each other
+  kWrongWay = 14,         ///< the vehicle moves against the commanded direction of travel
   kOffHeading = 15,       ///< the direction of travel is 30 deg or more off the heading
   kWrongTurn = 16,        ///< the vehicle turns against the commanded yaw moment
   kOffCourse = 17         ///< the vehicle does not turn to the commanded heading
@@ -44,7 +45,7 @@ constexpr uint8_t kSensorFaultCount = 18;
 
 namespace detail {
 
-/// Milliseconds from `then_ms` to `now_ms`, also across the clock's wrap.
+/// Milliseconds from `then_ms` to `now_ms`, also if the clock has wrapped to 0 in between.
 inline uint32_t elapsed_ms(uint32_t now_ms, uint32_t then_ms) { return now_ms - then_ms; }
 
 /// Magnitude |value|.

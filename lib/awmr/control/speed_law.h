@@ -1,4 +1,4 @@
-/// The speed law: computes the thrust from the speed error, with the resistance fed forward.
+/// Speed law: computes the surge force from the speed error, with the resistance fed forward.
 /// Freestanding C++14.
 #pragma once
 
@@ -9,9 +9,9 @@
 
 namespace awmr {
 
-/// Fastest speed whose resistance the speed law feeds forward, m/s: max(0, u_d + eps_s) if the
-/// vehicle drives forward, else min(0, u_d - eps_s). It is computed only if the vehicle is faster
-/// than that.
+/// Limit of the speed whose resistance the speed law feeds forward, m/s: max(0, u_d + eps_s) if the
+/// vehicle moves forward, else min(0, u_d - eps_s). u_d: desired speed, eps_s: boundary layer. Used
+/// only if the vehicle is faster than this limit.
 template <class T>
 AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& epsilon_mps) {
   using math::select;
@@ -19,14 +19,17 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
                 T(-math::larger(T(epsilon_mps - u_d_mps), T(0.0))));
 }
 
-/// Speed whose resistance the speed law feeds forward, m/s:
+/// Returns the speed w whose resistance g1(w) the speed law feeds forward, m/s, at the speed u:
 ///   w = 0                     at u_d = 0
-///   w = max(0, u_d + eps_s)   if the vehicle is faster than that, forward; backward likewise
+///   w = max(0, u_d + eps_s)   if the vehicle moves forward and faster than that
+///   w = min(0, u_d - eps_s)   if the vehicle moves backward and faster than that
 ///   w = u                     else
-/// The resistance g1(u) is not fed forward at every speed: a vehicle that rolls down a slope faster
-/// than u_d would get tau_speed = g1(u) - m' mu_s, which accelerates it further where
-/// g1(u) > m' mu_s. `wanted`: the correction m' mu_s e_u/eps_s before saturation. `limit`: its
-/// largest magnitude, m' mu_s. `epsilon()` returns eps_s.
+/// u_d: desired speed; m': normalised mass; mu_s, eps_s: gains; e_u = u_d - u: speed error.
+///
+/// Without the second and third line, a vehicle that rolls down a slope faster than u_d would get
+/// tau_speed = g1(u) - m' mu_s. Where g1(u) > m' mu_s, this force accelerates the vehicle further.
+/// `wanted`: the correction m' mu_s e_u/eps_s before saturation. `limit`: its largest
+/// magnitude, m' mu_s. `epsilon()` returns eps_s.
 template <class T, class Epsilon>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
                                 const T& wanted, const T& limit, const Epsilon& epsilon) {
@@ -41,11 +44,13 @@ AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T
   return any(stands) ? select(stands, T(0.0), w_mps) : w_mps;
 }
 
-/// The speed law, dimensionless:
+/// Computes the surge force that the speed law commands, dimensionless:
 ///   tau_speed = g1(w) + m' (u_d_dot - r v) + m' mu_s sat(e_u/eps_s),   e_u = u_d - u
 ///                                                                    [paper (97)-(102), corrected]
-/// Corrected: (100)-(102) are printed without u_d_dot, which (99) has; the unknown disturbance is
-/// omitted as in the heading law. The paper has g1(u) at every speed; w is fed_forward_speed().
+/// g1: surge resistance, w: fed_forward_speed(), m': normalised mass, u_d: desired speed; u, v:
+/// surge and sway speed, r: yaw rate; mu_s, eps_s: gains. Corrected: (100)-(102) are printed
+/// without u_d_dot, which (99) has. The disturbance is omitted because it is unknown, as in the
+/// heading law. In the paper, w is u at every speed.
 template <class T, class G>
 AWMR_INLINE T speed_law(const PreparedController<T, G>& c, const Measurement<T>& m,
                         const Reference<T>& ref) {

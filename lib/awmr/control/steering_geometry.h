@@ -1,13 +1,14 @@
 /// Steering angle and wheel forces as functions of q. Freestanding C++14.
 ///
-/// The left column defines q, which measures the steering, and k, the force share. With four driven
-/// wheels, the right column follows from (41) in model/dynamics.h:
+/// q is a measure of the steering angle d_r, and k is the force share: the forces of a left and a
+/// right wheel have the sum 2 k tau_speed. The left column defines both (l_f: centre of gravity to
+/// front axle). With four driven wheels, the right column follows from (41) in model/dynamics.h:
 ///   tau_steering = l_f tau_speed q       q = sin d_r/(1 + cos d_r) = tan(d_r/2)
 ///   F'L + F'R    = 2 k tau_speed         k = 1/(2 (1 + cos d_r))   = (1 + q^2)/4
 /// If only the front wheels are driven (front_wheel_forces() in model/dynamics.h):
 ///   q = tan d_r,   k = 1/(2 cos d_r) = sqrt(1 + q^2)/2
-/// The small-angle form assumes sin d_r = d_r and cos d_r = 1. With four driven wheels, it gives
-/// q = d_r/2 and k = 1/4; with two, q = d_r and k = 1/2.
+/// The small-angle form assumes sin d_r = d_r and cos d_r = 1. With four driven wheels, it gives q
+/// = d_r/2 and k = 1/4; with two, q = d_r and k = 1/2.
 #pragma once
 
 #include "awmr/model/allocation_form.h"
@@ -23,12 +24,12 @@ T tan_half(const T& angle_rad) {
   return sin(angle_rad) / (T(1.0) + cos(angle_rad));
 }
 
-/// The driven wheels, and the form of the equations.
+/// Driven wheels, and form of the equations (exact, or for small angles).
 struct SteeringGeometry {
   bool is_rear_driven;  ///< false: only the front wheels are driven
   AllocationForm form;  ///< kPaper: for small angles
 
-  /// Number n of driven wheels: straight ahead, with the force F' at each, tau_speed = n F'.
+  /// Number n of driven wheels. Straight ahead, tau_speed = n F' with the force F' of each wheel.
   constexpr double driven_wheels() const { return is_rear_driven ? 4.0 : 2.0; }
 
   template <class T>

@@ -1,4 +1,5 @@
-/// The three modes of yaw control, and how each splits the yaw moment. Freestanding C++14.
+/// The three modes of yaw control, and how each mode distributes the yaw moment to steering and
+/// wheel forces. Freestanding C++14.
 #pragma once
 
 #include "awmr/model/scalar_math.h"
@@ -14,10 +15,11 @@ enum class YawMode {
 
 constexpr int kYawModeCount = 3;  ///< number of modes, numbered from 0
 
-/// Reaction of the combined mode when the steering or the wheel forces are at their limit.
+/// How combined mode distributes the yaw moment when the steering or the wheel forces are at a
+/// limit.
 enum class CombinedSplit {
-  kFixedHalf,     ///< as in the paper: half of tau_turn each way, regardless of limits
-  kRedistribute,  ///< the wheel forces make the moment that the steering cannot, and the reverse
+  kFixedHalf,     ///< as in the paper: each makes half of the moment, also at a limit
+  kRedistribute,  ///< each makes the moment that the other cannot make at its limit
 };
 
 /// Share of the yaw moment that the steering makes: 0 differential, 1/2 combined, 1 steering.
@@ -26,11 +28,11 @@ constexpr T steering_share(YawMode mode) {
   return mode == YawMode::kCombined ? T(0.5) : T(mode == YawMode::kSteering ? 1.0 : 0.0);
 }
 
-/// Split of the yaw moment between steering and wheel forces.
+/// Distribution of the yaw moment to steering and wheel forces.
 template <class T>
 struct YawSplit {
-  T steering_share;       ///< s, fraction that the steering makes: steering_share() of the mode
-  Mask<T> redistributes;  ///< combined mode with CombinedSplit::kRedistribute
+  T steering_share;       ///< s: fraction of the moment that steering makes
+  Mask<T> redistributes;  ///< true: combined mode with CombinedSplit::kRedistribute
 };
 
 /// Returns the split of a mode.

@@ -1,5 +1,5 @@
-/// Line following for the simulator: the guidance law is selected at run time. In a firmware, one
-/// law is compiled in.
+/// Line following in the simulator, where the scenario selects the guidance law at run time. (A
+/// firmware has one law, which is selected when it is compiled.)
 #pragma once
 
 #include <variant>
@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// LineFollower (guidance/parts.h) with any of the guidance laws in LineLaws.
+/// Follows a line like LineFollower (guidance/parts.h), with any guidance law of LineLaws.
 template <class T>
 struct AnyLineFollower {
   struct Route {

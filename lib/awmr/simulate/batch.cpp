@@ -36,9 +36,9 @@ const Kernel* kernel_of(const BatchArithmetic& arithmetic) {
   return nullptr;
 }
 
-/// Simulates the runs in blocks of up to kBatchRuns, and calls take(i, metrics, run) for each run
-/// i, in order. `metrics` is empty if the run failed. If there is no kernel, nothing is simulated,
-/// and `metrics` is always empty. `run` has rows only if `keeps_rows`.
+/// Simulates the runs in blocks of up to kBatchRuns. Calls take(i, metrics, run) for each run i, in
+/// order. `metrics` is empty if the run failed. `run` has rows only if `keeps_rows`. If this
+/// processor has no kernel, nothing is simulated, and `metrics` is empty for each run.
 template <class Take>
 void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, double sample_time_s,
                      const BatchArithmetic& arithmetic, bool keeps_rows, const Take& take) {
@@ -90,7 +90,8 @@ std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
           results.emplace_back(*metrics);
           return;
         }
-        // Repeats a failed run with simulate(), which either succeeds or reports the error.
+        // The run failed in the batch. simulate() repeats it: it either succeeds or reports the
+        // error.
         const DrivenRun one = one_by_one(runs[i], scenario, sample_time_s);
         const Status failure = failure_of(one.run, scenario);
         results.push_back(failure ? Result<Metrics>(one.metrics) : tl::unexpected(failure.error()));

@@ -1,8 +1,8 @@
 /// Simulates the closed loop, for a single run (Row = double) or sixteen at a time (lanes::Row):
 ///   sensors -> guidance -> controller -> actuators -> rows and metrics -> vehicle
-/// Sensors, guidance, disturbances and the ground are computed run by run. Controller, motors,
-/// motion and metrics are computed for all runs at once, by the steps in loop_steps.h and
-/// vehicle_steps.h. Private to this folder.
+/// Sensors, guidance, disturbances and the ground are computed for one run after the other.
+/// Controller, motors, motion and metrics are computed for all runs at once, by the functions in
+/// loop_steps.h and vehicle_steps.h. Private to this folder.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@
 
 namespace awmr {
 
-/// The steps of loop_steps.h for a single run.
+/// The functions of loop_steps.h for a single run.
 inline constexpr LoopSteps<double> kOneRunSteps = {
     "scalar", [](LoopRuns<double>& runs) { steps::control(OneRun{}, runs); },
     [](LoopRuns<double>& runs) { steps::measure(OneRun{}, runs); }, kOneVehicleSteps};
@@ -34,27 +34,28 @@ inline constexpr LoopSteps<double> kOneRunSteps = {
 struct LoopOptions {
   double sample_time_s = 0.01;
   std::size_t samples = 0;           ///< index of the last sample; the first has the index 0
-  std::optional<int> substeps = {};  ///< RK4 steps per sample; absent: by substeps_for()
-  bool keeps_rows = false;           ///< rows are stored; take_run() returns them
-  bool has_metrics = false;          ///< metrics() may be called
+  std::optional<int> substeps = {};  ///< RK4 steps per sample; absent: as substeps_for() computes
+  /// true: the rows of each run are stored, and take_run() returns them
+  bool keeps_rows = false;
+  bool has_metrics = false;  ///< metrics() may be called
 };
 
 /// Runs of one scenario that are simulated together.
 template <class Row>
 class ClosedLoop {
  public:
-  /// `steps`: the functions that compute a sample for this type of row. Precondition: 1 to
-  /// kRunsOf<Row> runs; scenario and steps outlive the loop.
+  /// `steps`: the functions that compute a sample, for this type of row. Precondition: there are 1
+  /// to kRunsOf<Row> runs, and scenario and steps outlive the loop.
   ClosedLoop(std::span<const BatchRun> runs, const Scenario& scenario, const LoopSteps<Row>& steps,
              const LoopOptions& options);
 
-  /// Simulates all runs to their ends. Call it once.
+  /// Simulates all runs until they end. Call it once.
   void drive();
 
-  /// Result of a run after drive(), with its rows if they are kept; the rows are moved out.
-  /// RunEnd::kFailed: a number was not finite, or no integration step was short enough.
+  /// Returns the result of a run after drive(). It moves the stored rows, so call it once per run.
+  /// The end is RunEnd::kFailed if a number was not finite or no integration step was short enough.
   Run take_run(std::size_t run);
-  /// Metrics of a run; empty if the run failed.
+  /// Returns the metrics of a run; empty if the run failed.
   std::optional<Metrics> metrics(std::size_t run) const;
 
  private:
@@ -65,9 +66,9 @@ class ClosedLoop {
     RunDisturbance disturbance;
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
-    PathRow path = {};                              ///< guidance columns of the present sample
-    /// Reason why the run ends at the current sample, before its duration is over. kDuration: the
-    /// run does not end early.
+    PathRow path = {};                              ///< guidance columns of the current row
+    /// Reason why the run ends at the current sample, before the scenario's duration is over.
+    /// kDuration: the run does not end early.
     RunEnd ending = RunEnd::kDuration;
     std::vector<RunRow> rows = {};
     std::optional<Ending> end = {};  ///< absent: the run continues, or it failed
@@ -108,7 +109,7 @@ ClosedLoop<Row>::ClosedLoop(std::span<const BatchRun> runs, const Scenario& scen
   runs_->task = metrics_task(scenario);
   runs_->vehicles.setup = vehicle_setup(scenario, options.sample_time_s);
   for (std::size_t i = 0; i < kRunsOf<Row>; ++i) {
-    // An unused lane gets a copy of the first run, so that it has valid numbers.
+    // A lane without a run gets a copy of the first run, so that its numbers are valid.
     const bool has_run = i < runs.size();
     const BatchRun& run = has_run ? runs[i] : runs.front();
     set_up_controller(run, i);
@@ -144,8 +145,8 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
                        index, runs_->vehicles);
 }
 
-/// True if the guidance must be computed run by run. False in open loop, and for heading steps
-/// without avoidance, shaping and stored rows, because all runs then have the same reference.
+/// True if the guidance must be computed run by run. False in open loop. Also false for heading
+/// steps without avoidance, shaping and stored rows, because all runs then have the same reference.
 template <class Row>
 bool ClosedLoop<Row>::has_own_guidance() const {
   if (runs_->control.is_open_loop) return false;
@@ -162,7 +163,7 @@ void ClosedLoop<Row>::for_active(const Body& body) {
   }
 }
 
-/// Computes the measurements of sample k, at t_s, for the controllers.
+/// Computes the measurements at sample k, at the time t_s.
 template <class Row>
 void ClosedLoop<Row>::sense(std::size_t k, double t_s) {
   const State<Row>& state = runs_->vehicles.state;
@@ -178,7 +179,7 @@ void ClosedLoop<Row>::sense(std::size_t k, double t_s) {
   });
 }
 
-/// Computes the references of the control laws in sample k, at t_s.
+/// Computes the references of the control laws at sample k, at the time t_s.
 template <class Row>
 void ClosedLoop<Row>::guide(std::size_t k, double t_s) {
   if (has_own_guidance()) {
@@ -202,7 +203,7 @@ void ClosedLoop<Row>::follow(std::size_t run, const GuidanceOutput& output) {
   put(output.reference, run, runs_->reference);
   put(output.path.psi_goal_rad, run, runs_->goal_rad);
   put(output.path.cross_track_m, run, runs_->cross_track_m);
-  if (runs_->time.is_in_second_half) {  // the only samples whose metrics use the distance
+  if (runs_->time.is_in_second_half) {  // only in the second half do metrics use the distance
     put(distance_m(output.path.target_m, {state.x_m, state.y_m}), run, runs_->off_target_m);
   }
   if (output.no_passage && std::abs(state.u_mps) < kStopped_mps) {
@@ -257,8 +258,8 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
                                                         run_of<double>(v.plant.rear_driven, run))};
 }
 
-/// Appends the row of sample k to each active run. A number in it that is not finite ends the run.
-/// The row is then removed, except the first one (k = 0).
+/// Appends the row of sample k to each active run. If a number in the row is not finite, the run
+/// ends, and the row is removed. (The first row, k = 0, is kept, so that a run has at least one.)
 template <class Row>
 void ClosedLoop<Row>::keep_rows(std::size_t k, double t_s) {
   if (!options_.keeps_rows) return;

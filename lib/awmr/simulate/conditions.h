@@ -1,5 +1,5 @@
-/// Sensor noise, sensor latency and motor lag in the simulations by which gains are tuned. The
-/// model does not contain them.
+/// Sensor noise, sensor latency and motor lag for the simulations in which gains are tuned. They
+/// are not part of the identified model.
 #pragma once
 
 #include "awmr/model/vehicle.h"
@@ -8,9 +8,9 @@
 namespace awmr {
 
 /// Noise and latency of the sensors, and lag of the motors. vehicle.json can give these values
-/// (`noise`, `noise_correlation_s`, `latency_s`, `motor`). Noise: standard deviation. The defaults
-/// are typical of a compass, a MEMS gyroscope and a coarse encoder with 20 ms of latency each, and
-/// of small brushed motors.
+/// (keys `noise`, `noise_correlation_s`, `latency_s`, `motor`). A noise is a standard deviation.
+/// The defaults are typical of a compass, a MEMS gyroscope and a coarse encoder with 20 ms of
+/// latency each, and of small brushed motors.
 struct LoopConditions {
   double heading_noise_deg = 1.0;
   double yaw_rate_noise_degps = 0.5;
@@ -24,11 +24,11 @@ struct LoopConditions {
   double motor_time_constant_s = 0.02;
 };
 
-/// The conditions that vehicle.json gives. Missing ones have the defaults above.
+/// Returns the conditions that vehicle.json gives. A missing condition has its default.
 LoopConditions conditions_of(const Vehicle& vehicle);
 
-/// Adds sensors and actuators with these conditions to a scenario. Sensors or actuators that the
-/// scenario already has are kept unchanged.
+/// Returns the scenario with sensors and actuators that have these conditions. Sensors or actuators
+/// that the scenario already has are kept unchanged.
 Scenario under(const LoopConditions& conditions, Scenario scenario);
 
 }  // namespace awmr

@@ -7,8 +7,8 @@
 namespace awmr {
 namespace {
 
-/// Number of the first random stream (RunSeed::random) of each axis. Between two of them is room
-/// for the streams of 200 terms.
+/// Number of the first random stream of each axis (RunSeed::random()). Each disturbance term uses
+/// one stream. The numbers leave room for 200 terms per axis.
 constexpr std::uint64_t kSurgeUse = 100;
 constexpr std::uint64_t kSwayUse = 300;
 constexpr std::uint64_t kYawUse = 500;
@@ -25,8 +25,10 @@ DisturbanceSource::DisturbanceSource(const std::vector<DisturbanceTerm>& terms,
           term.phase_rad ? *term.phase_rad : 2.0 * pi<double>() * running.random.uniform();
     }
     if (term.kind == DisturbanceTerm::Kind::kNoise) {
-      // Low pass at the sample times, stationary from the start, with a standard normal n:
+      // Low-pass filtered noise x at the sample times, which has the standard deviation sigma from
+      // the start:
       //   x(t + T_s) = c x(t) + sqrt(1 - c^2) sigma n,  c = exp(-2 pi f T_s)
+      // n: standard normal number, f: bandwidth, T_s: sample time.
       running.keep = std::exp(-2.0 * pi<double>() * term.bandwidth_hz * sample_time_s);
       running.value = term.value * running.random.normal();
     }

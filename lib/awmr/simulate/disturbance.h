@@ -9,35 +9,35 @@
 
 namespace awmr {
 
-/// Seed of a run, from which its random streams are made: one stream for each use of random
-/// numbers, such as a sensor or a disturbance term.
+/// Seed of a run, from which its random streams are made. Each use of random numbers, such as a
+/// sensor or a disturbance term, has its own stream.
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;  ///< number of the draw
-  /// Returns the random stream for the use with the number `use`, < 1024. Bit 62 is set in the
-  /// number of this stream, which distinguishes it from the streams of compare/: these have small
-  /// numbers, or numbers in which bit 63 is set.
+  /// Returns the random stream for the use with the number `use`, < 1024. The number of the stream
+  /// has bit 62 set. So it differs from the streams of compare/, whose numbers are small or have
+  /// bit 63 set.
   Random random(std::uint64_t use) const {
     return {seed, (std::uint64_t{1} << 62U) | (sample << 10U) | use};
   }
 };
 
-/// The seed of a run from the scenario's seed, the seed of the simulation and the number `sample`
-/// of the draw. The constant is 2^64 over the golden ratio: with it, adjacent seeds of a simulation
-/// give distant seeds of a run.
+/// Computes the seed of a run from the scenario's seed, the seed of the simulation, and the number
+/// `sample` of the Monte-Carlo draw. The constant is 2^64 divided by the golden ratio: so adjacent
+/// seeds of the simulation give seeds of runs that are far apart.
 inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::uint64_t sample) {
   return {scenario_seed + seed * 0x9E3779B97F4A7C15U, sample};
 }
 
-/// Generates the sum of the disturbance terms of one axis, sample by sample.
+/// Generates the disturbance of one axis, sample by sample: the sum of its terms.
 class DisturbanceSource {
  public:
-  /// `first_use`: number of the random stream (RunSeed::random) of the first term. The further
-  /// terms use the numbers after it.
+  /// The first term uses the random stream with the number `first_use` (RunSeed::random()), the
+  /// next terms the numbers after it.
   DisturbanceSource(const std::vector<DisturbanceTerm>& terms, double sample_time_s,
                     const RunSeed& seed, std::uint64_t first_use);
-  /// The sum over the sample that begins at `t_s`, in the unit of the terms. Call it once per
-  /// sample, in order.
+  /// Returns the sum of the terms over the sample that begins at `t_s`, in the unit of the terms.
+  /// Call it once per sample, in order.
   double next(double t_s);
 
  private:
@@ -45,7 +45,7 @@ class DisturbanceSource {
     DisturbanceTerm term;
     Random random;
     double phase_rad = 0.0;
-    double keep = 0.0;   ///< c of the low pass: factor over one sample
+    double keep = 0.0;   ///< c: factor of the low pass over one sample
     double value = 0.0;  ///< state of the low pass
   };
   std::vector<Running> terms_;
@@ -55,8 +55,8 @@ class DisturbanceSource {
 class RunDisturbance {
  public:
   RunDisturbance(const Disturbance& disturbance, double sample_time_s, const RunSeed& seed);
-  /// Forces and moment over the sample that begins at `t_s`, without those of a slope. Call it once
-  /// per sample, in order.
+  /// Returns forces and moment over the sample that begins at `t_s`. The force of a slope is not
+  /// included. Call it once per sample, in order.
   BodyLoad next(double t_s) { return {surge_.next(t_s), sway_.next(t_s), yaw_.next(t_s)}; }
 
  private:

@@ -1,4 +1,4 @@
-// Reads these parts of scenario.json: guidance, obstacles, avoidance, shaping.
+// Reads the guidance, obstacles, avoidance and shaping of scenario.json.
 
 #include <fmt/format.h>
 
@@ -60,7 +60,7 @@ Position<double> read_point(JsonObject& json, const char* key) {
   return {};
 }
 
-/// Reads an array of at least `least` points `[[x, y], ...]`, m.
+/// Reads an array of points `[[x, y], ...]`, m, with at least `least` points.
 std::vector<Position<double>> read_points(JsonObject& json, const char* key, std::size_t least) {
   std::vector<Position<double>> points;
   bool well_formed = true;
@@ -98,20 +98,19 @@ WaypointPath read_waypoints(JsonObject& json) {
   return path;
 }
 
-/// Refuses successive points that are equal, because a segment of zero length has no direction.
+/// Reports successive points that are equal, because the segment between them has no direction.
 void check_segments(JsonObject& json, const char* key,
                     const std::vector<Position<double>>& points_m) {
   for (std::size_t i = 1; i < points_m.size(); ++i) {
     if (points_m[i].x_m != points_m[i - 1].x_m || points_m[i].y_m != points_m[i - 1].y_m) continue;
     json.fault(ErrorCode::kGivenTwice, key,
-               fmt::format("the points {} and {} are the same, [{}, {}]; remove one of them, or "
-                           "give different points",
+               fmt::format("the points {} and {} are the same, [{}, {}] (the first point is number "
+                           "0); remove one of them, or give different points",
                            i - 1, i, points_m[i].x_m, points_m[i].y_m));
   }
 }
 
-/// Reads a line-following law with its keys. Keys that only other laws have are reported as
-/// unknown.
+/// Reads the guidance law of a line with its keys. Keys of other laws are reported as unknown.
 void read_line_law(JsonObject& json, LinePath& path) {
   path.law = line_laws()[json.has("law") ? json.choice("law", line_law_names()) : 0];
   const auto read = [&json](const char* key, double& parameter, const LawParameter& rule) {
@@ -157,8 +156,9 @@ LissajousPath read_lissajous(JsonObject& json) {
   path.closed_loop = json.boolean("closed_loop");
   if (const auto gain = json.optional_number("position_gain_per_s", kRate)) {
     if (!path.closed_loop) {
-      json.fault(ErrorCode::kConflict, "position_gain_per_s",
-                 "has no effect if closed_loop is false; remove it, or set closed_loop to true");
+      json.fault(
+          ErrorCode::kConflict, "position_gain_per_s",
+          "this key has no effect if closed_loop is false; remove it, or set closed_loop to true");
     }
     path.position_gain_per_s = *gain;
   }

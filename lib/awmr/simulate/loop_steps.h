@@ -1,7 +1,7 @@
-/// The steps of a sample that compute the controllers and the metrics of runs that are simulated
-/// together. They work on rows (row_view.h). Together with vehicle_steps.h, they are the arithmetic
-/// of the closed loop, for a single run and for several runs in vector registers. Private to this
-/// folder.
+/// The part of a sample that computes the controllers and the metrics. The functions work on rows
+/// (row_view.h), that is, on all runs that are simulated together. With those of vehicle_steps.h,
+/// they are the arithmetic of the closed loop, for a single run and for several runs in vector
+/// registers. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/meter.h"
@@ -10,8 +10,9 @@
 
 namespace awmr {
 
-/// All numbers of the runs that are simulated together. Plain data, because the kernels of lanes/
-/// are compiled for other instruction sets and must not share code with the rest of the program.
+/// All numbers of the runs that are simulated together. The struct is plain data: the kernels of
+/// lanes/ are compiled for other instruction sets, and must not share functions with the rest of
+/// the program.
 template <class Row>
 struct LoopRuns {
   ControllerSetup control;
@@ -25,23 +26,23 @@ struct LoopRuns {
   MetricsAccumulator<Row> sums;
 
   // Values of the current sample: measurements, references and outputs of the control laws. The
-  // commands are in `vehicles`.
+  // motor and steering commands are in `vehicles`.
   Measurement<Row> measured;
   Reference<Row> reference;
   Row tau_speed, tau_turn_m;
-  // Further inputs of the metrics, as in MetricsRow.
+  // Further inputs of the metrics, explained in MetricsRow.
   Row goal_rad, cross_track_m, off_target_m, clearance_m;
 };
 
-/// The steps of a sample for one type of row. They are called in this order: control,
-/// vehicle.dissipate, measure, vehicle.actuate, vehicle.move. The motion and the metrics of an
-/// inactive run (Vehicles::active) do not change.
+/// The functions that compute a sample, for one type of row. The closed loop calls them in the
+/// order control, vehicle.dissipate, measure, vehicle.actuate, vehicle.move. They do not change the
+/// motion and the metrics of an inactive run (Vehicles::active is 0).
 template <class Row>
 struct LoopSteps {
   const char* name;
   /// Computes the commands of motors and steering from `measured` and `reference`.
   void (*control)(LoopRuns<Row>& runs);
-  /// Adds the sample to the sums of the metrics.
+  /// Adds the current sample to the sums of the metrics.
   void (*measure)(LoopRuns<Row>& runs);
   VehicleSteps<Row> vehicle;
 };

@@ -1,6 +1,6 @@
 /// Accumulates the metrics of a run while it is simulated. Each row is processed once, so rows need
-/// not be stored. Templates on the scalar: a double for a single run, or lanes::Lanes with one run
-/// per lane. Private to this folder.
+/// not be stored. Templates on the scalar type: double for a single run, or lanes::Lanes, a
+/// register with one run per lane. Private to this folder.
 #pragma once
 
 #include "awmr/control/controller.h"
@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// Data of the vehicle that the metrics need, from the limits of its controller.
+/// Data of the vehicle that the metrics need, taken from the limits of its controller.
 template <class T>
 struct MetricsVehicle {
   T front_axle_m;      ///< l_f, m
@@ -20,18 +20,19 @@ struct MetricsVehicle {
   T command_max;       ///< the command that makes F'max
   T command_min;       ///< the command that makes F'min
   T steering_max_rad;  ///< d_max, rad; 0: no steering
-  T dead_zone;         ///< F'0 of the motors, over F_max
+  T dead_zone;         ///< dead zone F'0 of the motors, divided by F_max
   T back_emf_s_per_m;  ///< k_e of the motors, s/m
   T rear_driven;       ///< 1: all wheels are driven; 0: only the front wheels
 };
 
-/// Properties of the scenario that the metrics need; the same for all runs.
+/// Properties of the scenario that the metrics need. They are the same for all runs.
 struct MetricsTask {
   bool has_headings = false;  ///< the guidance has heading steps
-  double speed_mps = 0.0;     ///< commanded speed u_d, from which a speed drop is measured
-  /// Timed path: largest allowed distance from the path's point in the second half of the run, m.
+  double speed_mps = 0.0;     ///< commanded speed u_d; the speed drop is measured from it
+  /// Largest allowed distance from the point of a timed path in the second half of the run, m.
   double tolerance_m = 0.0;
-  /// true: tyre work is the work of the lateral tyre forces; false: the work against g3 and scrub.
+  /// Definition of tyre work. true: work of the lateral tyre forces; false: work against the yaw
+  /// resistance g3 and the tyre scrub.
   bool is_on_tyres = false;
 };
 
@@ -39,13 +40,13 @@ struct MetricsTask {
 template <class T>
 struct MetricsRow {
   State<T> state;
-  SideForces<T> force;     ///< motor commands, over F_max: RunRow::force
-  WheelForces<T> acting;   ///< applied over the sample that ends at this row: RunRow::acting
+  SideForces<T> force;     ///< motor commands, divided by F_max: RunRow::force
+  WheelForces<T> acting;   ///< forces over the sample that ends at this row: RunRow::acting
   T steering_command_rad;  ///< d_ro: commanded steering angle, rad
-  T yaw_resistance_m;      ///< g3(r) of the controller's model
-  T goal_rad;              ///< the heading commanded by the guidance, before avoidance and shaping
+  T yaw_resistance_m;      ///< yaw resistance g3(r) in the controller's model
+  T goal_rad;              ///< desired heading of the guidance, before avoidance and shaping
   T cross_track_m;         ///< distance from the current leg, line or path, left positive
-  T off_target_m;          ///< distance from the target point (PathRow::target_m)
+  T off_target_m;          ///< distance from the guidance's target point (PathRow::target_m)
   T clearance_m;           ///< distance to the nearest obstacle; 0 without obstacles
   T speed_ref_mps;         ///< u_d, reference of the speed law
   T tyre_power_mps;        ///< RunRow::tyre_power_mps
@@ -56,12 +57,14 @@ struct MetricsTime {
   double t_s = 0.0;
   double since_last_s = 0.0;  ///< time since the previous row; 0 in the first row
   bool is_first = false;
-  bool starts_step = false;        ///< true in the first row, and if the commanded heading differs
-                                   ///< from that of the previous row
-  bool is_in_second_half = false;  ///< in the second half of the run; false without a timed path
+  /// True in the first row, and if the commanded heading differs from that of the previous row.
+  bool starts_step = false;
+  /// the row is in the second half of the run; always false without a timed path
+  bool is_in_second_half = false;
 };
 
-/// Sums over the rows so far. All members are of type T; flags are 0 or 1.
+/// Sums and other values of the metrics over the rows so far. All members are of type T; flags are
+/// 0 or 1.
 template <class T>
 struct MetricsAccumulator {
   T rows = T(0.0);
@@ -76,22 +79,23 @@ struct MetricsAccumulator {
   T saturation_s = T(0.0);
   T steering_travel_deg = T(0.0);
   T cross_track_m2 = T(0.0);
-  T strayed = T(0.0);  ///< flag: beyond tolerance_m from the path's point in the second half
+  /// flag: in the second half, the vehicle was more than tolerance_m from the path's point
+  T strayed = T(0.0);
   T clearance_min_m = T(0.0);
-  T speed_reached = T(0.0);  ///< flag: the commanded speed was reached
+  T speed_reached = T(0.0);  ///< flag: the speed has reached the commanded one
   T speed_least_mps = T(0.0);
   T speed_itae_m_s = T(0.0);
-  T steering_rate2_degps2 = T(0.0);  ///< sum of the squared rates of the commanded angle
+  T steering_rate2_degps2 = T(0.0);  ///< sum of the squared rates of the commanded steering angle
   // Heading steps: values over all steps, then values of the current step.
   T settling_s = T(0.0);
-  T never_settled = T(0.0);  ///< flag: a step ended without settling
+  T never_settled = T(0.0);  ///< flag: the heading did not settle in one of the steps
   T overshoot_deg = T(0.0);
   T iae_degs = T(0.0);
   T itae_degs2 = T(0.0);
   T step_start_s = T(0.0);
   T step_deg = T(0.0);
-  T out_of_band = T(0.0);  ///< flag: the error is outside the settling band
-  T settled_s = T(0.0);    ///< time from the step's start to the last entry into the band
+  T out_of_band = T(0.0);  ///< flag: the heading error is outside the settling band
+  T settled_s = T(0.0);    ///< time from the step to the last entry of the error into the band
   // Values of the previous row.
   T error_deg = T(0.0);
   T speed_error_m = T(0.0);  ///< t |u_d - u|
@@ -99,26 +103,28 @@ struct MetricsAccumulator {
   WheelSpeeds<T> rolling{T(0.0), T(0.0), T(0.0), T(0.0)};
   T yaw_resistance_m = T(0.0), r_radps = T(0.0);
   T tyre_power_mps = T(0.0);
-  T limited = T(0.0);  ///< flag: a command was at a limit
+  T limited = T(0.0);  ///< flag: a motor or steering command was at a limit
   T x_m = T(0.0), y_m = T(0.0), steering_rad = T(0.0);
   T steering_command_rad = T(0.0), left = T(0.0), right = T(0.0);
 };
 
 namespace meter {
 
-/// The commanded speed counts as reached once the speed is at most this fraction below it.
+/// The commanded speed counts as reached once the speed is below it by at most this fraction.
 constexpr double kReachedShare = 0.001;
-constexpr double kSettledShare = 0.02;    ///< half width of the settling band, over the step's size
+/// half width of the settling band, divided by the size of the step
+constexpr double kSettledShare = 0.02;
 constexpr double kSettledLeastDeg = 0.5;  ///< smallest half width of the settling band, deg
-constexpr double kMovingMps = 0.05;  ///< speed up to which the sideslip angle is not evaluated, m/s
+constexpr double kMovingMps = 0.05;       ///< the sideslip angle is evaluated above this speed, m/s
 
 using math::larger;
 
-/// Power and copper loss of the four motors over one sample.
+/// Mechanical power and copper loss of the four motors during one sample.
 template <class T>
 struct MotorWork {
-  T power_mps;  ///< sum over the wheels of max(0, F' w), w: wheel speed; power over F_max
-  T copper;     ///< half the sum over the wheels of F'^2
+  /// Power divided by F_max: sum over the wheels of max(0, F' w), with the wheel speed w.
+  T power_mps;
+  T copper;  ///< half the sum of F'^2 over the wheels
 };
 
 template <class T>
@@ -149,7 +155,8 @@ MotorWork<T> motor_work(const WheelForces<T>& f, const WheelSpeeds<T>& w,
   return work;
 }
 
-/// True if a motor command is at a limit of F', or the steering command at +-d_max.
+/// True if a motor command is at the limit of a force, or the steering command at the limit
+/// +-d_max.
 template <class T>
 Mask<T> at_a_limit(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle) {
   using math::abs;
@@ -161,7 +168,7 @@ Mask<T> at_a_limit(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle) {
           abs(row.steering_command_rad) >= vehicle.steering_max_rad);
 }
 
-/// A steering angle divided by the largest one; 0 without steering.
+/// Returns a steering angle divided by the largest one; 0 for a vehicle without steering.
 template <class T>
 T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
   using math::select;
@@ -169,8 +176,8 @@ T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
   return select(steers, T(steering_rad / select(steers, steering_max_rad, T(1.0))), T(0.0));
 }
 
-/// Ends the current heading step: updates the longest settling time, or notes that the heading did
-/// not settle.
+/// Ends the current heading step. If the heading has settled, updates the longest settling time,
+/// else sets the flag never_settled.
 template <class T>
 void close_step(MetricsAccumulator<T>& m) {
   using math::select;
@@ -179,7 +186,8 @@ void close_step(MetricsAccumulator<T>& m) {
   m.settling_s = select(settled, larger(m.settling_s, m.settled_s), m.settling_s);
 }
 
-/// Adds a row to settling time, overshoot, IAE and ITAE of the heading.
+/// Adds a row to the heading metrics: settling time, overshoot, IAE (integral of the absolute
+/// error) and ITAE (the same, weighted with the time since the step).
 template <class T>
 void measure_heading(const MetricsRow<T>& row, const MetricsTime& time, MetricsAccumulator<T>& m) {
   using math::abs;
@@ -206,7 +214,7 @@ void measure_heading(const MetricsRow<T>& row, const MetricsTime& time, MetricsA
   m.error_deg = error_deg;
 }
 
-/// Updates the smallest speed since the speed first reached 99.9 % of the commanded one.
+/// Updates the smallest speed since the vehicle first reached 99.9 % of the commanded speed.
 template <class T>
 void measure_speed(const T& u_mps, const MetricsTask& task, MetricsAccumulator<T>& m) {
   using math::select;
@@ -217,7 +225,8 @@ void measure_speed(const T& u_mps, const MetricsTask& task, MetricsAccumulator<T
   m.speed_reached = select(counts, T(1.0), T(0.0));
 }
 
-/// Updates the integral of t |u_d - u|, by the trapezoidal rule.
+/// Updates the integral of t |u_d - u| (t: time, u_d: desired speed, u: speed) by the trapezoidal
+/// rule.
 template <class T>
 void measure_speed_error(const MetricsRow<T>& row, const MetricsTime& time,
                          MetricsAccumulator<T>& m) {
@@ -257,8 +266,8 @@ void measure_motion(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, 
       (abs(row.force.left - m.left) + abs(row.force.right - m.right)) / vehicle.force_max;
 }
 
-/// Updates energy, tyre work, time in saturation, steering travel and steering rate by the sample
-/// that ends at this row. Forces are constant over a sample; speeds are those at its start.
+/// Adds the sample that ends at this row to energy, tyre work, time in saturation, steering travel
+/// and steering rate. Forces are constant over a sample; the speeds are those at its start.
 template <class T>
 void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bool is_on_tyres,
                   double dt_s, MetricsAccumulator<T>& m) {
@@ -279,7 +288,7 @@ void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bo
   m.steering_rate2_degps2 += rate_degps * rate_degps;
 }
 
-/// Stores this row, for the differences and integrals of the next row.
+/// Stores the values of this row that the differences and integrals of the next row need.
 template <class T>
 void remember(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, double t_s,
               MetricsAccumulator<T>& m) {

@@ -19,7 +19,8 @@ struct Ending {
 /// Computes the time data of each row of a run, in sequence.
 class MeterClock {
  public:
-  /// `last`: index of the last row of a full run, from 0. The scenario must outlive the clock.
+  /// `last`: index of the last row, from 0, of a run that does not end early. The scenario must
+  /// outlive the clock.
   MeterClock(const Scenario& scenario, std::size_t last) : scenario_(&scenario), last_(last) {}
   MetricsTime next(double t_s);
 
@@ -31,11 +32,12 @@ class MeterClock {
   double goal_before_rad_ = 0.0;
 };
 
-/// Data of the vehicle that the accumulator needs.
+/// Returns the data of the vehicle that the accumulator needs.
 MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits);
-/// Properties of the scenario that the accumulator needs.
+/// Returns the properties of the scenario that the accumulator needs.
 MetricsTask metrics_task(const Scenario& scenario);
-/// The metrics of a run from the sums over all of its rows. Precondition: at least one row.
+/// Computes the metrics of a run from the sums over all of its rows. Precondition: at least one
+/// row.
 Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending, const Scenario& scenario);
 
 /// True if every sum is finite.

@@ -1,6 +1,6 @@
-/// Forces on the vehicle over one sample, from motor lag, battery, disturbances and slopes.
-/// Templates on the scalar: a double for a single run, or lanes::Lanes with one run per lane.
-/// Private to this folder.
+/// Forces on the vehicle over one sample: effects of motor lag, battery, disturbances and slopes.
+/// Templates on the scalar type: double for a single run, or lanes::Lanes, a register with one run
+/// per lane. Private to this folder.
 #pragma once
 
 #include "awmr/model/resolved_steps.h"
@@ -9,26 +9,27 @@
 
 namespace awmr {
 
-/// External forces (disturbance, slope) over one sample.
+/// External forces (disturbances, slope) over one sample.
 template <class T>
 struct ExternalForces {
   BodyLoadOf<T> load;               ///< forces and moment of the disturbances
-  bool is_loaded = false;           ///< false: neither disturbances nor slope
+  bool is_loaded = false;           ///< false: there is neither a disturbance nor a slope
   bool is_sloped = false;           ///< there is a slope
-  double slope_accel_mps2 = 0.0;    ///< downhill acceleration g sin(angle of the slope)
+  double slope_accel_mps2 = 0.0;    ///< downhill acceleration g sin(slope angle)
   double slope_downhill_rad = 0.0;  ///< heading of the steepest descent, in the world frame
 };
 
-/// First-order lag (time constant tau) of the motor forces over a sample of the length T_s, from
-/// the force F at its start towards a constant command c:
+/// First-order lag of the motor forces over a sample. A force starts at F and approaches the
+/// constant command c with the time constant tau. At the time t of the sample, which has the length
+/// T_s:
 ///   F(t) = c + (F - c) exp(-t/tau),   mean = c + (F - c) (1 - exp(-T_s/tau)) tau/T_s
 struct MotorLag {
   double left_over = 0.0;   ///< exp(-T_s/tau); 0: no lag
   double mean_share = 0.0;  ///< (1 - exp(-T_s/tau)) tau/T_s; 0: no lag
 };
 
-/// Returns the mean force over the sample. `motors`: on entry, the force at the start of the
-/// sample; on return, that at its end (unchanged without lag).
+/// Returns the mean forces over the sample. `motors` has the forces at the start of the sample, and
+/// is set to those at its end. Without lag, returns the command and leaves `motors` unchanged.
 template <class T>
 SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
                              SideForces<T>& motors) {
@@ -40,16 +41,16 @@ SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
   return {command.left + behind.left * mean_share, command.right + behind.right * mean_share};
 }
 
-/// Distributes left and right forces to the wheels: both wheels of a side get the same force. Rear
-/// wheels that are not driven (Plant::rear_driven) get none.
+/// Distributes left and right forces to the wheels: both wheels of a side get the same force, but
+/// rear wheels that are not driven (Plant::rear_driven is 0) get none.
 template <class T>
 WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// Returns the lagging motor commands `arriving`, with 0 for each motor that is switched off. With
-/// back-EMF, the command 0 switches a motor off at once. If its lagging command were still applied,
-/// the back-EMF would brake the wheel (motor_force() in dynamics.h).
+/// Returns the motor commands after lag, `arriving`, but 0 for each motor with the command 0. With
+/// back-EMF, this command switches the motor off at once. If the command after lag were still
+/// applied, the back-EMF would brake the wheel (motor_force() in dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {
@@ -66,14 +67,14 @@ SideForces<T> up_to(const SideForces<T>& force, const T& most) {
   return {math::saturate(force.left, most), math::saturate(force.right, most)};
 }
 
-/// Scales both forces by the voltage s of a sagging battery, relative to the voltage without
+/// Scales both forces by the voltage s of a sagging battery. s is the ratio to the voltage without
 /// current:
 ///   s = 1 - rho sum c_i (s c_i - k_e w_i)
 ///     = (1 + rho k_e sum c_i w_i) / (1 + rho sum c_i^2)
-/// rho: Battery::sag; c_i: command F' of motor i, which is also the fraction of time in which PWM
-/// connects the motor to the battery. s c_i - k_e w_i: current of the motor over its stall current.
-/// w_i = u -+ d r, m/s: wheel speed at the start of the sample, without the steering angle. s is
-/// constant over the sample.
+/// rho: Battery::sag. c_i: command F' of motor i, which is also the fraction of time in which PWM
+/// connects the motor to the battery. k_e: back-EMF coefficient. s c_i - k_e w_i: current of the
+/// motor divided by its stall current. w_i = u -+ d r, m/s: wheel speed at the start of the sample,
+/// without the effect of the steering angle. s is constant over the sample.
 template <class T>
 SideForces<T> under_sag(double sag, const T& motors_a_side, const T& back_emf_s_per_m,
                         const T& half_track_m, const State<T>& at, const SideForces<T>& force) {
@@ -85,7 +86,7 @@ SideForces<T> under_sag(double sag, const T& motors_a_side, const T& back_emf_s_
   return {force.left * voltage, force.right * voltage};
 }
 
-/// Adds the accelerations by the external forces to the time derivatives `d` of the state `at`.
+/// Adds the accelerations by the external forces to `d`, the time derivatives of the state `at`.
 template <class T>
 State<T> with_push(State<T> d, const Plant<T>& plant, const ExternalForces<T>& push,
                    const State<T>& at) {

@@ -7,34 +7,34 @@
 namespace awmr {
 namespace {
 
-/// Radius of a shrunk disc divided by the distance from its centre to the point that must be
-/// outside.
+/// A disc that contains the start or target point is shrunk. Its radius becomes this fraction of
+/// the distance from its centre to the point, so that the point is outside.
 constexpr double kShrunk = 1.0 - 1e-9;
 
-/// Twice the signed area of the triangle a, b, c; >= 0 if c is left of the line from a to b or on
-/// it.
+/// Twice the signed area of the triangle a, b, c. It is >= 0 if c is on the line from a to b or to
+/// the left of this line.
 double turn(const Position<double>& a, const Position<double>& b, const Position<double>& c) {
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }
 
-/// True if the segments a-b and c-d cross. A point on a line counts as left of it. So a chain of
-/// segments with a vertex on the segment a-b crosses it once and not twice.
+/// True if the segments a-b and c-d cross. A point on a line counts as left of it. So if a chain of
+/// segments has a vertex on the segment a-b, it crosses a-b once and not twice.
 bool cross(const Position<double>& a, const Position<double>& b, const Position<double>& c,
            const Position<double>& d) {
   const auto left = [](double area) { return area >= 0.0; };
   return left(turn(a, b, c)) != left(turn(a, b, d)) && left(turn(c, d, a)) != left(turn(c, d, b));
 }
 
-/// Groups of overlapping discs (union-find with parities). An edge joins the centres of two discs.
-/// It is odd if it crosses the segment from `from` to `to`. The parity of a disc is odd if the path
-/// from it to the root of its group has an odd number of odd edges.
+/// Groups of overlapping discs (union-find with parities). An edge joins the centres of two
+/// overlapping discs. It is odd if it crosses the segment from `from` to `to`. The parity of a disc
+/// is odd if the path from it to the root of its group has an odd number of odd edges.
 class ParitySets {
  public:
   explicit ParitySets(std::size_t count) : parent_(count), odd_(count, false) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
-  /// Joins the groups of a and b by an edge. False if the edge closes a cycle with an odd number of
-  /// odd edges.
+  /// Joins the groups of the discs a and b by an edge. Returns false if the edge closes a cycle
+  /// that has an odd number of odd edges: such a cycle encircles one of the two points.
   bool join(std::size_t a, std::size_t b, bool odd) {
     const auto [root_a, odd_a] = root(a);
     const auto [root_b, odd_b] = root(b);

@@ -7,11 +7,12 @@
 
 namespace awmr {
 
-/// True if a point can move from `from` to `to` without entering a disc; the discs are the
-/// obstacles enlarged by `grow_m`. Exact except for passages of zero width. The two points are
-/// separated if and only if a closed chain of overlapping discs encircles one of them. Such a chain
-/// crosses the segment from `from` to `to` an odd number of times. A disc that contains one of the
-/// points is shrunk to exclude the point.
+/// True if a point can move from `from` to `to` without entering a disc. The discs are the
+/// obstacles enlarged by `grow_m`. The result is exact except for passages of zero width.
+///
+/// Method: the two points are separated if and only if a closed chain of overlapping discs
+/// encircles exactly one of them. Such a chain crosses the segment from `from` to `to` an odd
+/// number of times. A disc that contains one of the points is shrunk so that the point is outside.
 bool passage_exists(const std::vector<Obstacle<double>>& obstacles, double grow_m,
                     const Position<double>& from, const Position<double>& to);
 

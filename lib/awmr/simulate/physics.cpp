@@ -11,14 +11,15 @@
 namespace awmr {
 namespace {
 
-/// RK4 steps per smallest time constant of the smooth part of the plant. For an eigenmode with the
-/// time constant T, a step h has the error (h/T)^5/120, relative to the excursion: 1e-6 for
-/// h = T/6. This error decays with T. tests/peers compares positions after a minute with an
-/// independent integrator: the difference is 1e-5 m.
+/// Number of RK4 steps per shortest time constant of the plant, of those that do not depend on
+/// speed. For an eigenmode with the time constant T, a step h = T/6 has the error (h/T)^5/120 =
+/// 1e-6, relative to the excursion. This error decays with T. In tests/peers, positions after a
+/// minute differ by 1e-5 m from those of an independent integrator.
 constexpr double kStepsPerTimeConstant = 6.0;
 
-/// A chord, a straight line through the origin, may replace a resistance up to this speed (m/s or
-/// rad/s).
+/// Up to this speed (m/s or rad/s), the simulation may replace a resistance by a chord, a straight
+/// line through the origin. Near rest, a resistance can be so steep that it would need very short
+/// steps.
 constexpr double kChordSpeed = 1e-3;
 
 double step_for_chord(const Resistance<double>& law, double inertia) {
@@ -26,9 +27,10 @@ double step_for_chord(const Resistance<double>& law, double inertia) {
   return relaxation_time_s(law, inertia, kChordSpeed);
 }
 
-/// Limits the command of a motor so that the magnitude of its force is at most `most`. With
-/// back-EMF and the rolling speed w = `wheel_mps`, F' = e - k_e w (motor_force()). So the drive e
-/// is limited to the e = F' + k_e w that makes this force.
+/// Limits the command of a motor so that the magnitude of its force F' is at most `most`, as on
+/// slippery ground. With back-EMF, F' = e - k_e w (motor_force()): e is the drive, k_e the back-EMF
+/// coefficient, w = `wheel_mps` the rolling speed. So the drive is limited to e = F' + k_e w for
+/// the largest F'.
 double slipping(const Plant<double>& plant, double command, double wheel_mps, double most) {
   const double k = plant.back_emf_s_per_m;
   const double drive = beyond_dead_zone(command, plant.wheel_dead_zone);
@@ -37,19 +39,19 @@ double slipping(const Plant<double>& plant, double command, double wheel_mps, do
   return with_dead_zone(math::saturate(force, most) + k * wheel_mps, plant.wheel_dead_zone);
 }
 
-/// Number of integration steps per sample. The tolerance 1e-9 prevents rounding from adding a step
-/// to a sample of exactly n steps.
+/// Number of integration steps per sample. The tolerance 1e-9 prevents that rounding adds a step to
+/// a sample of exactly n steps.
 double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_time_s) {
   return std::max(1.0, std::ceil(sample_time_s / step_limit(plant, on_tyres).step_s - 1e-9));
 }
 
 }  // namespace
 
-/// The step h is limited by each time constant T that does not depend on speed, of sway (m'/a_s),
-/// servo and back-EMF:
+/// The step h is limited by each time constant T that does not depend on speed: those of the sway
+/// resistance (m'/a_s), the servo and the back-EMF.
 ///   h <= T/6
 /// The step is also limited so that a chord replaces the resistance g (g1 or g3) only below
-/// kChordSpeed (rest_speed() solved for h):
+/// kChordSpeed. This is the equation of rest_speed() solved for h; the inertia is m' or I'z:
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres) {
   StepLimit limit{plant.steering_time_constant_s / kStepsPerTimeConstant,

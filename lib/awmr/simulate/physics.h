@@ -1,5 +1,6 @@
-/// Simulates the motion of vehicles in the environment of a scenario, sample by sample: for the
-/// closed loop (closed_loop.h), and for an external controller such as one on a chip (Physics).
+/// Simulates the motion of vehicles in the environment of a scenario, sample by sample. The closed
+/// loop (closed_loop.h) uses it, and an external controller, such as one on a chip, can use it
+/// (Physics).
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -12,26 +13,26 @@ namespace awmr {
 
 struct SimulateOptions;
 
-/// The steps of vehicle_steps.h for a single vehicle.
+/// The functions of vehicle_steps.h for a single vehicle.
 inline constexpr VehicleSteps<double> kOneVehicleSteps = {
     [](Vehicles<double>& v) { steps::dissipate(OneRun{}, v); },
     [](Vehicles<double>& v) { steps::actuate(OneRun{}, v); },
     [](Vehicles<double>& v) { steps::move(OneRun{}, v); }};
 
-/// A single vehicle for an external controller.
+/// A single simulated vehicle that an external controller drives.
 class Physics {
  public:
-  /// `force_max` is the largest motor command over F_max, including the dead zone (the upper end of
-  /// Vehicle::wheel_force), which a falling battery voltage reduces.
+  /// `force_max` is the largest motor command divided by F_max, including the dead zone (the upper
+  /// end of Vehicle::wheel_force). A falling battery voltage reduces it.
   Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,
           const SimulateOptions& options);
 
   const State<double>& state() const { return vehicle_.state; }
   /// False once step() has failed.
   bool resolved() const { return vehicle_.active > 0.0; }
-  /// Simulates the sample that begins at `t_s` with constant commands. Call it for every sample, in
-  /// order. If no step is short enough for the motion, or the state is not finite, the state is
-  /// unchanged and resolved() is false from then on.
+  /// Simulates the sample that begins at `t_s`, with constant commands. Call it for every sample,
+  /// in order. If no integration step is short enough for the motion, or the state is not finite,
+  /// the state is unchanged, and resolved() is false from then on.
   void step(double t_s, const SideForces<double>& force, double steering_command_rad);
 
  private:
@@ -40,52 +41,55 @@ class Physics {
   RunDisturbance disturbance_;
 };
 
-/// True if front and rear wheel of a side can have different forces: the scenario has motor faults
-/// or slippery discs.
+/// True if front and rear wheel of a side can have different forces, because the scenario has motor
+/// faults or slippery discs.
 bool forces_differ_by_wheel(const Scenario& scenario);
 
-/// Applied wheel forces at `t_s`: the motor commands `force`, changed by motor faults and limited
-/// on slippery discs. Assumes that both axles have the same distance from the centre of gravity.
+/// Returns the wheel forces at `t_s`: the motor commands `force`, reduced by motor faults and
+/// limited on slippery discs. Assumes that both axles have the same distance from the centre of
+/// gravity.
 WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force);
 
-/// The lag of the scenario's motors over a sample; no lag without actuators.
+/// Returns the lag of the scenario's motors over a sample. There is no lag if `actuators` is
+/// absent.
 MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s);
 
-/// Largest motor command at `t_s`, divided by its value with a full battery, in [0, 1]. Sag is not
-/// included.
+/// Largest motor command at `t_s`, in [0, 1], divided by its value with a full battery. Voltage sag
+/// under load is not included.
 double battery_share(const Battery& battery, double t_s);
 
 /// Rounds the steering command to the nearest step of the servo, and the motor commands `force` to
-/// the nearest count of the PWM. `force_max` is the motor command at `pwm_counts` counts.
+/// the nearest PWM count. `force_max` is the motor command at `pwm_counts` counts.
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
               double& steering_command_rad);
 
-/// The plant with its resistances near rest replaced by straight lines through the origin (chords,
-/// rest.h), which integration steps of step_s seconds need. On tyres, g1 acts at the wheels, and
-/// its chord is chosen for them (resolved_at_rest_on_tyres()).
+/// Returns the plant with its resistances near rest replaced by straight lines through the origin
+/// (chords, rest.h). Near rest, a resistance can be too steep for integration steps of step_s
+/// seconds. On tyres, the surge resistance g1 acts at the wheels, and its chord is chosen for them
+/// (resolved_at_rest_on_tyres()).
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
-/// Longest RK4 step that resolves the time constants that do not depend on speed. `parameter`: the
-/// parameter of the model that determines it.
+/// Longest RK4 step for the plant's time constants that do not depend on speed. `parameter` is the
+/// model parameter that limits the step.
 struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};
 };
-/// Computes the limit for a plant. With `on_tyres`, the sway resistance g2 and the yaw resistance
-/// g3 are left out, because the tyres replace them.
+/// Computes the longest step for a plant. With `on_tyres`, the sway resistance g2 and the yaw
+/// resistance g3 are not considered, because the tyres replace them.
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
-/// Number of RK4 steps of a run over the whole duration of the scenario, if no step is halved.
+/// Number of RK4 steps in the whole duration of the scenario, if no step has to be halved.
 double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// Properties common to the vehicles of a scenario. set_up_vehicle() adds back-EMF, scrub and
-/// front-wheel drive if any vehicle has them.
+/// Returns the properties that the vehicles of all runs share. set_up_vehicle() then adds back-EMF,
+/// scrub and front-wheel drive if any of the vehicles has them.
 VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s);
 
 /// Sets up the vehicle of the run with the index `run`, in the scenario's initial state.
-/// `force_max`: largest motor command over F_max, including the dead zone.
+/// `force_max`: largest motor command divided by F_max, including the dead zone.
 template <class Row>
 void set_up_vehicle(const Plant<double>& plant, double force_max, const Scenario& scenario,
                     double sample_time_s, int substeps, std::size_t run, Vehicles<Row>& v) {
@@ -114,8 +118,8 @@ bool any_active(const Vehicles<Row>& v) {
   return false;
 }
 
-/// Integrates the active vehicles over the sample that begins at `t_s`, with constant commands and
-/// constant disturbances (v.load).
+/// Integrates the motion of the active vehicles over the sample that begins at `t_s`. Commands and
+/// disturbances (v.load) are constant over the sample.
 template <class Row>
 void step_vehicles(const Scenario& scenario, double t_s, const VehicleSteps<Row>& steps,
                    Vehicles<Row>& v) {

@@ -17,32 +17,35 @@
 namespace awmr {
 namespace {
 
-/// Largest number of attempts to draw a plant without a negative exponent or term.
+/// Largest number of attempts to draw a plant whose exponents and resistance terms are not
+/// negative.
 constexpr int kMaxTries = 1000;
 
-/// Number of the random stream of the scrub moment, separate from that of the other parameters.
+/// Number of the random stream of the scrub moment. It is separate, so that the other parameters of
+/// a draw do not depend on whether the model has scrub.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 
-/// Relative tolerance for negative eigenvalues. A derived parameter (m' from a1, b1) makes the
-/// covariance singular, and rounding can then make an eigenvalue negative.
+/// An eigenvalue of a covariance may be negative by this fraction of the largest one. Reason: a
+/// derived parameter (m' from a1, b1) makes the covariance singular, and rounding can then make an
+/// eigenvalue negative.
 constexpr double kSingularTolerance = 1e-9;
 
-/// False for a negative exponent or optional term of a resistance (Coulomb, quadratic, dead zone):
-/// a resistance neither falls with speed nor drives the vehicle.
+/// False for a negative exponent, and for a negative optional term of a resistance (Coulomb,
+/// quadratic, dead zone): a resistance does not fall with speed and does not drive the vehicle.
 bool is_admissible(ParameterId id, double value) {
   const bool is_exponent = id == ParameterId::kSurgeBeta || id == ParameterId::kYawBeta;
   return !(is_exponent || info(id).term) || value >= 0.0;
 }
 
-/// Smallest relative position of a draw in its stratum, in [0, 1). At the position 0 of the first
-/// stratum, the normal quantile would be infinite.
+/// A draw is placed in its stratum at a fraction from 0 to 1 of the width of the stratum. The
+/// fraction is at least this, because at 0 in the first stratum the normal quantile is infinite.
 constexpr double kInsideStratum = 1e-6;
 
-/// The z with P(Z <= z) = p, Z standard normal, 0 < p < 1.
+/// Standard normal quantile: the z with P(Z <= z) = p, where Z is standard normal and 0 < p < 1.
 double normal_quantile(double p) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * p); }
 
-/// Value of a quantity with the quantiles y at the normal score x. It is linearly interpolated
-/// between the quantiles, and linearly extrapolated beyond them.
+/// Returns the value of a quantity, whose quantiles are y, at the standard normal number x. Between
+/// the quantiles, the value is interpolated linearly; beyond them, it is extrapolated linearly.
 double interpolate(const Quantiles& y, double x) {
   std::size_t right = 1;
   while (right + 1 < kQuantileCount && x > kQuantiles[right].normal_score) ++right;
@@ -51,7 +54,8 @@ double interpolate(const Quantiles& y, double x) {
   return y[right - 1] + share * (y[right] - y[right - 1]);
 }
 
-/// Standard normals, one in each of `count` strata of equal probability, in a random order.
+/// Draws `count` standard normal numbers, one in each of `count` strata of equal probability, in
+/// random order.
 std::vector<double> stratified_normals(int count, Random& random) {
   std::vector<double> normals;
   for (int i = 0; i < count; ++i) {
@@ -65,8 +69,8 @@ std::vector<double> stratified_normals(int count, Random& random) {
   return normals;
 }
 
-/// Raises m' to at least Model::mass_norm_by_grip, the smallest m' that the tyres' grip permits,
-/// and I'z by the same factor, because I'z = m' Iz/m.
+/// Raises m' to at least Model::mass_norm_by_grip, the smallest normalised mass m' for which the
+/// grip of the tyres suffices. Multiplies I'z by the same factor, because I'z = m' Iz/m.
 void take_mass_by_grip(Model& model) {
   double& mass = *model[ParameterId::kMassNorm].value;
   const double factor = std::max(1.0, *model.mass_norm_by_grip / mass);
@@ -78,20 +82,22 @@ Status check_shape(const Covariance& covariance, const std::string& place) {
   const std::size_t n = covariance.parameters.size();
   if (n == 0) {
     return input_error(ErrorCode::kNotIdentified, place,
-                       "no fitted parameter has a covariance, from which samples are drawn; "
-                       "identify the model from trials, or do not request samples");
+                       "no fitted parameter has a covariance, so no random plants (samples) can be "
+                       "drawn; identify the model from trials, or do not request samples");
   }
   bool square = covariance.matrix.size() == n;
   for (const auto& row : covariance.matrix) square = square && row.size() == n;
   if (!square) {
-    return input_error(ErrorCode::kWrongType, place + "/matrix",
-                       fmt::format("must be {0} by {0}, one row and column per parameter", n));
+    return input_error(
+        ErrorCode::kWrongType, place + "/matrix",
+        fmt::format("the matrix must be {0} by {0}, one row and column per parameter", n));
   }
   return {};
 }
 
-/// Covariance of the coordinates z (model/transform.h) of the parameters p, from the covariance C
-/// of the parameters: Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q)
+/// Computes the covariance of the coordinates z, in which parameters are drawn (model/transform.h),
+/// from the covariance C of the parameters p, q:
+///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q)
 Eigen::MatrixXd coordinate_covariance(const Model& model) {
   const std::vector<ParameterId>& ids = model.covariance.parameters;
   Eigen::MatrixXd covariance(rows_of(ids), rows_of(ids));
@@ -105,8 +111,9 @@ Eigen::MatrixXd coordinate_covariance(const Model& model) {
   return covariance;
 }
 
-/// L with L L^T = C; empty if C is not positive semi-definite.
-///   C = V diag(w) V^T  =>  L = V diag(sqrt w), which also holds for a singular C.
+/// Returns a factor L of the covariance C, with L L^T = C; empty if C is not positive
+/// semi-definite. The eigenvalues w and eigenvectors V also give the factor of a singular C:
+///   C = V diag(w) V^T  =>  L = V diag(sqrt w)
 std::optional<Eigen::MatrixXd> factor_of(const Eigen::MatrixXd& covariance) {
   const SymmetricEigen eigen = symmetric_eigen(covariance);
   const double largest = eigen.values.maxCoeff();
@@ -126,8 +133,8 @@ Result<PlantSampler> PlantSampler::make(const Model& model) {
   const std::optional<Eigen::MatrixXd> factor = factor_of(coordinate_covariance(model));
   if (!factor) {
     return input_error(ErrorCode::kContradiction, place + "/matrix",
-                       "is not positive semi-definite, so no samples can be drawn; identify the "
-                       "model again");
+                       "this covariance matrix is not positive semi-definite, so no random plants "
+                       "can be drawn; identify the model again");
   }
   PlantSampler sampler;
   sampler.model_ = model;
@@ -151,7 +158,7 @@ Result<Plant<double>> PlantSampler::draw(std::uint64_t seed, int sample) const {
 }
 
 Result<std::vector<Plant<double>>> PlantSampler::draw_evenly(std::uint64_t seed, int count) const {
-  Random random(seed, 0);  // draw() uses the streams from 1 on
+  Random random(seed, 0);  // stream 0; draw() uses the streams from 1 on
   Random of_scrub(seed, kScrubStream);
   const std::vector<double> scrubs = stratified_normals(count, of_scrub);
   std::vector<std::vector<double>> by_direction;
@@ -206,8 +213,8 @@ int PlantSampler::rank() const {
 
 std::vector<std::vector<double>> PlantSampler::directions_of(
     std::span<const ParameterId> ids) const {
-  // Each row of L is divided by its length, so that the scale of a parameter does not matter. The
-  // directions are the eigenvectors of L^T L with eigenvalues above 0.
+  // Each row of L is divided by its length, so that the scale of a parameter has no effect. The
+  // directions are the eigenvectors of L^T L whose eigenvalues are above 0.
   const std::size_t n = centre_.size();
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(eigen_index(n), eigen_index(n));
   for (std::size_t i = 0; i < n; ++i) {

@@ -1,4 +1,4 @@
-/// Computes the position that the guidance of a run uses from the sensors of the run. Private to
+/// Computes the position that the guidance uses from the sensors of a simulated run. Private to
 /// this folder.
 #pragma once
 
@@ -11,14 +11,14 @@
 
 namespace awmr {
 
-/// Standard deviation of a fix per axis, m, by noise and quantisation together.
+/// Standard deviation of a fix on each axis, m, caused by noise and quantisation.
 inline double fix_noise_m(const Gps& gps) {
   return std::sqrt(gps.x.noise * gps.x.noise + gps.x.quantum * gps.x.quantum / 12.0);
 }
 
 /// Computes the firmware's position estimate if the scenario has a GPS and does not disable the
-/// estimate. Otherwise passes on the measured position: the last fix of a GPS, or the true position
-/// without GPS.
+/// estimate. Otherwise, returns the measured position: the last fix, or without a GPS the true
+/// position.
 class Positioning {
  public:
   Positioning(const Scenario& scenario, double sample_time_s) {
@@ -27,7 +27,7 @@ class Positioning {
     estimate_.emplace(position_filter<double>(fix_noise_m(gps), gps.latency_s, sample_time_s));
   }
 
-  /// The position at the time `t_s`. Call it once per sample, in order.
+  /// Returns the position at the time `t_s`. Call it once per sample, in order.
   Position<double> step(double t_s, const Sensed& sensed) {
     if (!estimate_) return sensed.position_m;
     return estimate_->step({sensed.position_m, t_s - sensed.fix_taken_s, sensed.is_fix_new},

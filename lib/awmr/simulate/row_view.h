@@ -1,9 +1,9 @@
-/// Data layout of runs that are simulated together. Each field of a struct of rows, such as
-/// State<Row>, is a row: one number of every run. The row of a single run is a double; the row of
-/// sixteen runs is lanes::Row. Private to this folder.
+/// Data layout of runs that are simulated together. In a struct of rows, such as State<Row>, each
+/// field is a row: one number of every run. The row of a single run is a double; the row of sixteen
+/// runs is lanes::Row. Private to this folder.
 ///
-/// A step of the loop (vehicle_steps.h, loop_steps.h) is a template on a view, which selects one or
-/// several runs of the rows. The view has a scalar type T (View::Number): a double, or lanes::Lanes
+/// A function of the loop (vehicle_steps.h, loop_steps.h) is a template on a view. A view selects
+/// one or several runs of the rows. Its scalar type T (View::Number) is a double, or lanes::Lanes
 /// with one double per run. For example, `view(rows)` loads State<Row> as State<T>, and
 /// `view.store()` writes it back.
 #pragma once
@@ -11,14 +11,14 @@
 #include <cstddef>
 #include <cstring>
 
-/// Attribute of a step of the loop: the compiler inlines all functions that the step calls, because
-/// a call would move registers to memory.
+/// Attribute of a function of the loop: the compiler inlines all functions that it calls. A call
+/// would move the contents of registers to memory.
 #define AWMR_WHOLE __attribute__((flatten))
 
 namespace awmr {
 
-/// View for a single run (Row = T): returns the numbers themselves. T: double, or the scalar type
-/// of the same size with which tests/bench counts operations.
+/// View for a single run: a row is one number of the type T. T is double, or the type with which
+/// tests/bench counts operations, which has the same size.
 template <class T>
 struct OneRunOf {
   using Number = T;

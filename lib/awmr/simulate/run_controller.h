@@ -1,5 +1,5 @@
-/// The simulated controller of a run. It computes the commands of a sample from measurements and
-/// reference. Its parts are the control laws (or LQI, constant thrust, open loop), the disturbance
+/// The simulated controller of a run: computes the commands of a sample from measurements and
+/// reference. It consists of the control laws (or LQI, constant thrust, open loop), the disturbance
 /// observer and the allocation. Templates for a single run and for a batch of runs. Private to this
 /// folder.
 #pragma once
@@ -10,31 +10,32 @@
 
 namespace awmr {
 
-/// Properties common to the controllers of runs that are simulated together.
+/// Properties that the controllers of all runs share.
 struct ControllerSetup {
   SteeringGeometry geometry = kFourWheelSteering;
   CombinedSplit split = CombinedSplit::kRedistribute;
-  bool is_open_loop = false;     ///< constant tau_speed and tau_turn_m replace both laws
+  /// constant tau_speed and tau_turn_m replace speed and heading law
+  bool is_open_loop = false;
   bool holds_tau_speed = false;  ///< a constant tau_speed replaces the speed law
-  bool is_lqi = false;           ///< an LQI replaces the sliding mode
+  bool is_lqi = false;           ///< an LQI heading law replaces the sliding mode
   bool is_observed = false;      ///< any run has an observer
   bool anti_windup = true;       ///< Observers::anti_windup
   double sample_time_s = 0.0;
 };
 
-/// Constants of a run's controller; all members are of type T.
+/// Constants of the controller of a run. All members are of type T.
 template <class T>
 struct RunController {
   PreparedController<T> laws;
-  T steering_share;         ///< YawSplit::steering_share of the mode
-  T dead_zone;              ///< F'0 of the motors, over F_max
+  T steering_share;         ///< fraction of the yaw moment that steering makes (YawSplit)
+  T dead_zone;              ///< dead zone F'0 of the motors, divided by F_max
   T back_emf_s_per_m;       ///< k_e of the motors, s/m
-  T tau_speed, tau_turn_m;  ///< constants that replace the laws (is_open_loop, holds_tau_speed)
+  T tau_speed, tau_turn_m;  ///< constants that replace laws, see is_open_loop and holds_tau_speed
   LqiGains<T> lqi;
   DisturbanceObserver<T> yaw_observer, surge_observer;  ///< bandwidth 0: none
 };
 
-/// State of a run's controller between two samples.
+/// State of the controller of a run between two samples.
 template <class T>
 struct RunControllerState {
   ObserversState<T> observed;
@@ -46,7 +47,7 @@ template <class T>
 struct RunCommand {
   T tau_speed;          ///< as in Command
   T tau_turn_m;         ///< as in Command
-  SideForces<T> force;  ///< motor commands that compensate dead zone and back-EMF
+  SideForces<T> force;  ///< motor commands, with dead zone and back-EMF compensated
   T steering_rad;
 };
 
@@ -55,14 +56,14 @@ Observers<T> observers_of(const ControllerSetup& setup, const RunController<T>& 
   return {c.yaw_observer, c.surge_observer, setup.anti_windup};
 }
 
-/// yaw_split() of the run's yaw mode. The mode is known from its steering_share: 0, 1/2 or 1.
+/// Returns yaw_split() of the run's yaw mode. The mode follows from steering_share: 0, 1/2 or 1.
 template <class T>
 YawSplit<T> yaw_split_of(const ControllerSetup& setup, const RunController<T>& c) {
   const Mask<T> may = Mask<T>(setup.split == CombinedSplit::kRedistribute);
   return {c.steering_share, may && c.steering_share > T(0.0) && c.steering_share < T(1.0)};
 }
 
-/// The initial state, without estimated disturbance.
+/// Returns the initial state, in which the estimated disturbance is 0.
 template <class T>
 RunControllerState<T> start_controller(const ControllerSetup& setup, const RunController<T>& c,
                                        const Measurement<T>& m) {

@@ -55,9 +55,10 @@ Status check_run_side(const std::filesystem::path& side) {
   if (!exists) return {};
   const auto json = read_json_file(side);
   if (json && json->is_object() && json->value("schema", Json()) == kRunSchema) return {};
-  return input_error(ErrorCode::kWouldOverwrite, side.string(),
-                     "this file exists and was not written by simulate, which would overwrite it; "
-                     "give another output, or move this file");
+  return input_error(
+      ErrorCode::kWouldOverwrite, side.string(),
+      "this file exists and was not written by simulate; the run's data would overwrite "
+      "it. Give another output, or move this file");
 }
 
 std::string run_schema() {

@@ -1,5 +1,5 @@
-/// The side file of a run, `run.csv.json` next to `run.csv`: inputs, metrics and findings of the
-/// run.
+/// The side file of a run, `run.csv.json` next to `run.csv`. It has the inputs, metrics and
+/// findings of the run.
 #pragma once
 
 #include <filesystem>
@@ -13,17 +13,17 @@
 
 namespace awmr {
 
-/// The path of the side file: that of the CSV with `.json` appended.
+/// Returns the path of the side file: the path of the CSV file with `.json` appended.
 std::filesystem::path run_side_path(const std::filesystem::path& csv);
 
-/// Content of the side file: `provenance`, the SHA-256 of the text `csv`, the keys of the JSON
-/// object in the text `figures`, and the findings. Precondition: `figures` is empty, or its keys
-/// differ from the other keys of the file.
+/// Returns the content of the side file: `provenance`, the SHA-256 of the text `csv`, the keys of
+/// the JSON object in the text `figures`, and the findings. `figures` can be empty. Precondition:
+/// none of its keys is another key of the file.
 std::string run_side_text(std::string_view csv, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
-/// Checks that `side` may be written. Errors (input): a file with this name exists and is not the
-/// side file of a run.
+/// Checks that the file `side` may be written. Errors (input): a file with this name exists and is
+/// not the side file of a run.
 Status check_run_side(const std::filesystem::path& side);
 
 /// The JSON Schema of the side file.

@@ -22,9 +22,9 @@ Status check_time(const CsvTable& table) {
   const auto t = table.column("t_s");
   const auto back = std::is_sorted_until(t.begin(), t.end());
   if (back == t.end()) return {};
-  return input_error(ErrorCode::kWrongOrder,
-                     table.place(static_cast<std::size_t>(back - t.begin()), "t_s"),
-                     "the time is smaller than in the row before; simulate the run again");
+  return input_error(
+      ErrorCode::kWrongOrder, table.place(static_cast<std::size_t>(back - t.begin()), "t_s"),
+      "the time in this row is smaller than in the row before; simulate the run again");
 }
 
 }  // namespace

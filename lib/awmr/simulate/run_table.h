@@ -10,12 +10,12 @@
 
 namespace awmr {
 
-/// Reads time, state, commands and references from run.csv: columns that every run has. Errors:
-/// those of read_csv(); decreasing time.
+/// Reads the columns of run.csv that every run has: time, state, commands and references. Errors:
+/// those of read_csv(); the time decreases.
 Result<CsvTable> read_run(const std::filesystem::path& path);
 
-/// Checks the text of a run.csv by parsing it: the ReadBack (core/file.h) of this format. Errors:
-/// those of read_run().
+/// Checks that the text of a run.csv can be read. Used as the ReadBack (core/file.h) of this
+/// format. Errors: those of read_run().
 Status check_run_text(std::string_view text, const std::string& file);
 
 }  // namespace awmr

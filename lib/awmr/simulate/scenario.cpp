@@ -80,16 +80,17 @@ Status check_mode(const Vehicle& vehicle, YawMode mode) {
   if (std::find(modes.begin(), modes.end(), mode) != modes.end()) return {};
   return input_error(
       ErrorCode::kUnsupported, option_text("mode"),
-      fmt::format("a vehicle with drive \"{}\" has no steering, which mode {} needs; give mode {}",
+      fmt::format("a vehicle with drive \"{}\" has no steering, but mode {} needs it; give mode {}",
                   name_in(kDriveNames, vehicle.drive), name_of(mode), name_of(modes.front())));
 }
 
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
   std::vector<TyreConflict> conflicts;
   if (!scenario.patches.empty()) {
-    conflicts.push_back({"slippery",
-                         "a patch limits only the longitudinal forces of wheels, but tyres also "
-                         "make lateral forces; remove slippery or tyres"});
+    conflicts.push_back(
+        {"slippery",
+         "a patch limits only the longitudinal forces of the wheels, but with tyres, "
+         "wheels also make lateral forces; remove slippery or tyres"});
   }
   for (const CornerParameter& corner : scenario.corner) {
     switch (corner.id) {
@@ -100,8 +101,8 @@ std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario) {
       case ParameterId::kYawQuadratic:
         conflicts.push_back(
             {"corner", std::string(info(corner.id).name) +
-                           " has no effect on tyres, whose forces replace this resistance; remove "
-                           "it from corner, or remove tyres"});
+                           " has no effect on tyres, because their forces replace this "
+                           "resistance; remove it from corner, or remove tyres"});
         break;
       default:
         break;
@@ -123,11 +124,11 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario) {
   for (const CornerParameter& corner : scenario.corner) {
     Estimate& estimate = model[corner.id];
     if (!estimate.ci95) {
-      faults.push_back({ErrorCode::kNotIdentified,
-                        model.file + ":" + std::string(info(corner.id).pointer),
-                        "has no 95 % interval (ci95), whose end the scenario '" + scenario.name +
-                            "' uses; identify it from trials, or remove it from the "
-                            "scenario's corner"});
+      faults.push_back(
+          {ErrorCode::kNotIdentified, model.file + ":" + std::string(info(corner.id).pointer),
+           "has no 95 % interval (ci95), but the corner of scenario '" + scenario.name +
+               "' sets this parameter to an end of its interval; identify it from "
+               "trials, or remove it from the corner"});
       continue;
     }
     estimate.value = corner.high ? estimate.ci95->hi : estimate.ci95->lo;
@@ -149,7 +150,8 @@ Status check_tyres(const Scenario& scenario) {
   return {};
 }
 
-/// Errors (input): the weights of the LQI give gains that are unstable at the sample time.
+/// Checks the LQI heading law, if the scenario has one. Errors (input): with its gains, the heading
+/// loop is unstable at the sample time.
 Status check_lqi(const Scenario& scenario, const Model& model) {
   const auto& inertia_norm = model[ParameterId::kInertiaNorm].value;
   if (!scenario.control.lqi || !inertia_norm) return {};
@@ -159,9 +161,9 @@ Status check_lqi(const Scenario& scenario, const Model& model) {
   return input_error(
       ErrorCode::kDiverges, fmt::format("scenario '{}':/control/heading_law", scenario.name),
       fmt::format(
-          "the weights give gains ({:.3g} 1/s on the yaw rate) with which the heading loop is "
-          "unstable at sample_time_s {:g}; give a smaller tau_turn_m, or larger heading_deg, "
-          "yaw_rate_degps and integral_deg_s",
+          "these LQI weights give a gain of {:.3g} 1/s on the yaw rate, with which the heading "
+          "loop is unstable at sample_time_s {:g}; give a smaller tau_turn_m, or larger "
+          "heading_deg, yaw_rate_degps and integral_deg_s",
           gains.rate_per_s, sample_time_s));
 }
 
@@ -172,7 +174,7 @@ Status check_observer(const Scenario& scenario, const Model& model) {
       fmt::format("scenario '{}':/control/disturbance_observer/bandwidth_radps", scenario.name));
 }
 
-/// Errors: a fault of wheels that all have no motor.
+/// Checks the motor faults. Errors (input): none of the wheels of a fault has a motor.
 Status check_faults(const Scenario& scenario, const Model& model) {
   if (model.vehicle.drive != Drive::kFrontWheel) return {};
   std::vector<Fault> errors;

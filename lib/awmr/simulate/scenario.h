@@ -23,32 +23,33 @@
 
 namespace awmr {
 
-/// Open loop: constant generalised forces. The allocation of the yaw mode limits them and converts
-/// them to commands.
+/// Open loop: constant thrust and yaw moment. The allocation of the yaw mode limits them and
+/// converts them to commands.
 struct OpenLoop {
-  double tau_speed = 0.0;   ///< thrust over F_max, dimensionless, forward positive
-  double tau_turn_m = 0.0;  ///< yaw moment over F_max, m, counter-clockwise positive
+  double tau_speed = 0.0;   ///< thrust divided by F_max, forward positive
+  double tau_turn_m = 0.0;  ///< yaw moment divided by F_max, m, counter-clockwise positive
 };
 
-/// A heading and the time from which it is commanded.
+/// A commanded heading, and the time at which the command begins.
 struct HeadingStep {
   double t_s = 0.0;      ///< start of the command, s, >= 0
-  double psi_rad = 0.0;  ///< rad, counter-clockwise from the world's x axis
+  double psi_rad = 0.0;  ///< heading, counter-clockwise from the world's x axis
 };
 
-/// A sequence of commanded headings; each holds until the next. The first is commanded at t = 0.
+/// A sequence of commanded headings. Each is held until the next begins. The first begins at t = 0.
 struct HeadingSteps {
-  std::vector<HeadingStep> steps;  ///< strictly increasing in time, not empty
+  std::vector<HeadingStep> steps;  ///< in the order of time, at different times, not empty
   /// Constant thrust tau_speed, dimensionless, forward positive, as in the paper's experiment. It
-  /// replaces the speed law, and there is no surge observer. Absent: the speed law controls the
-  /// scenario's speed_mps.
+  /// replaces the speed law; surge disturbances are not estimated. Absent: the speed law controls
+  /// the scenario's speed_mps.
   std::optional<double> tau_speed = {};
 };
 
-/// Waypoints, approached by line of sight. The run ends when the last is reached.
+/// Waypoints. The vehicle heads for the next waypoint (line of sight). The run ends when the last
+/// waypoint is reached.
 struct WaypointPath {
   std::vector<Position<double>> points_m;  ///< not empty
-  double acceptance_m = 0.0;               ///< a point is reached within this distance, > 0
+  double acceptance_m = 0.0;               ///< > 0: a waypoint is reached within this distance
   bool skip_passed = false;                ///< see Waypoints::skip_passed
   /// m, > 0: within this distance of the last point, the reference speed is reduced in proportion
   /// to the distance, but not below a tenth of speed_mps. Absent: the speed is not reduced.
@@ -57,9 +58,9 @@ struct WaypointPath {
 
 /// A line-following law with its parameters: the paper's line of sight, or a law for comparison.
 using AnyLineLaw = LineLaws<std::variant, double>;
-/// Each law, with parameters of 0, in the order of LineLaws.
+/// Returns one object of each law, with all parameters 0, in the order of LineLaws.
 std::vector<AnyLineLaw> line_laws();
-/// A law's name in files, options and messages.
+/// Returns the name of a law in files, options and messages.
 std::string_view name_of(const AnyLineLaw& law);
 /// The names of line_laws(), in the same order.
 std::vector<std::string> line_law_names();
@@ -68,46 +69,49 @@ std::vector<std::string> line_law_names();
 struct LinePath {
   std::vector<Position<double>> points_m;  ///< corners, at least two
   AnyLineLaw law{};
-  double corner_m = 0.0;              ///< >= 0, see Polyline::corner_m; 0 for a law without corner
-                                      ///< rounding
-  std::optional<double> slow_down_m;  ///< see WaypointPath; distance along the last segment
+  /// >= 0, see Polyline::corner_m. 0 for a law that does not use it.
+  double corner_m = 0.0;
+  std::optional<double> slow_down_m;  ///< see WaypointPath; the distance is along the last segment
 };
 
-/// A timed path: a point that moves along a curve. The commanded speed is that of the point if the
-/// scenario's speed_mps is 0, else speed_mps. The latter is allowed only without position feedback.
+/// A timed path: a point that moves along a curve. If the scenario's speed_mps is 0, the commanded
+/// speed is that of the point. Another speed_mps is allowed only without position feedback.
 struct LissajousPath {
   Lissajous<double> path{};
   bool closed_loop = false;          ///< with position feedback
   double position_gain_per_s = 0.5;  ///< k of closed_path(), > 0
-  double tolerance_m = 1.0;  ///< largest distance from the path's point in the second half of a run
-                             ///< that counts as completed
+  /// The run counts as completed if, in its second half, the vehicle stays within this distance of
+  /// the path's point, m.
+  double tolerance_m = 1.0;
 };
 
 using Guidance = std::variant<OpenLoop, HeadingSteps, WaypointPath, LinePath, LissajousPath>;
 
-/// The simulated plant: the model's 3-DOF equations, or its rigid body on four tyres.
+/// The simulated plant: kModel, the 3-DOF equations of the model; kFourWheel, its rigid body on
+/// four tyres.
 enum class PlantKind { kModel, kFourWheel };
 inline constexpr NameTable<PlantKind, 2> kPlantKindNames{
     {{"model", PlantKind::kModel}, {"four-wheel", PlantKind::kFourWheel}}};
 
-/// Method by which the guidance gets the position from the fixes of a GPS.
+/// How the guidance gets the position from the fixes of a GPS.
 enum class PositionMethod {
-  kFilter,  ///< the firmware's estimate (control/position_estimate.h)
+  kFilter,  ///< by the firmware's estimate (control/position_estimate.h)
   kNone,    ///< the last fix, unfiltered
 };
 inline constexpr NameTable<PositionMethod, 2> kPositionMethodNames{
     {{"filter", PositionMethod::kFilter}, {"none", PositionMethod::kNone}}};
 
-/// One run to simulate. If an optional field is absent, its feature is off, unless the comment of
-/// the field says otherwise.
+/// A scenario: one run to simulate. If an optional field is absent, its feature is off, unless the
+/// comment of the field says otherwise.
 struct Scenario {
   std::string name;
   double duration_s = 0.0;  ///< s, > 0
   State<double> initial{};  ///< the initial state
-  double speed_mps = 0.0;   ///< u_d, m/s, >= 0; 0 with a constant tau_speed
+  double speed_mps = 0.0;   ///< u_d, m/s, >= 0: commanded speed; 0 if tau_speed is constant
   Guidance guidance;
   std::vector<Obstacle<double>> obstacles = {};
-  std::optional<Avoidance<double>> avoidance = {};  ///< absent: obstacles are only measured
+  /// absent: the distance to obstacles is only recorded
+  std::optional<Avoidance<double>> avoidance = {};
   std::optional<HeadingShaping<double>> shaping = {};
   Disturbance disturbance = {};
   std::vector<WheelFault> faults = {};
@@ -117,15 +121,16 @@ struct Scenario {
   PositionMethod estimator = PositionMethod::kFilter;  ///< used only if there is a GPS
   std::optional<Actuators> actuators = {};  ///< absent: exact commands, motors without lag
   ControlOptions control = {};
-  std::vector<CornerParameter> corner = {};  ///< changes the plant, not the controller
-  /// Absent: the 3-DOF plant of the model; else four wheels on these tyres (model/tyres.h).
+  /// model parameters at an end of their interval, in the plant only
+  std::vector<CornerParameter> corner = {};
+  /// Tyres of the four-wheel plant (model/tyres.h). Absent: the plant is the 3-DOF model.
   std::optional<Tyres<double>> tyres = {};
   std::uint64_t seed = 0;  ///< seed of all random numbers in the scenario
 
-  /// The constant tau_speed that replaces a commanded speed (HeadingSteps::tau_speed). Absent if a
-  /// speed is commanded, and in open loop.
+  /// Returns the constant tau_speed that replaces the speed law (HeadingSteps::tau_speed). Absent
+  /// if there is none, and in open loop.
   std::optional<double> held_tau_speed() const;
-  /// True if anything in the scenario is random.
+  /// True if anything in the scenario is random, such as sensor noise.
   bool random() const;
 };
 
@@ -141,38 +146,40 @@ struct HeadingStepsOptions {
   std::string name = "heading steps";
 };
 
-/// The scenario of the paper's heading runs: from rest at heading 0, each of `headings_deg`
-/// (counter-clockwise positive; not empty) is commanded in turn. heading_steps({30, -30}) is C3.
-/// [paper 4.3]
+/// Returns the scenario of the paper's heading runs: the vehicle starts at rest at heading 0, and
+/// each of `headings_deg` (counter-clockwise positive; not empty) is commanded in turn. For
+/// example, heading_steps({30, -30}) is the paper's scenario C3.                         [paper
+/// 4.3]
 Scenario heading_steps(const std::vector<double>& headings_deg,
                        const HeadingStepsOptions& options = {});
 
-/// A key of the scenario file that is invalid together with the key `tyres`.
+/// A key of the scenario file that cannot be used together with the key `tyres`.
 struct TyreConflict {
   std::string key;
   std::string message;  ///< the reason and the remedy
 };
-/// The keys of the scenario that conflict with the key `tyres`. They are returned even if the
-/// scenario has no tyres, for callers that want to add tyres.
+/// Returns the keys of the scenario that conflict with the key `tyres`. The scenario need not have
+/// tyres: the function also tells whether tyres can be added.
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 
-/// Errors (input): the scenario has tyres and one of tyre_conflicts().
+/// Checks the keys of a scenario with tyres. Errors (input): there is one of tyre_conflicts().
 Status check_tyres(const Scenario& scenario);
 
-/// Checks that the scenario can run with this model. Errors (input): those of check_tyres() and
-/// check_observer_rate(); an LQI law that is unstable at the vehicle's sample time; a motor fault
-/// of wheels without motors.
+/// Checks that the scenario can be simulated with this model. Errors (input): those of
+/// check_tyres() and check_observer_rate(); an LQI law that is unstable at the vehicle's sample
+/// time; a motor fault of wheels without motors.
 Status check_scenario(const Scenario& scenario, const Model& model);
 
-/// Description of the simulated plant: "model", or "four-wheel, friction 0.8, ..." with the numbers
-/// of the tyres.
+/// Returns a description of the simulated plant: "model", or "four-wheel, friction 0.8, ..." with
+/// the parameters of the tyres.
 std::string plant_text(const Scenario& scenario);
 
-/// The model with each parameter of Scenario::corner set to the end of its 95 % interval.
-/// Errors (input): a parameter of the corner has no interval.
+/// Returns the model with each parameter of Scenario::corner set to the requested end of its 95 %
+/// interval. Errors (input): such a parameter has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// The plant of model_at_corner(), with the parameters that `motion` needs. Errors (input): those
-/// of model_at_corner(), check_scenario(), Model::plant() and check_work() (simulate.h).
+/// Returns the plant of the scenario: the plant of model_at_corner(), with the parameters that
+/// `motion` (planar or straight) needs. Errors (input): those of model_at_corner(),
+/// check_scenario(), Model::plant() and check_work() (simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 
@@ -184,10 +191,11 @@ inline constexpr NameTable<CombinedSplit, 2> kCombinedSplitNames{
 constexpr std::string_view name_of(YawMode mode) { return name_in(kYawModeNames, mode); }
 inline constexpr YawMode kYawModes[] = {YawMode::kDifferential, YawMode::kSteering,
                                         YawMode::kCombined};
-/// Modes of the vehicle, in the order of kYawModes; without steering, differential only.
+/// Returns the yaw modes that the vehicle can use, in the order of kYawModes. A vehicle without
+/// steering has differential mode only.
 std::span<const YawMode> yaw_modes(const Vehicle& vehicle);
-/// Checks that the vehicle has this mode. Errors (input): the mode needs steering, and the vehicle
-/// has none.
+/// Checks that the vehicle can use this yaw mode. Errors (input): the mode needs steering, and the
+/// vehicle has none.
 Status check_mode(const Vehicle& vehicle, YawMode mode);
 
 }  // namespace awmr

@@ -21,8 +21,8 @@ State<double> read_initial(JsonObject json) {
   return state;
 }
 
-/// Reads speed_mps, the commanded speed u_d. With constant thrust (`holds_thrust`), no speed is
-/// commanded: the key is then an error if it is present, and the result is 0.
+/// Reads speed_mps, the commanded speed u_d. If the guidance commands a constant thrust
+/// (`holds_thrust`), there is no commanded speed: the result is 0, and the key is an error.
 double read_speed(JsonObject& json, bool holds_thrust) {
   if (!json.has("speed_mps")) {
     if (!holds_thrust) json.fault(ErrorCode::kMissing, "speed_mps", "this key is missing; add it");
@@ -41,16 +41,17 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
   if (scenario.avoidance && scenario.obstacles.empty()) {
     json.fault(ErrorCode::kConflict, "avoidance",
-               "there are no obstacles to avoid; add obstacles, or remove this key");
+               "the scenario has no obstacles to avoid; add obstacles, or remove this key");
   }
   for (const char* key : {"avoidance", "shaping", "sensors", "control"}) {
     if (open && json.has(key)) {
-      json.fault(ErrorCode::kConflict, key, "has no effect in open loop; remove this key");
+      json.fault(ErrorCode::kConflict, key, "this key has no effect in open loop; remove it");
     }
   }
   if (json.has("estimator") && !(scenario.sensors && scenario.sensors->gps)) {
-    json.fault(ErrorCode::kConflict, "estimator",
-               "has no effect without the fixes of a GPS; add sensors/gps, or remove this key");
+    json.fault(
+        ErrorCode::kConflict, "estimator",
+        "this key has no effect without the fixes of a GPS; add sensors/gps, or remove this key");
   }
   if (scenario.tyres) {
     for (const TyreConflict& conflict : tyre_conflicts(scenario)) {
@@ -60,8 +61,8 @@ void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   const auto* timed = std::get_if<LissajousPath>(&scenario.guidance);
   if (timed && timed->closed_loop && scenario.speed_mps > 0.0) {
     json.fault(ErrorCode::kConflict, "speed_mps",
-               "must be 0 if closed_loop is true, because the path determines the speed; set it to "
-               "0, or closed_loop to false");
+               "the speed must be 0 if closed_loop is true, because the path determines the speed; "
+               "set speed_mps to 0, or closed_loop to false");
   }
 }
 

@@ -1,4 +1,4 @@
-/// Guidance of a scenario: computes the heading and speed references of the control laws from the
+/// Guidance of a scenario: computes the references of the control laws (heading and speed) from the
 /// measurements. Private to this folder.
 #pragma once
 
@@ -14,18 +14,20 @@
 
 namespace awmr {
 
-/// The commanded heading at `t_s`, rad, not wrapped: that of the last step that has begun.
+/// Returns the commanded heading at the time `t_s`, rad, not wrapped: that of the last heading step
+/// that has begun.
 double heading_at(const HeadingSteps& guidance, double t_s);
 
 /// Output of the guidance at one sample.
 struct GuidanceOutput {
   Reference<double> reference{};
   PathRow path;
-  bool finished = false;    ///< the end of the route is reached
-  bool no_passage = false;  ///< obstacles block every way to the target; the reference speed is 0
+  bool finished = false;  ///< the vehicle has reached the end of the route
+  /// Obstacles block every way to the target. The reference speed is then 0.
+  bool no_passage = false;
 };
 
-/// PathFollower that also stores the point of the path at the last step.
+/// PathFollower that also stores the current point of the path, which the row of the run needs.
 struct TimedPathFollower : PathFollower<double, double> {
   PathPoint<double> point{};
 };
@@ -41,14 +43,14 @@ class ScenarioGuidance {
   ScenarioGuidance(const ScenarioGuidance&) = delete;
   ScenarioGuidance(ScenarioGuidance&&) = default;
 
-  /// Computes the references at the time `t_s`. Call it once per sample, in order, and not in open
-  /// loop.
+  /// Computes the references at the time `t_s`. Call it once per sample, in order. Do not call it
+  /// in open loop, where there are no references.
   GuidanceOutput step(double t_s, const Sensed& sensed);
   /// Number of waypoints that have been missed so far, including those covered by an obstacle.
   int missed() const { return laws_.progress.missed; }
 
  private:
-  /// The parts of the guidance that a scenario can have (guidance/parts.h), with a clock in s that
+  /// The parts of the guidance that a scenario can use (guidance/parts.h). The clock is in s and
   /// does not wrap.
   struct Parts {
     using Line = AnyLineFollower<double>;
@@ -74,7 +76,7 @@ class ScenarioGuidance {
   double sample_time_s_;
   GuidanceLaws<double, Parts> laws_{};
   std::vector<Sector<double>> sectors_;  ///< work space of the avoidance
-  std::optional<int> leg_checked_;       ///< leg for which way_is_free() has checked the passage
+  std::optional<int> leg_checked_;       ///< leg for which way_is_free() has checked the way
   bool passage_ = true;                  ///< result of this check
 };
 

@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-// Ranges of the numbers in a scenario (listed in SCENARIOS.md). They are wider than any task needs,
-// and narrow enough that the simulation stays finite.
+// Permitted ranges of the numbers in a scenario (listed in SCENARIOS.md). They are wider than any
+// task needs, and narrow enough that the simulation stays finite.
 inline constexpr NumberRule kDuration_s{.min = 0.0, .max = 1e6, .min_excluded = true};
 inline constexpr NumberRule kTime_s{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kCoordinate_m{.min = -1e6, .max = 1e6};
@@ -18,12 +18,14 @@ inline constexpr NumberRule kSignedSpeed_mps{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kSpeed_mps{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kAngle_deg{.min = -1e12, .max = 1e12};
 inline constexpr NumberRule kYawRate_degps{.min = -1e5, .max = 1e5};
-/// Forces over F_max, and moments over F_max in m: a thousand times the largest force of one motor.
+/// Forces divided by F_max, and moments divided by F_max in m: up to a thousand times the largest
+/// force of one motor, which is F_max.
 inline constexpr NumberRule kForce{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kForceSize{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kRate{.min = 0.0, .max = 1e6, .min_excluded = true};
 inline constexpr NumberRule kSignedRate_radps{.min = -1e3, .max = 1e3};
-/// Noise and quantum of a sensor, and its bias, in the unit of the sensor.
+/// kSensorSize: noise and quantum of a sensor. kSensorBias: its bias. Both in the unit of the
+/// sensor.
 inline constexpr NumberRule kSensorSize{.min = 0.0, .max = 1e6};
 inline constexpr NumberRule kSensorBias{.min = -1e6, .max = 1e6};
 

@@ -8,12 +8,12 @@
 namespace awmr {
 namespace {
 
-/// Numbers of the sensors' random streams (RunSeed::random), separate from those of the
+/// Numbers of the random streams of the sensors (RunSeed::random()). They differ from those of the
 /// disturbances.
 enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 
-/// Tolerance for the rounding of times that are multiples of the sample time, in samples and in
-/// seconds.
+/// Times that are multiples of the sample time can have rounding errors. These are the tolerances,
+/// in samples and in seconds.
 constexpr double kTimeRounding = 1e-9;
 constexpr double kTimeRounding_s = 1e-9;
 
@@ -24,8 +24,8 @@ std::size_t whole_samples(double latency_s, double sample_time_s) {
 
 bool is_noisy(const Channel& channel) { return channel.noise > 0.0 || channel.noise < 0.0; }
 
-/// The reading of a sensor for the true value `truth`: with bias, noise and quantisation.
-/// `next_normal` is called only if the channel has noise.
+/// Returns the reading of a sensor for the true value `truth`: adds bias and noise, and rounds to
+/// the quantum. `next_normal` is called only if the sensor has noise.
 template <class Normal>
 double read(const Channel& channel, double truth, const Normal& next_normal) {
   double value = truth + channel.bias;
@@ -87,8 +87,9 @@ Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, co
              noise ? &noise->speed : nullptr),
       gps_(seed.random(kGps)),
       motion_(2 + std::max({heading_.latency, yaw_rate_.latency, speed_.latency})),
-      // A fix has the position of the last sample before the time at which it is taken, and arrives
-      // at the first sample after its latency.
+      // Number of past positions that are kept for the fixes. A fix has the position of the last
+      // sample before the time at which it is taken, and arrives at the first sample after its
+      // latency.
       kept_(4 + whole_samples(sensors && sensors->gps ? sensors->gps->latency_s : 0.0,
                               sample_time_s)) {}
 
@@ -114,10 +115,10 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
   return sensed;
 }
 
-/// Sets the measured position to the last fix that has arrived. Before the first fix arrives, this
-/// is the true initial position, as if a fix had been taken one GPS period before the start. A fix
-/// that is lost in a drop-out also uses up its random numbers, so that drop-outs do not change the
-/// noise of the other fixes.
+/// Sets the measured position to the last fix that has arrived. Before the first fix arrives, the
+/// measured position is the true initial position, as if a fix had been taken one GPS period before
+/// the start. Random numbers are also drawn for a fix that is lost in a drop-out. So drop-outs do
+/// not change the noise of the other fixes.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   if (k < kept_) true_m_.emplace_back();

@@ -60,14 +60,14 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
 
 namespace {
 
-/// The observer that the scenario gives, else that of the gains. Bandwidth 0: none. With an LQI,
-/// the observer of the gains is not used, because it was tuned for the sliding mode.
+/// Returns the disturbance observer of the scenario, or else that of the gains. Bandwidth 0: none.
+/// With an LQI, the observer of the gains is not used, because it was tuned for the sliding mode.
 ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>& gains) {
   ObserverGains<double> observer = scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
   if (const auto& own = scenario.control.observer) {
     observer = {own->bandwidth_radps, own->yaw_max_m, own->surge_max};
   }
-  // With a constant thrust, a surge observer has no effect.
+  // A constant thrust replaces the speed law, so a surge observer has no effect.
   if (scenario.held_tau_speed()) observer.surge_max = 0.0;
   return observer;
 }
@@ -156,8 +156,8 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
   if (!(rows <= kMaxRows)) {
     return input_error(
         ErrorCode::kTooLarge, fmt::format("scenario '{}':/duration_s", scenario.name),
-        fmt::format("{:g} s at a sample time of {:g} s give {:.3g} rows, but a run has at most "
-                    "{:g}; give a duration_s of at most {:g}",
+        fmt::format("a run of {:g} s at a sample time of {:g} s has {:.3g} rows, but at most {:g} "
+                    "are possible; give a duration_s of at most {:g}",
                     scenario.duration_s, sample_time_s, rows, kMaxRows,
                     (kMaxRows - 1.0) * sample_time_s));
   }
@@ -168,9 +168,9 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
     return input_error(
         ErrorCode::kTooLarge, model_file + ":" + std::string(parameter.pointer),
         fmt::format(
-            "the time constant of this parameter requires RK4 steps of {:.3g} s, so {:.3g} steps "
-            "for the {:g} s of scenario '{}'; a run has at most {:g} steps. Check {} and the mass "
-            "or inertia, or give a shorter duration_s",
+            "the time constant that follows from this parameter requires RK4 steps of {:.3g} s, "
+            "that is, {:.3g} steps for the {:g} s of scenario '{}'; a run has at most {:g} steps. "
+            "Check {} and the mass or inertia, or give a shorter duration_s",
             limit.step_s, steps, scenario.duration_s, scenario.name, kMaxSteps, parameter.name));
   }
   return {};

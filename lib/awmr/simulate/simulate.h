@@ -1,5 +1,5 @@
-/// Simulation of one run in closed loop. Over each sample, the command of the controller is
-/// constant, and the plant is integrated by RK4 steps.
+/// Simulation of one run in closed loop. The commands of the controller are constant over each
+/// sample. RK4 steps integrate the plant over the sample.
 #pragma once
 
 #include <cstdint>
@@ -19,123 +19,137 @@ namespace awmr {
 
 struct DrawnNoise;
 
-/// Guidance columns of a row of run.csv, in addition to the vehicle's state; unused in open loop.
+/// Guidance columns of a row of run.csv, next to those of the vehicle's state. Not used in open
+/// loop.
 struct PathRow {
-  double psi_goal_rad = 0.0;    ///< heading of the guidance, before avoidance and shaping
-  double cross_track_m = 0.0;   ///< distance from the current leg, line or path, left positive
-  Position<double> target_m{};  ///< target point: waypoint, end of the segment, point of the path
-  int leg = 0;                  ///< index of the waypoint or segment, from 0
+  double psi_goal_rad = 0.0;   ///< desired heading of the guidance, before avoidance and shaping
+  double cross_track_m = 0.0;  ///< distance from the current leg, line or path, left positive
+  /// target point: waypoint, end of the segment, or point of the timed path
+  Position<double> target_m{};
+  int leg = 0;  ///< index of the current waypoint or segment, from 0
 };
 
-/// One row of a run: the state at the time t, and the command computed at t, which is constant
-/// until the next row.
+/// One row of a run: the state at the time t, and the command computed at t. The command is
+/// constant until the next row.
 struct RunRow {
   double t_s = 0.0;
   State<double> state{};
-  SideForces<double> force{};         ///< command of each motor of a side, over F_max
+  SideForces<double> force{};         ///< command of each motor, left and right, divided by F_max
   double steering_command_rad = 0.0;  ///< d_ro: commanded steering angle, rad, left positive
-  double tau_speed = 0.0;             ///< output of the speed law minus the estimated disturbance,
-                                      ///< before any limit, dimensionless
-  double tau_turn_m = 0.0;            ///< like tau_speed, of the heading law: yaw moment, m
-  double psi_ref_rad = 0.0;           ///< psi_d: heading reference of the law; 0 in open loop
-  double u_ref_mps = 0.0;             ///< u_d: speed reference of the law; 0 in open loop
+  /// Requested surge force, dimensionless, before any limit: output of the speed law minus the
+  /// estimated disturbance.
+  double tau_speed = 0.0;
+  /// Requested yaw moment divided by F_max, m, before any limit: output of the heading law minus
+  /// the estimated disturbance.
+  double tau_turn_m = 0.0;
+  double psi_ref_rad = 0.0;  ///< psi_d: desired heading, input of the law; 0 in open loop
+  double u_ref_mps = 0.0;    ///< u_d: desired speed, input of the law; 0 in open loop
   PathRow path = {};
-  Measurement<double> measured = {};          ///< measurements of the controller
+  Measurement<double> measured = {};          ///< measurements that the controller gets
   Position<double> measured_position_m = {};  ///< position that the guidance uses
-  BodyLoad disturbance = {};                  ///< external forces, without those of a slope
-  /// Distance from the vehicle's circle (a point without avoidance) to the nearest obstacle, m; < 0
-  /// if they overlap; 0 without obstacles.
+  /// external forces; the force of a slope is not included
+  BodyLoad disturbance = {};
+  /// Distance from the vehicle to the nearest obstacle, m. With avoidance, the vehicle is a circle,
+  /// else a point. < 0 if they overlap; 0 without obstacles.
   double clearance_m = 0.0;
-  /// Power dissipated by the lateral tyre forces, over F_max, m/s. In the 3-DOF model, it is the
-  /// power dissipated by tyre scrub; that of the yaw resistance g3 is not included.
+  /// Power divided by F_max, m/s, that the lateral tyre forces dissipate. In the 3-DOF model, it is
+  /// the power dissipated by tyre scrub; that of the yaw resistance g3 is not included.
   double tyre_power_mps = 0.0;
-  /// Mean wheel forces over the sample that ends at this row, over F_max, after motor lag, battery,
-  /// faults and slippery ground; dead zone and back-EMF are not subtracted. 0 in the first row.
+  /// Mean wheel forces divided by F_max, over the sample that ends at this row. They include motor
+  /// lag, battery, faults and slippery ground. Dead zone and back-EMF are not subtracted. 0 in the
+  /// first row.
   WheelForces<double> acting = {0.0, 0.0, 0.0, 0.0};
 };
 
 /// End of a run.
 enum class RunEnd {
   kDuration,   ///< the scenario's duration is over
-  kFinished,   ///< the last waypoint or the end of the line was reached
-  kNoPassage,  ///< obstacles block the way to the guidance target: the vehicle stopped
-  /// Failed early, without a valid result (see failure_of): a number was not finite, no step was
-  /// short enough for the motion, or the run exceeds kMaxRows or kMaxSteps.
+  kFinished,   ///< the vehicle reached the last waypoint or the end of the line
+  kNoPassage,  ///< obstacles leave no way to the target, and the vehicle has stopped
+  /// The run failed and has no valid result (see failure_of()): a number was not finite, no
+  /// integration step was short enough for the motion, or the run exceeds kMaxRows or kMaxSteps.
   kFailed,
 };
 
 /// One simulated run.
 struct Run {
-  std::vector<RunRow> rows;  ///< at the times 0, T_s, 2 T_s, ... including the end of the run
+  std::vector<RunRow> rows;  ///< one row at each time 0, T_s, 2 T_s, ... up to the end
   int substeps = 0;          ///< RK4 steps per sample
   RunEnd end = RunEnd::kDuration;
-  int missed_waypoints = 0;  ///< including those covered by an obstacle
-  int position_resets = 0;   ///< resets of the position estimate after rejected fixes, up to 255
+  /// number of missed waypoints, including those that an obstacle covers
+  int missed_waypoints = 0;
+  /// Resets of the position estimate after rejected fixes; counted up to 255.
+  int position_resets = 0;
 };
 
 /// Options of a run.
 struct SimulateOptions {
   /// T_s, s, > 0: time between two commands of the controller.
   double sample_time_s = 0.01;
-  /// RK4 steps per sample, > 0, to study the integration error. Absent: substeps_for().
+  /// RK4 steps per sample, > 0, for studies of the integration error. Absent: as substeps_for()
+  /// computes.
   std::optional<int> substeps;
-  /// Seed of all random numbers, together with the scenario's own seed.
+  /// Seed of the simulation. The random numbers depend on it and on the scenario's own seed.
   std::uint64_t seed = 0;
-  /// Number of the draw (0, 1, 2, ...) for several runs with one seed.
+  /// Number of the Monte-Carlo draw (0, 1, 2, ...). Runs with the same seed and different numbers
+  /// have different random numbers.
   std::uint64_t sample = 0;
   /// As BatchRun::noise.
   const DrawnNoise* noise = nullptr;
 };
 
-/// Limits of a run: rows that take half a gigabyte, and RK4 steps that take about a minute.
+/// Limits of a run. kMaxRows rows take half a gigabyte; kMaxSteps RK4 steps take about a minute.
 inline constexpr double kMaxRows = 2e6;
 inline constexpr double kMaxSteps = 1e8;
 inline constexpr int kMaxSubsteps = 100'000'000;
 
-/// Number of RK4 steps per sample, in [1, kMaxSubsteps]. They resolve those time constants of the
-/// plant that do not depend on speed (step_limit() in physics.h).
+/// Returns the number of RK4 steps per sample, in [1, kMaxSubsteps]. It is large enough for the
+/// plant's time constants that do not depend on speed (step_limit() in physics.h).
 int substeps_for(const Plant<double>& plant, double sample_time_s);
-/// substeps_for() in a scenario: its tyres, if any, replace the plant's sway and yaw resistance.
+/// Same as above, for a scenario: if it has tyres, they replace the plant's sway and yaw
+/// resistance.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// A controller with the parameters of this plant, whose resistances it feeds forward, with these
-/// gains and the limits of the vehicle. Its friction width in yaw is that of the steering mode;
-/// each run sets that of its own mode.
+/// Makes a controller with these gains. Its model is this plant, whose resistances it feeds
+/// forward, and its limits are those of the vehicle. Its friction width in yaw is that of steering
+/// mode; each run sets the friction width of its own mode.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
-/// A controller with the estimates of the model, whatever corner a scenario has. If the model only
-/// has parameters for straight motion, the same holds for the controller. Errors (input): those of
-/// Model::plant() and check_observer_rate().
+/// Makes a controller from the estimates of the model. A scenario's corner does not change it. If
+/// the model only has parameters for straight motion, the controller is only for straight motion,
+/// too. Errors (input): those of Model::plant() and check_observer_rate().
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
-/// Simulates the model with the controller of controller_for(), at the vehicle's sample time. The
-/// scenario's corner changes the plant, but not the controller. A model without turning parameters
-/// (Model::simulated_motion) can only drive straight. Errors (input): those of plant_for(),
-/// Model::plant(), check_mode(), failure_of() and check_straight() (straight.h).
+/// Simulates the model with the controller of controller_for(), at the vehicle's sample time. A
+/// corner of the scenario (parameters at an end of their interval) changes the plant, but not the
+/// controller. A model without turning parameters (Model::simulated_motion()) can only drive
+/// straight. Errors (input): those of plant_for(), Model::plant(), check_mode(), failure_of() and
+/// check_straight() (straight.h).
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 
 /// Checks the length of a run before it is simulated. Errors (input): the run would have more than
 /// kMaxRows rows, or more than kMaxSteps RK4 steps. The message names duration_s, or the parameter
-/// whose time constant requires so many steps. `model_file`: name for the message.
+/// whose time constant requires so many steps. `model_file` is the file that the message names.
 Status check_work(const Plant<double>& plant, const std::string& model_file,
                   const Scenario& scenario, double sample_time_s);
 
-/// Errors (input): the run ended as kFailed; the message has the time and the speeds of the last
-/// row.
+/// Returns the error of a failed run, else success. Errors (input): the run ended as kFailed. The
+/// message has the time and the speeds of the last row.
 Status failure_of(const Run& run, const Scenario& scenario);
 
-/// Simulates the given plant and controller. The result has at least one row. Its end is
+/// Simulates a run with the given plant and controller. The result has at least one row. Its end is
 /// RunEnd::kFailed if the run could not continue, or is too long for check_work(). The scenario's
 /// corner is not applied; plant_for() gives the plant at the corner.
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 
-/// Content of run.csv: the columns of every run, then those that this scenario adds.
+/// Returns the content of run.csv: first the columns that every run has, then those that this
+/// scenario adds.
 std::string run_csv(const Run& run, const Scenario& scenario);
-/// The values of a row with the names of their columns in run.csv.
+/// Returns the values of a row, each with the name of its column in run.csv.
 std::vector<std::pair<std::string_view, double>> named_values(const RunRow& row,
                                                               const Scenario& scenario);
 

@@ -10,9 +10,9 @@
 namespace awmr {
 namespace {
 
-/// True if nothing in this row turns the vehicle or moves it sideways, apart from rounding errors
-/// such as those of sin(pi) or atan2. The unknown resistances in yaw and sway are simulated as 0,
-/// so rounding errors have a larger effect than with the real resistances.
+/// True if nothing in this row turns the vehicle or moves it sideways. Rounding errors, such as
+/// those of sin(pi) or atan2, are tolerated. They have a larger effect than usual, because the
+/// unknown resistances in yaw and sway are simulated as 0.
 bool is_straight(const RunRow& row) {
   constexpr double kRounding = 1e-9;  // m/s, rad/s, rad, m
   const double turning[] = {row.state.v_mps,        row.state.r_radps,

@@ -62,8 +62,9 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
                                   scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
 }
 
-/// Magnitude of the yaw rate, deg/s, after 10 s in open loop with half of the largest thrust and
-/// the yaw moment tau_turn_m. The vehicle is the 3-DOF model, or is on `tyres` if they are given.
+/// Simulates a turn of 10 s in open loop, with half of the largest thrust and the yaw moment
+/// tau_turn_m, and returns the magnitude of the final yaw rate, deg/s. The vehicle is the 3-DOF
+/// model, or, if `tyres` is given, the same vehicle on these tyres.
 double turned_degps(const Model& model, double tau_turn_m,
                     const std::optional<Tyres<double>>& tyres) {
   Scenario turn;
@@ -116,7 +117,8 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
       model.file, 0, Severity::kWarning, "tyres-differ",
       fmt::format("{}: with the yaw moment that turns the model at {:.3g} deg/s, the highest "
                   "measured rate, the same vehicle on the scenario's tyres turns at {:.3g} deg/s. "
-                  "The tyres do not match the vehicle; fit them to logs with awmr validate --tyres",
+                  "So the tyres of the scenario do not match the vehicle; fit them to logs with "
+                  "awmr validate --tyres",
                   scenario.name, plain_degps, on_tyres_degps)};
 }
 
@@ -135,7 +137,7 @@ void limit_heading_rate(double limit_degps, Scenario& scenario) {
     scenario.shaping->rate_max_radps = std::min(scenario.shaping->rate_max_radps, limit_radps);
     return;
   }
-  // With this acceleration limit, the filter reaches the rate limit within its time constant.
+  // With this acceleration limit, the filter reaches its rate limit within its time constant.
   scenario.shaping =
       HeadingShaping<double>{.omega_radps = kShapingBandwidth_radps,
                              .rate_max_radps = limit_radps,
@@ -146,9 +148,9 @@ std::string fault_of_rate(const HeadingRateChoice& choice) {
   if (choice == kMeasuredRate || choice == kNoRate) return {};
   const auto rate_degps = number_from_text(choice);
   if (rate_degps && kHeadingRateLimits_degps.contains(*rate_degps)) return {};
-  return fmt::format("must be {}, {}, or deg/s from {:g} to {:g}, found {}", kMeasuredRate, kNoRate,
-                     kHeadingRateLimits_degps.lo, kHeadingRateLimits_degps.hi,
-                     choice.empty() ? "nothing" : choice);
+  return fmt::format("must be {}, {}, or a number in deg/s from {:g} to {:g}, found {}",
+                     kMeasuredRate, kNoRate, kHeadingRateLimits_degps.lo,
+                     kHeadingRateLimits_degps.hi, choice.empty() ? "nothing" : choice);
 }
 
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model) {

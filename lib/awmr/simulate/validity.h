@@ -1,6 +1,6 @@
 /// Warnings about a simulation: turns faster than the measured ones, requests that the vehicle
-/// cannot meet, parameters without an interval. Also the limit of the rate of heading commands,
-/// which keeps turns within the measured range.
+/// cannot meet, parameters without an interval. Also limits the rate of heading commands, which
+/// keeps turns within the measured range of yaw rates.
 #pragma once
 
 #include <algorithm>
@@ -16,59 +16,60 @@
 
 namespace awmr {
 
-/// Warning `tyres-differ`: the yaw rates of the model and of the vehicle on the scenario's tyres
-/// differ by more than a factor of 1.5. Both turn with the yaw moment that makes the model turn at
-/// the highest measured yaw rate. Absent without tyres or without a measured yaw rate.
+/// Warning `tyres-differ`: the 3-DOF model and the vehicle on the scenario's tyres turn at yaw
+/// rates that differ by more than a factor of 1.5. Both are simulated with the yaw moment for the
+/// highest measured yaw rate. Absent without tyres or without a measured yaw rate.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
 /// Warning `no-interval`: some fitted parameters have neither standard error nor 95 % interval, so
-/// plants drawn from the model do not vary them. Absent if there are none.
+/// the plants drawn from the model do not vary them. Absent if there are no such parameters.
 std::optional<Finding> missing_intervals(const Model& model);
 
 /// Warnings about requests that cannot be met: a heading step after the end of the scenario
-/// (`late-step`), a waypoint within an obstacle (`blocked-waypoint`), a speed that needs more force
+/// (`late-step`); a waypoint within an obstacle (`blocked-waypoint`); a speed that needs more force
 /// than the motors make (`unreachable-speed`).
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
-/// Warning `unsigned-speed-runs-away`: with a speed sensor without a sign, such as a GPS, the speed
-/// law would accelerate a vehicle that rolls backward (runs_away_unsigned()) at a speed that the
-/// vehicle can reach. The finding names the highest such speed. `file`: name of the file of the
-/// gains. Absent if there is no such speed.
+/// Warning `unsigned-speed-runs-away`, for a speed sensor without a sign, such as a GPS: the speed
+/// law would accelerate a vehicle that rolls backward (runs_away_unsigned()). The message has the
+/// highest speed at which this happens. Absent if it happens at no speed that the vehicle can
+/// reach. `file`: the file of the gains.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
                                               const Gains<double>& gains, const std::string& file);
 
 /// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth
 /// kShapingBandwidth_radps (control/guidance/heading_shaping.h). If the scenario already has a
-/// filter, that filter keeps its bandwidth, and the smaller of its rate limit and `limit_degps` is
-/// used. No effect in open loop.
+/// filter, its bandwidth is kept, and its rate limit is reduced to `limit_degps` if it is larger.
+/// No effect in open loop.
 void limit_heading_rate(double limit_degps, Scenario& scenario);
 inline constexpr double kShapingBandwidth_radps = 4.0;
 
-/// Value of the option --heading-rate-limit: a number from 0.1 to 3600 in deg/s, "measured" (the
-/// highest measured yaw rate, measured_yaw_rate_degps()) or "none". Empty: the option is not given.
+/// Value of the option --heading-rate-limit. "measured": the highest measured yaw rate of the model
+/// (measured_yaw_rate_degps()); "none": no limit; otherwise a number from 0.1 to 3600 in deg/s.
+/// Empty: the option is not given.
 using HeadingRateChoice = std::string;
 inline constexpr Interval kHeadingRateLimits_degps{0.1, 3600.0};
 inline constexpr const char* kMeasuredRate = "measured";
 inline constexpr const char* kNoRate = "none";
-/// Key of the heading rate limit among the options that an output file records.
+/// Key of the heading rate limit in the options that an output file records.
 inline constexpr const char* kRateName = "heading_rate_limit";
 
-/// The message for an invalid choice; empty if the choice is valid.
+/// Returns a message that describes why a choice is invalid; empty if it is valid.
 std::string fault_of_rate(const HeadingRateChoice& choice);
 
-/// The heading rate limit that a comparison uses: the value of the option, `choice`, if it is
-/// given. Default: "measured" if the model has a highest measured yaw rate, because the yaw
-/// resistance is extrapolated in faster turns; else "none".
+/// Returns the heading rate limit for a comparison: `choice`, the value of the option, if it is
+/// given. Else the result is "measured" if the model has a highest measured yaw rate, because the
+/// yaw resistance is extrapolated in faster turns, and otherwise "none".
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model);
 
-/// Applies the limit to every scenario; no effect if the choice is empty or "none". Errors (input):
-/// the choice is invalid (fault_of_rate()), or is "measured" although the model has no highest
-/// measured yaw rate.
+/// Limits the rate of heading commands in every scenario. No effect if the choice is empty or
+/// "none". Errors (input): the choice is invalid (fault_of_rate()); or it is "measured", and the
+/// model has no highest measured yaw rate.
 Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
                           std::span<Scenario> scenarios);
 
-/// Warning `heading-rate-not-limited`: --heading-rate-limit is not given (`choice` is empty), and
-/// the model has no highest measured yaw rate to limit heading commands to. Else absent.
+/// Warning `heading-rate-not-limited`: the option --heading-rate-limit is not given (`choice` is
+/// empty), and the model has no highest measured yaw rate that could be the limit. Else absent.
 std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
                                                 const Model& model);
 

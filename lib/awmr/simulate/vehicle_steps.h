@@ -1,6 +1,6 @@
-/// The steps of a sample that compute the vehicles of runs that are simulated together: from the
-/// commands through motors and battery to the motion. They work on rows (row_view.h). Private to
-/// this folder.
+/// The part of a sample that computes the vehicles: motors and battery convert the commands to
+/// forces, and the forces move the vehicles. The functions work on rows (row_view.h), that is, on
+/// all runs that are simulated together. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/motion.h"
@@ -13,33 +13,35 @@ struct VehicleSetup {
   MotorLag lag;
   bool has_battery = false;
   double battery_sag = 0.0;  ///< Battery::sag
-  bool is_by_wheel = false;  ///< front and rear wheel of a side can have different forces
+  bool is_by_wheel = false;  ///< true: front and rear wheel of a side can have different forces
   bool is_on_tyres = false;
   Tyres<double> tyres;            ///< valid if is_on_tyres
   bool has_back_emf = false;      ///< any vehicle has back-EMF
   bool has_scrub = false;         ///< any vehicle has scrub
-  bool is_front_driven = false;   ///< any vehicle has front-wheel drive
-  ExternalForces<double> push{};  ///< flags and slope; each vehicle has its own `load`
+  bool is_front_driven = false;   ///< true: at least one vehicle has front-wheel drive
+  ExternalForces<double> push{};  ///< flags and slope; the disturbance `load` differs by vehicle
 };
 
 /// All numbers of the vehicles that are simulated together, one vehicle per run.
 template <class Row>
 struct Vehicles {
   VehicleSetup setup;
-  double battery_share = 1.0;  ///< battery_share() at the current sample
+  double battery_share = 1.0;  ///< result of battery_share() for the current sample
 
-  Row active;  ///< 1; 0 if the run has ended or failed, or for an unused lane
+  /// 1 for a run that continues; 0 if it has ended or failed, or for a lane without a run
+  Row active;
 
   // Constant over a run.
-  Plant<Row> plant;  ///< result of resolved_at_rest(): resistances near rest are straight lines
+  Plant<Row> plant;  ///< result of resolved_at_rest(): near rest, resistances are straight lines
   Row step_s;        ///< h: integration step, s
   Row substeps;      ///< RK4 steps per sample
-  Row force_most;    ///< largest motor command over F_max, including the dead zone
+  Row force_most;    ///< largest motor command divided by F_max, including the dead zone
 
   // State of a run.
   State<Row> state;
-  SideForces<Row> motors;  ///< lagging motor forces F at the start of the sample (MotorLag)
-  Row halves;              ///< number of RK4 steps that were halved so far (Resolution::halves)
+  SideForces<Row> motors;  ///< motor forces F at the start of the sample, after lag (MotorLag)
+  /// number of RK4 steps that had to be halved so far (Resolution::halves)
+  Row halves;
 
   // Values of the current sample: the commands, the applied forces by side (`arriving`) or by wheel
   // (`wheels`), and the forces and moment of the disturbances (`load`).
@@ -51,22 +53,24 @@ struct Vehicles {
   Row tyre_power_mps;  ///< RunRow::tyre_power_mps
 };
 
-/// Steps of a sample for one type of row. The motion of an inactive run (Vehicles::active is 0)
-/// does not change.
+/// The functions that compute the vehicles of a sample, for one type of row. They do not change the
+/// motion of an inactive run (Vehicles::active is 0).
 template <class Row>
 struct VehicleSteps {
-  /// Computes `tyre_power_mps` from state and motor commands, if the vehicle has tyres or scrub.
+  /// Computes `tyre_power_mps` from state and motor commands. No-op if the vehicles have neither
+  /// tyres nor scrub.
   void (*dissipate)(Vehicles<Row>& v);
-  /// Computes the motor forces `arriving` from the commands, through motors and battery.
+  /// Computes the motor forces `arriving` from the commands, with the effects of motor lag and
+  /// battery.
   void (*actuate)(Vehicles<Row>& v);
-  /// Integrates the states. If no step is short enough or a number is not finite, the vehicle's
-  /// state is unchanged and its run becomes inactive.
+  /// Integrates the motion over the sample. If no integration step is short enough for a vehicle,
+  /// or a number is not finite, its state is unchanged and its run becomes inactive.
   void (*move)(Vehicles<Row>& v);
 };
 
 namespace steps {
 
-/// The body whose motion is integrated: the 3-DOF plant, or the same vehicle on tyres.
+/// Returns the body whose motion is integrated: the 3-DOF plant, or the same vehicle on tyres.
 template <bool kIsOnTyres, class View, class Row>
 decltype(auto) body_of(const View& view, const Vehicles<Row>& v) {
   using T = typename View::Number;
@@ -79,7 +83,7 @@ decltype(auto) body_of(const View& view, const Vehicles<Row>& v) {
   }
 }
 
-/// The applied wheel forces that RunRow::acting reports.
+/// Returns the wheel forces that RunRow::acting reports.
 template <class View, class Row>
 WheelForces<typename View::Number> acting_forces(const View& view, const Vehicles<Row>& v) {
   if (v.setup.is_by_wheel) return view(v.wheels);
@@ -128,7 +132,8 @@ AWMR_WHOLE void actuate(const View& view, Vehicles<Row>& v) {
   view.store(force, v.arriving);
 }
 
-/// The stepper of the simulation. tests/bench compares it with another one.
+/// The integrator of the simulation: one Runge-Kutta step of order 4. tests/bench replaces it by
+/// another integrator, for comparison.
 struct RungeKutta4 {
   template <class T, class Rates>
   State<T> operator()(const State<T>& from, const T& h, const Rates& rates) const {
@@ -136,8 +141,8 @@ struct RungeKutta4 {
   }
 };
 
-/// Integrates the active vehicles over a sample. `rates(body, state, steering command)` returns the
-/// time derivatives of the state with constant forces.
+/// Integrates the active vehicles over a sample, with constant forces. `rates(body, state, steering
+/// command)` returns the time derivatives of the state.
 template <bool kIsOnTyres, class View, class Row, class Rates, class Stepper>
 AWMR_WHOLE void move_by(const View& view, Vehicles<Row>& v, const Rates& rates,
                         const Stepper& stepper) {
@@ -185,10 +190,9 @@ void move_alone(const View& view, Vehicles<Row>& v, const SideForces<typename Vi
       stepper);
 }
 
-/// Integrates the vehicles. There are several functions that compute the state's derivatives. Of
-/// those that have all terms that these vehicles need, this uses the one with the fewest terms. The
-/// choice is made here, because a branch inside the function would stall the processor in every
-/// step.
+/// Integrates the vehicles. Several functions compute the time derivatives of the state, with more
+/// or fewer terms. This uses the one with the fewest terms that suffices for these vehicles. The
+/// choice is made here, because a branch in the function would slow down every integration step.
 template <class View, class Row, class Stepper = RungeKutta4>
 void move(const View& view, Vehicles<Row>& v, const Stepper& stepper = {}) {
   using T = typename View::Number;

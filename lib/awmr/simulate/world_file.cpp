@@ -1,5 +1,5 @@
-// Reads these parts of scenario.json: disturbance, faults, slippery, battery, sensors, estimator,
-// actuators, control, corner, tyres.
+// Reads the disturbance, faults, slippery, battery, sensors, estimator, actuators, control, corner
+// and tyres of scenario.json.
 
 #include <fmt/format.h>
 
@@ -17,10 +17,11 @@ namespace {
 constexpr NumberRule kShare{.min = 0.0, .max = 1.0};
 constexpr NumberRule kSag{.min = 0.0, .max = 10.0};
 
-/// Message for an end that is not after its start.
+/// Message about a window of time whose end is not after its start.
 std::string not_after(double from_s, double to_s) {
-  return fmt::format("the end, {:g} s, is not after from_s, {:g} s; exchange or correct them", to_s,
-                     from_s);
+  return fmt::format(
+      "the end, to_s = {:g} s, is not after from_s = {:g} s; exchange or correct them", to_s,
+      from_s);
 }
 
 Window read_window(JsonObject& json) {
@@ -33,7 +34,8 @@ Window read_window(JsonObject& json) {
   return window;
 }
 
-/// Types of disturbance terms in the file. A step is read as a constant that begins at t_s.
+/// Types of disturbance terms in a scenario file. The type `step` is read as a constant that begins
+/// at t_s.
 enum class TermType { kConstant, kStep, kSine, kNoise };
 constexpr NameTable<TermType, 4> kTermTypes{{{"constant", TermType::kConstant},
                                              {"step", TermType::kStep},
@@ -126,7 +128,8 @@ Battery read_battery(JsonObject json) {
   return battery;
 }
 
-/// Reads a sensor. `unit`: factor from the unit of the file to that of the program.
+/// Reads the errors of a sensor. `unit` is the factor from the unit of the file to that of the
+/// program.
 Channel read_channel(JsonObject json, double unit) {
   Channel channel{
       .noise = unit * json.optional_number("noise", kSensorSize).value_or(0.0),
@@ -169,9 +172,9 @@ Sensors read_sensors(JsonObject json) {
   return sensors;
 }
 
-/// Reads the actuators. The width of the servo's pulse changes by `us_per_deg` microseconds per
-/// degree of steering and has the resolution `step_us`, microseconds: 0.5 for an ATmega's timer at
-/// 2 MHz.
+/// Reads the actuators. `us_per_deg`: change of the servo's pulse width per degree of steering,
+/// microseconds. `step_us`: resolution of the pulse width, microseconds; for example 0.5 for a
+/// timer of an ATmega at 2 MHz.
 Actuators read_actuators(JsonObject json) {
   Actuators actuators;
   if (auto servo = json.optional_object("servo")) {
@@ -193,14 +196,14 @@ enum class HeadingLaw { kSlidingMode, kLqi };
 constexpr NameTable<HeadingLaw, 2> kHeadingLaws{
     {{"sliding_mode", HeadingLaw::kSlidingMode}, {"lqi", HeadingLaw::kLqi}}};
 
-// Ranges of the LQI weights. Their upper ends exceed the range of any sensor. For all weights
-// within the ranges, the gains are finite.
+// Permitted ranges of the LQI weights. The upper ends exceed the range of any sensor. For all
+// weights within the ranges, the gains are finite.
 constexpr NumberRule kLqiHeading_deg{.min = 1e-3, .max = 180.0};
 constexpr NumberRule kLqiYawRate_degps{.min = 1e-3, .max = 1e5};
 constexpr NumberRule kLqiIntegral_deg_s{.min = 1e-3, .max = 1e6};
 constexpr NumberRule kLqiMoment_m{.min = 1e-6, .max = 1e3};
 
-/// Reads the heading law: the weights of the LQI, or empty for the sliding mode.
+/// Reads the heading law. The result has the weights of the LQI, and is empty for the sliding mode.
 std::optional<LqiWeights<double>> read_heading_law(JsonObject json) {
   std::optional<LqiWeights<double>> lqi;
   if (json.choice("type", kHeadingLaws) == HeadingLaw::kLqi) {

@@ -1,5 +1,5 @@
-/// Headings and speeds that circular obstacles block: the geometry of the obstacle avoidance, with
-/// the symbols of obstacles.h. Freestanding C++14.
+/// Geometry of the obstacle avoidance: the headings that circular obstacles block, and the speed
+/// that they permit. The symbols are those of obstacles.h. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/guidance/position.h"
@@ -17,28 +17,31 @@ struct Obstacle {
 /// Parameters of the avoidance, with the symbols of obstacles.h.
 template <class T>
 struct Avoidance {
-  /// mmd_base, m, > 0: minimum manoeuvring distance MMD at speed 0; at least the vehicle's turning
+  /// mmd_base, m, > 0: minimum manoeuvring distance MMD at speed 0. MMD is the distance from an
+  /// obstacle at which the avoidance begins. mmd_base must be at least the vehicle's turning
   /// radius.
   T mmd_base_m;
-  /// mmd_per_speed, s, >= 0: growth of MMD with the speed; about the delay before a turn takes
-  /// effect (servo, yaw inertia).
+  /// mmd_per_speed, s, >= 0: MMD grows by this per m/s of speed. A suitable value is the delay
+  /// before a turn takes effect (servo, yaw inertia).
   T mmd_per_speed_s;
-  /// sigma, rad, in [0, pi/2): extra angle beyond the tangent at D_obs = 0. Larger: the vehicle
-  /// passes the obstacle at a larger distance.
+  /// sigma, rad, in [0, pi/2): angle by which the blocked sector exceeds the tangent to the
+  /// obstacle, at the obstacle's edge. With a larger angle, the vehicle passes at a larger
+  /// distance.
   T sigma_rad;
   /// vehicle_radius, m, >= 0: radius of the circle around the centre of gravity that encloses the
   /// vehicle.
   T vehicle_radius_m;
   /// clearance, m, > 0: free distance between that circle and the obstacle.
   T clearance_m;
-  /// m, >= 0: once the heading is turned away from obstacles, an obstacle counts until its D_obs
-  /// exceeds MMD by this value. So the avoidance does not switch on and off at D_obs = MMD.
+  /// Hysteresis of the distance, m, >= 0. While obstacles are avoided, an obstacle is considered
+  /// until its distance D_obs exceeds MMD by this value. This prevents switching on and off at
+  /// D_obs = MMD.
   T hysteresis_m;
-  /// rad, >= 0: the side on which the vehicle passes changes only if the turn to the other side is
-  /// smaller by more than this.
+  /// Hysteresis of the side, rad, >= 0. The side on which the vehicle passes changes only if the
+  /// turn to the other side is smaller by more than this.
   T side_hysteresis_rad;
-  /// brake, m, > 0: free distance ahead below which the speed is reduced. At least the stopping
-  /// distance.
+  /// brake, m, > 0: if the free distance ahead is smaller than this, the speed is reduced. It must
+  /// be at least the stopping distance.
   T brake_m;
 };
 
@@ -47,7 +50,7 @@ template <class T>
 struct Sector {
   T bearing_rad;  ///< bearing of the obstacle's centre, in the world frame
   T half_rad;     ///< alpha_i, rad: half angle of the sector
-  bool counts;    ///< false: the obstacle is too far, or beyond the target
+  bool counts;    ///< false: the obstacle is too far away, or beyond the target, and blocks nothing
 };
 
 namespace detail {
@@ -60,8 +63,9 @@ AWMR_CALLED T bearing_rad(const Position<T>& from, const Position<T>& point,
   return direction_rad(seen_from(from, point), otherwise_rad);
 }
 
-/// A heading inside a sector but within this angle of its edge, rad, counts as outside. The angle
-/// is larger than the rounding error of a heading in float.
+/// A heading that is inside a blocked sector by less than this angle, rad, counts as outside. The
+/// angle exceeds the rounding error of a heading in float: without it, a heading on the edge could
+/// count as blocked.
 template <class T>
 constexpr T sector_tolerance_rad() {
   return T(1e-4);
@@ -85,8 +89,10 @@ struct Surroundings {
   Position<T> position_m;  ///< p: position of the vehicle
   T psi_rad;               ///< the vehicle's heading
   T mmd_m;                 ///< MMD(u): minimum manoeuvring distance
-  T reach_m;               ///< largest D_obs that counts: MMD, plus the hysteresis once active
-  T target_m;              ///< distance to the guidance target
+  /// Largest distance D_obs at which an obstacle is considered, m: MMD, plus the hysteresis while
+  /// obstacles are avoided.
+  T reach_m;
+  T target_m;  ///< distance to the guidance target
 
   /// The sector that obstacle i blocks.
   AWMR_CALLED Sector<T> sector(int i) const {
@@ -106,8 +112,8 @@ struct Surroundings {
     for (int i = 0; i < count; ++i) sectors[i] = sector(i);
   }
 
-  /// Angle by which `heading_rad` must turn to leave all blocked sectors, rad, >= 0: to the left
-  /// for sign = 1, to the right for sign = -1. 2 pi or more: every direction is blocked.
+  /// Angle by which `heading_rad` must turn to leave all blocked sectors, rad, >= 0. The turn is to
+  /// the left for sign = 1, to the right for sign = -1. 2 pi or more: every direction is blocked.
   AWMR_CALLED T turn_out(const T& heading_rad, const T& sign) const {
     const T full = T(2.0) * pi<T>();
     T turned = T(0.0);
@@ -127,7 +133,8 @@ struct Surroundings {
     return turned;
   }
 
-  /// Permitted fraction of the reference speed u_d along the vehicle's heading, in [0, 1].
+  /// Fraction of the reference speed u_d that is permitted in the vehicle's present heading, in [0,
+  /// 1].
   T speed_share() const {
     using math::abs;
     using math::cos;
@@ -138,7 +145,7 @@ struct Surroundings {
       const T grown_m =
           obstacles[i].radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m / T(2.0);
       const T centre_m = distance_m(position_m, obstacles[i].centre_m);
-      // The circle is farther away than brake_m in every direction.
+      // Skip circles that are farther away than brake_m, because they do not limit the speed.
       if (centre_m - grown_m > avoidance.brake_m) continue;
       const T off = bearing_rad(position_m, obstacles[i].centre_m, psi_rad) - psi_rad;
       const T along_m = centre_m * cos(off);

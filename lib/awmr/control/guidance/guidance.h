@@ -1,6 +1,6 @@
 /// Guidance of one step: computes the reference heading and speed from waypoints, a line or a timed
-/// path, turns the heading away from obstacles, and smooths it. Each function of an optional part
-/// has an overload for Disabled<Part>, a part that is not compiled in, which does nothing.
+/// path, turns the heading away from obstacles, and smooths it. Some of its parts can be left out
+/// of a firmware. For such a part, Disabled<Part> is the type, and the overloads for it do nothing.
 /// Freestanding C++14.
 #pragma once
 
@@ -14,9 +14,9 @@ namespace awmr {
 template <class T, class P>
 struct GuidanceLaws : P::Line, P::Path, P::Arrival, P::Avoidance, P::Shaping {
   Waypoints<T> waypoints;        ///< count 0: no waypoints
-  T acceptance_m2;               ///< the square of waypoints.acceptance_m
+  T acceptance_m2;               ///< square of waypoints.acceptance_m
   WaypointProgress<T> progress;  ///< valid once is_leg_started
-  bool is_leg_started;           ///< at least one step towards the waypoints was made
+  bool is_leg_started;           ///< at least one step along the waypoints was made
 };
 
 /// Disables waypoints and all optional parts.
@@ -46,8 +46,8 @@ AWMR_INLINE void hold_heading(const T& psi_rad, Reference<T>& ref) {
   ref.psi_accel_radps2 = T(0.0);
 }
 
-/// Reduces the reference speed within SlowDown::distance_m of the end of the route. `is_last`: the
-/// vehicle is on the last leg. `to_go_m()` returns the remaining distance, m.
+/// Reduces the reference speed near the end of the route, within SlowDown::distance_m. `is_last`:
+/// the vehicle is on the last leg of the route. `to_go_m()` returns the remaining distance, m.
 template <class T, class ToGo>
 AWMR_INLINE void slow_down(const Disabled<SlowDown<T>>&, bool, const ToGo&, Reference<T>&) {}
 template <class T, class ToGo>
@@ -57,8 +57,8 @@ AWMR_INLINE void slow_down(const SlowDown<T>& part, bool is_last, const ToGo& to
   ref.speed_mps *= arrival_share(part.distance_m, T(to_go_m()));
 }
 
-/// Calls guide() of waypoints.h. With obstacle avoidance, it also skips each waypoint that an
-/// obstacle covers (covers() in obstacles.h).
+/// Computes the guidance to waypoints by guide() of waypoints.h. With obstacle avoidance, waypoints
+/// that an obstacle covers are skipped (covers() in obstacles.h).
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide_clear(const Disabled<Avoider<T>>&,
                                             const Waypoints<T>& waypoints, const T& acceptance_m2,
@@ -74,8 +74,8 @@ WaypointGuidance<T> guide_clear(const Avoider<T>& part, const Waypoints<T>& wayp
                             progress);
 }
 
-/// Writes the line-of-sight heading to the next waypoint into the reference. False: there are no
-/// waypoints to follow.
+/// Sets the reference heading to the direction of the next waypoint. Returns false, and changes
+/// nothing, if no waypoints are set.
 template <class T, class P, class Time>
 AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
                                     Reference<T>& ref, GuidanceTarget<T>& target) {
@@ -95,7 +95,8 @@ AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, 
   return true;
 }
 
-/// Calls guide() of line.h with the line and the progress that the line follower stores.
+/// Computes the guidance along the line of the line follower by guide() of line.h, and updates the
+/// stored progress.
 template <class T, class Law>
 AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T, Law>& part,
                                            const Position<T>& position_m,
@@ -103,7 +104,8 @@ AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T, Law>& part,
   return guide(part.line, position_m, motion, part.progress);
 }
 
-/// Writes the heading along the line into the reference. False: there is no line to follow.
+/// Sets the reference heading for following the line. Returns false, and changes nothing, if no
+/// line is set.
 template <class Part, class Arrival, class T, class Time>
 AWMR_INLINE bool guide_by_line(Disabled<Part>&, const Arrival&, const VehiclePose<T, Time>&,
                                Reference<T>&, GuidanceTarget<T>&) {
@@ -133,8 +135,8 @@ AWMR_INLINE PathPoint<T> path_point(const PathFollower<T, Time>& part, const T& 
   return part.path.at(t_s);
 }
 
-/// Writes heading, heading rate and speed of the path into the reference. A reference speed that is
-/// already above 0 is kept. No-op while the part is not on.
+/// Sets heading, heading rate and speed of the reference to those of the timed path. If the
+/// reference speed is already above 0, it is kept. No-op if the path is not switched on.
 template <class Part, class T, class Time>
 AWMR_INLINE void guide_by_path(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
 template <class Path, class T, class Time>
@@ -157,8 +159,8 @@ AWMR_CALLED void guide_by_path(Path& part, const VehiclePose<T, Time>& at, Refer
   if (!(ref.speed_mps > T(0.0))) ref.speed_mps = guided.speed_mps;
 }
 
-/// Writes the reference for following waypoints, a line or a path. If there are none of these, the
-/// reference stays as it is.
+/// Sets the reference for following waypoints, a line or a timed path, whichever is set. If none is
+/// set, the reference is unchanged.
 template <class T, class P, class Time>
 AWMR_INLINE GuidanceTarget<T> guide_by_route(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
                                              Reference<T>& ref) {

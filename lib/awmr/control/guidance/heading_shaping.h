@@ -1,20 +1,22 @@
-/// Filter for the heading reference, which gives a smooth psi_d with its rate and acceleration.
-/// Freestanding C++14.
+/// Filter that smooths the heading reference and also gives its rate and acceleration. Freestanding
+/// C++14.
 #pragma once
 
 #include "awmr/control/wrap_angle.h"
 
 namespace awmr {
 
-/// A critically damped second-order filter with limited rate and acceleration:
+/// A critically damped second-order filter with limited rate and acceleration. Its input is the
+/// heading psi_in, its output the heading psi_d:
 ///   e          = wrap(psi_in - psi_d)
 ///   r_des      = sat(w e/2, r_max)
 ///   psi_d_ddot = sat(2 w (r_des - psi_d_dot), a_max)
-/// Without the limits, the filter is psi_d_ddot + 2 w psi_d_dot + w^2 psi_d = w^2 psi_in.
+/// w is the bandwidth, r_max the largest rate, a_max the largest acceleration. Without the limits,
+/// the filter is psi_d_ddot + 2 w psi_d_dot + w^2 psi_d = w^2 psi_in.
 template <class T>
 struct HeadingShaping {
-  /// w, rad/s, > 0: bandwidth. Larger: psi_d follows psi_in faster. w T_s <= 0.5, with the sample
-  /// time T_s, prevents overshoot of the discrete filter.
+  /// w, rad/s, > 0: bandwidth. With a larger w, psi_d follows psi_in faster. The discrete filter
+  /// does not overshoot if w T_s <= 0.5, with the sample time T_s.
   T omega_radps;
   /// r_max, rad/s, > 0: for example the largest yaw rate of the turning trials.
   T rate_max_radps;
@@ -25,9 +27,9 @@ struct HeadingShaping {
 /// Output and state of the filter.
 template <class T>
 struct ShapedHeading {
-  T psi_rad;           ///< psi_d, rad; without_turns() wraps it if T is float
+  T psi_rad;           ///< psi_d, rad; wrapped to (-pi, pi] if T is float
   T psi_rate_radps;    ///< psi_d_dot, rad/s
-  T psi_accel_radps2;  ///< psi_d_ddot, rad/s^2, over the step that ends here
+  T psi_accel_radps2;  ///< psi_d_ddot, rad/s^2, during the last step
 };
 
 /// The filter at rest on a heading.
@@ -36,9 +38,9 @@ ShapedHeading<T> start_shaping(const T& psi_rad) {
   return {psi_rad, T(0.0), T(0.0)};
 }
 
-/// Advances the filter by one sample towards psi_in = target_rad, which may jump and may be
-/// wrapped: the filter turns the shorter way. The step is semi-implicit Euler: it moves psi_d by
-/// the new rate.
+/// Advances the filter by one sample towards psi_in = target_rad. The target may jump and may be
+/// wrapped: the filter turns the shorter way. Integration is by semi-implicit Euler, that is, psi_d
+/// changes by the new rate times the sample time.
 template <class T>
 void shape(const HeadingShaping<T>& filter, const T& target_rad, const T& sample_time_s,
            ShapedHeading<T>& state) {

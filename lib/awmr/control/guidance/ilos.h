@@ -1,9 +1,9 @@
 /// Integral line of sight (ILOS), a guidance law that follows a line. Freestanding C++14.
 ///
-/// A vehicle that aims at a point of the line is driven off the line by a side slope, an unmeasured
-/// sideslip or a steady heading error. It then drives parallel to the line at a constant offset.
-/// ILOS integrates the offset and shifts the aim to the other side of the line until the vehicle is
-/// on the line.
+/// With plain line of sight, a side slope, an unmeasured sideslip or a steady heading error drives
+/// the vehicle off the line. The vehicle then moves parallel to the line at a constant distance.
+/// ILOS integrates this distance and aims at a point beyond the line, until the vehicle is on the
+/// line.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -13,11 +13,11 @@ namespace awmr {
 /// Parameters of integral line-of-sight guidance.
 template <class T>
 struct IntegralLos {
-  /// Delta, m, > 0: distance along the line from the vehicle to the point at which it aims. Larger:
-  /// smoother, and slower to reach the line.
+  /// Lookahead distance Delta, m, > 0: distance along the line from the vehicle to the point at
+  /// which it aims. With a larger one, the motion is smoother, and the line is reached later.
   T lookahead_m;
-  /// sigma, m/s, > 0: gain of the integral. The literature requires less than the vehicle's speed.
-  /// Larger: disturbances are compensated sooner, and the line is overshot more.
+  /// Integral gain sigma, m/s, > 0. The literature requires a value below the vehicle's speed. With
+  /// a larger gain, disturbances are compensated sooner, and the vehicle overshoots the line more.
   T integral_gain_mps;
   bool sideslip_compensation;
 
@@ -30,15 +30,17 @@ struct IntegralLos {
   }
 };
 
-/// The approach angle atan(q), rad, which guide() in line.h subtracts. With the distance e from the
-/// line, m, left positive, and its integral y_int, s:
+/// Returns the approach angle atan(q), rad, which guide() in line.h subtracts from the direction
+/// psi_AB of the line:
 ///   psi_d     = psi_AB - beta - atan(q),   q = (e + sigma y_int)/Delta
 ///   y_int_dot = Delta e/((e + sigma y_int)^2 + Delta^2) = e/(Delta (1 + q^2))
+/// e: distance from the line, m, left positive; y_int: its integral, s; beta: sideslip angle.
 /// (Borhaug, Pavlov, Pettersen, Integral LOS control for path following of underactuated marine
 /// surface vessels in the presence of constant ocean currents, 2008, (7); Lekkas, Fossen, Integral
-/// LOS path following for curved paths based on a monotone cubic Hermite spline, 2014). Far from
-/// the line, y_int hardly grows, so it does not wind up. y_int restarts at 0 on each segment,
-/// because the disturbance has another direction relative to the new segment.
+/// LOS path following for curved paths based on a monotone cubic Hermite spline, 2014.)
+///
+/// Far from the line, y_int hardly grows, so it does not wind up. y_int restarts at 0 on each
+/// segment, because relative to the new segment, the disturbance has another direction.
 template <class T>
 T approach_rad(const IntegralLos<T>& law, const AlongSegment<T>& s, const LineMotion<T>& motion,
                T& integral_s) {

@@ -7,15 +7,16 @@
 
 namespace awmr {
 
-/// Below this speed, m/s, the direction of travel is noise: sideslip counts as 0.
+/// Speed, m/s, below which the measured direction of travel is mostly noise. Sideslip is then set
+/// to 0.
 template <class T>
 constexpr T sideslip_speed_min_mps() {
   return T(0.05);
 }
 
-/// The sideslip angle, rad, in (-pi, pi]: the vehicle travels in the direction psi + beta.
+/// Sideslip angle beta, rad, in (-pi, pi]: the vehicle travels in the direction psi + beta.
 ///   beta = atan2(v, u)
-/// 0 below sideslip_speed_min_mps().
+/// u: surge speed, v: sway speed. The result is 0 below sideslip_speed_min_mps().
 template <class T>
 AWMR_CALLED T sideslip_rad(const T& u_mps, const T& v_mps) {
   using math::atan2;
@@ -24,18 +25,19 @@ AWMR_CALLED T sideslip_rad(const T& u_mps, const T& v_mps) {
   return atan2(v_mps, u_mps);
 }
 
-/// Coordinates of a point relative to the segment from A to B. With its unit vector
-/// t = (B - A)/|B - A|:
+/// Coordinates of the point (x, y) relative to the segment from A to B, which has the direction
+/// psi_AB and the unit vector t = (B - A)/|B - A|:
 ///   psi_AB = atan2(t_y, t_x)
 ///   e      = -(x - x_A) t_y + (y - y_A) t_x                         [paper (104)-(106), corrected]
-/// Corrected: (105) prints the direction from B to A. (104) and (106) use the slope of the line,
-/// which is infinite for a vertical line and the same for both directions of the line.
+/// e is the distance from the line through A and B, left positive. Corrected: (105) prints the
+/// direction from B to A. (104) and (106) use the slope of the line, which is infinite for a
+/// vertical line and the same for both directions of the line.
 template <class T>
 struct AlongSegment {
   T length_m;       ///< |B - A|, m
-  T tx, ty;         ///< t; this and the following are undefined if length_m is 0
-  T along_m;        ///< m: distance from A along t, negative before A
-  T cross_track_m;  ///< e, m: left of the segment's line positive
+  T tx, ty;         ///< t; undefined, like the members below, if length_m is 0
+  T along_m;        ///< m: distance from A in the direction t, negative before A
+  T cross_track_m;  ///< e, m: distance from the line, left positive
 
   T psi_rad() const {
     using math::atan2;
@@ -43,7 +45,7 @@ struct AlongSegment {
   }
 };
 
-/// Computes `position_m` relative to the segment from a to b.
+/// Computes the coordinates of `position_m` relative to the segment from a to b.
 template <class T>
 AWMR_INLINE AlongSegment<T> along_segment(const Position<T>& a, const Position<T>& b,
                                           const Position<T>& position_m) {
@@ -67,8 +69,8 @@ struct LineMotion {
   T sample_time_s;  ///< time between two guidance steps, > 0
 };
 
-/// Range of a parameter of a guidance law in scenario files, in the unit of the file. The law
-/// stores the file's value times `unit`, which is pi/180 for an angle in deg and otherwise 1.
+/// Range of a parameter of a guidance law in scenario files, in the unit of the file. The program
+/// uses the value of the file times `unit`: pi/180 for an angle in deg, otherwise 1.
 struct LawParameter {
   double min;
   double max;
@@ -76,29 +78,30 @@ struct LawParameter {
   double unit;
 };
 
-/// Range of lookahead distances in scenario files, m. With a shorter distance, the vehicle would
-/// turn for every rounding error.
+/// Permitted lookahead distances in scenario files, m. With a distance below the minimum, rounding
+/// errors of the position would turn the vehicle.
 constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 
-/// Corners joined by line segments, driven from the first to the last. Two corners are one line.
+/// Points (corners) joined by straight segments, which are driven from the first to the last. Two
+/// points give a single line.
 ///
-/// A Law is a struct with its parameters and
-///   sideslip_compensation     true, as in the paper: beta is subtracted, so that the course over
-///                             ground is controlled and a vehicle that slips stays on the line;
-///                             false: for vehicles that cannot measure v
+/// A guidance law `Law` is a struct with its parameters and these members:
+///   sideslip_compensation     true, as in the paper: the sideslip angle beta is subtracted from
+///                             psi_d, so that a vehicle that slips sideways stays on the line;
+///                             false: for vehicles that cannot measure the sway speed
 ///   kUsesCorner               whether the law uses Polyline::corner_m
 ///   name()                    its name in files
 ///   parameters(law, field)    calls field(key, parameter, LawParameter) for each parameter
-/// and the function approach_rad(law, segment, motion, memory). guide() subtracts its result from
-/// the segment's direction. A law can also have its own overloads of is_passed() and
+/// It also has a function approach_rad(law, segment, motion, memory), whose result guide()
+/// subtracts from the direction of the segment. A law can have its own overloads of is_passed() and
 /// distance_off_m() below.
 template <class T, class Law>
 struct Polyline {
-  const Position<T>* points_m;  ///< the corners in the world frame, m; not owned, `count` of them
-  int count;                    ///< >= 0; with fewer than two corners the line is finished at once
-  /// m, >= 0: the vehicle changes to the next segment at this distance before the end of the
-  /// current one, so that it rounds the corner on the inside. The last segment is driven to its
-  /// end. With 0, the vehicle overshoots corners.
+  const Position<T>* points_m;  ///< corners in the world frame, m; `count` of them, not owned
+  int count;                    ///< >= 0; with 0 or 1 corners, the guidance is finished at once
+  /// m, >= 0: at this distance before the end of a segment, the vehicle changes to the next
+  /// segment, so that it rounds the corner on the inside. With 0, it overshoots the corner. The
+  /// last segment is driven to its end.
   T corner_m;
   Law law;  ///< parameters of the law
 };
@@ -107,11 +110,12 @@ struct Polyline {
 template <class T>
 struct PolylineProgress {
   int segment;  ///< the current segment: from points_m[segment] to points_m[segment + 1]
-  T psi_rad;    ///< psi_d of the last step, rad, held when no segment is left
-  T memory;     ///< state of the law, such as an integral; 0 at the start of each segment
+  T psi_rad;    ///< last psi_d, rad; held once no segment is left
+  /// State of the law, such as an integral. It is set to 0 at the start of each segment.
+  T memory;
 };
 
-/// The progress before the first step: `psi_rad` is the vehicle's heading.
+/// Returns the progress before the first step. `psi_rad` is the vehicle's heading.
 template <class T>
 PolylineProgress<T> start_polyline(const T& psi_rad) {
   return {0, psi_rad, T(0.0)};
@@ -123,28 +127,29 @@ struct PolylineGuidance {
   T psi_rad;        ///< psi_d, rad, in (-pi, pi]
   T cross_track_m;  ///< e, m: distance from the current segment's line, left positive
   T to_go_m;        ///< m: distance along the current segment to its end
-  bool finished;    ///< past the end of the last segment: psi_d holds its last value
+  bool finished;    ///< the end of the last segment is passed, and psi_d is held
 };
 
-/// True if the vehicle must change to the next segment: the distance along the current segment to
-/// its end is at most `corner_m`.
+/// True if the vehicle must change to the next segment, because the remaining distance along the
+/// current segment is at most `corner_m`. A law can have its own overload.
 template <class T, class Law>
 AWMR_INLINE bool is_passed(const Law&, const AlongSegment<T>& s, const T& corner_m) {
   return !(s.length_m - s.along_m > corner_m);
 }
 
-/// Distance from the line that PolylineGuidance reports, m, left positive. Default for laws without
-/// their own overload: the distance from the current segment's line.
+/// Distance from the line that PolylineGuidance reports, m, left positive: the distance from the
+/// line of the current segment. A law can have its own overload.
 template <class T, class Law>
 AWMR_INLINE T distance_off_m(const Polyline<T, Law>&, int /*segment*/,
                              const Position<T>& /*position_m*/, const AlongSegment<T>& s) {
   return s.cross_track_m;
 }
 
-/// The heading along the current segment, rad, in (-pi, pi]:
+/// Computes the desired heading for the current segment, rad, in (-pi, pi]:
 ///   psi_d = psi_AB - beta - approach_rad()
-/// Segments of zero length (coinciding corners) are skipped. Past the last segment, or if no
-/// segment has a length, guidance is finished and the last psi_d is held.
+/// psi_AB: direction of the segment, beta: sideslip angle. Segments of zero length are skipped.
+/// Past the last segment, or if all segments have zero length, guidance is finished and the last
+/// psi_d is held.
 template <class T, class Law>
 AWMR_CALLED PolylineGuidance<T> guide(const Polyline<T, Law>& line, const Position<T>& position_m,
                                       const LineMotion<T>& motion, PolylineProgress<T>& progress) {

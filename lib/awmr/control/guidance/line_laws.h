@@ -12,8 +12,8 @@
 
 namespace awmr {
 
-/// The class template `List` (such as std::variant) with all laws as its arguments. The first law
-/// is the default.
+/// The class template `List` with all guidance laws as its arguments. For example, with
+/// std::variant the result is a variant of all laws. The first law is the default.
 template <template <class...> class List, class T>
 using LineLaws = List<LineOfSight<T>, PurePursuit<T>, IntegralLos<T>, Stanley<T>>;
 
@@ -26,7 +26,8 @@ struct LawAt<0, First, Rest...> {
 };
 }  // namespace detail
 
-/// Selects a law by its place k in LineLaws, counted from 0: LineLaws<LineLawAt<k>::Of, T>::Law.
+/// Selects a guidance law by its place k in LineLaws, counted from 0. The law is the type
+/// LineLaws<LineLawAt<k>::Of, T>::Law.
 template <int kPlace>
 struct LineLawAt {
   template <class... Laws>

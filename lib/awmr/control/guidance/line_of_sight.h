@@ -8,11 +8,11 @@ namespace awmr {
 /// Parameters of the line-of-sight law.
 template <class T>
 struct LineOfSight {
-  /// Delta, rad, in (0, pi/2]: approach angle outside the lane of half width R. Larger: the line is
-  /// reached on a shorter way and more abruptly.
+  /// Delta, rad, in (0, pi/2]: approach angle of a vehicle that is farther than R from the line.
+  /// With a larger angle, the vehicle takes a shorter way to the line and turns more abruptly.
   T delta_rad;
-  /// R, m, > 0: half width of the lane in which the approach angle is proportional to the distance.
-  /// Larger: smoother, and slower to reach the line.
+  /// R, m, > 0: within this distance of the line, the approach angle is proportional to the
+  /// distance. With a larger R, the motion is smoother, and the line is reached later.
   T width_m;
   bool sideslip_compensation;
 
@@ -26,9 +26,10 @@ struct LineOfSight {
   }
 };
 
-/// The approach angle Delta sat(e/R), rad, which guide() in line.h subtracts:
+/// Returns the approach angle Delta sat(e/R), rad, which guide() in line.h subtracts from the
+/// direction psi_AB of the line:
 ///   psi_d = psi_AB - beta - Delta sat(e/R)                                           [paper (107)]
-/// e is the signed distance from the line, m, positive to the left of its direction.
+/// e: distance from the line, m, left positive; beta: sideslip angle.
 template <class T>
 AWMR_INLINE T approach_rad(const LineOfSight<T>& law, const AlongSegment<T>& s,
                            const LineMotion<T>&, T& /*memory*/) {

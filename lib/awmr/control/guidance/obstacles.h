@@ -2,35 +2,38 @@
 /// obstacles block. Freestanding C++14.
 ///
 /// The paper names MMD, D_obs and sigma, but its figure of the algorithm is lost.     [paper 5.2.2]
-/// The rule here is the project's own. For obstacle i with centre c_i, seen from the vehicle at p:
+/// The rule here is the project's own. The vehicle is at the position p with the speed u. For
+/// obstacle i with the centre c_i:
 ///
 ///   MMD(u)  = mmd_base + mmd_per_speed |u|            minimum manoeuvring distance
 ///   R_i     = radius_i + vehicle_radius + clearance   grown radius
 ///   D_i     = |c_i - p|                               distance to the centre
-///   D_obs   = D_i - R_i                               distance to the grown edge
-///   w_i     = clamp((MMD - D_obs)/MMD, 0, 1)          how far D_obs is inside MMD
+///   D_obs   = D_i - R_i                               distance to the grown circle
+///   w_i     = clamp((MMD - D_obs)/MMD, 0, 1)          0 at the distance MMD, 1 at the grown circle
 ///   alpha_i = asin(R_i/D_i) + sigma w_i               half angle of the blocked sector, D_i > R_i
 ///           = pi/2          + sigma w_i               the same inside the grown circle
 ///
-/// The blocked sector is centred on the bearing of c_i. An obstacle counts while D_obs <= MMD (plus
-/// the hysteresis once avoidance is active) and while it is nearer than the target. If blocked
-/// sectors contain the guidance heading, psi_d is the nearer edge, left or right, of their union.
-/// The chosen side is kept until the other is nearer by `side_hysteresis_rad`, or until the
-/// guidance heading is free again.
+/// The blocked sector is centred on the bearing of c_i. An obstacle is considered while D_obs <=
+/// MMD (plus the hysteresis once avoidance is active) and while it is nearer than the target. If
+/// the heading of the guidance is in blocked sectors, the desired heading psi_d is the nearer edge
+/// of their union, left or right. The chosen side is kept until the other is nearer by
+/// `side_hysteresis_rad`, or until the heading of the guidance is free again.
 ///
-/// Why this clears one obstacle: assume a vehicle with the turning radius rho that heads for the
-/// centre of a grown circle. It can turn past the circle if D^2 >= (R + rho)^2 - rho^2. This holds
-/// for any R while D_obs >= rho. So a sufficient MMD is rho plus the distance travelled while the
-/// turn begins. With several obstacles, or a start that is too close, this can fail. Therefore, the
-/// speed is also reduced. The permitted fraction of u_d is the distance along the heading to a
-/// circle grown by vehicle_radius + clearance/2, divided by `brake_m`. So the vehicle stops before
-/// that circle.
+/// Why this avoids a single obstacle: assume a vehicle with the turning radius rho that heads for
+/// the centre of a grown circle with the radius R, at the distance D. It can turn past the circle
+/// if D^2 >= (R + rho)^2 - rho^2. This holds for any R while D_obs >= rho. So it is sufficient if
+/// MMD is rho plus the distance travelled while the turn begins.
+///
+/// With several obstacles, or a start that is too close, this can fail. Therefore, the speed is
+/// also reduced, so that the vehicle stops before a smaller circle, grown by vehicle_radius +
+/// clearance/2. The permitted fraction of the reference speed u_d is the distance to that circle
+/// along the heading, divided by `brake_m`.
 ///
 /// Edge cases:
 ///   vehicle inside R_i        the sector is more than a half-plane, so psi_d leads out; a vehicle
 ///                             that heads further in is stopped
 ///   vehicle exactly on c_i    the bearing of c_i is taken to be the vehicle's heading
-///   every direction blocked   `blocked` is set, u_d becomes 0, psi_d is the guidance heading
+///   every direction blocked   `blocked` is set, u_d becomes 0, psi_d is that of the guidance
 ///   an obstacle on a waypoint see covers()
 #pragma once
 
@@ -44,20 +47,22 @@ enum class AvoidanceSide { kNone, kLeft, kRight };
 
 /// State of the avoidance between steps.
 struct AvoidanceState {
-  AvoidanceSide side = AvoidanceSide::kNone;  ///< kNone: the guidance heading is free
+  /// kNone: no sector blocks the heading of the guidance
+  AvoidanceSide side = AvoidanceSide::kNone;
 };
 
 /// Heading and speed that avoid the obstacles in one step.
 template <class T>
 struct Avoided {
   T psi_rad;      ///< psi_d, rad, in (-pi, pi]
-  T speed_share;  ///< dimensionless, in [0, 1]: permitted fraction of u_d
-  bool active;    ///< psi_d is not the guidance heading, or every direction is blocked
-  bool blocked;   ///< every direction is blocked
+  T speed_share;  ///< permitted fraction of the reference speed u_d, in [0, 1]
+  /// True: psi_d differs from the heading of the guidance, or every direction is blocked.
+  bool active;
+  bool blocked;  ///< every direction is blocked
 };
 
-/// True if the obstacle's grown circle contains the whole acceptance circle (radius acceptance_m)
-/// of a target: no path that keeps the clearance reaches this target.
+/// True if the grown circle of the obstacle contains the whole acceptance circle (radius
+/// acceptance_m) of a target. The vehicle then cannot reach this target and keep its clearance.
 template <class T>
 bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Position<T>& target_m,
             const T& acceptance_m) {
@@ -65,7 +70,7 @@ bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Po
          obstacle.radius_m + avoidance.vehicle_radius_m + avoidance.clearance_m;
 }
 
-/// True if one of `count` obstacles covers the target.
+/// True if one of `count` obstacles covers the target, as covers() above defines.
 template <class T>
 bool is_covered(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int count,
                 const Position<T>& target_m, const T& acceptance_m) {
@@ -75,7 +80,8 @@ bool is_covered(const Avoidance<T>& avoidance, const Obstacle<T>* obstacles, int
   return false;
 }
 
-/// Calls guide() of waypoints.h, and skips waypoints that an obstacle covers: they count as missed.
+/// Computes the guidance to waypoints by guide() of waypoints.h. Waypoints that an obstacle covers
+/// are skipped and counted as missed.
 template <class T>
 AWMR_CALLED WaypointGuidance<T> guide_past_covered(const Avoidance<T>& avoidance,
                                                    const Obstacle<T>* obstacles, int count,
@@ -119,7 +125,8 @@ AWMR_CALLED Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* o
   if (!(left < full) && !(right < full)) {
     return {called_wrap_angle(guidance_rad), T(0.0), true, true};
   }
-  // The hysteresis favours the side that was chosen before; of two equal sides, the left is taken.
+  // The side chosen before is kept unless the turn to the other side is smaller by more than the
+  // hysteresis. If no side was chosen and both turns are equal, the vehicle turns left.
   T difference = left - right;
   if (state.side == AvoidanceSide::kLeft) difference -= avoidance.side_hysteresis_rad;
   if (state.side == AvoidanceSide::kRight) difference += avoidance.side_hysteresis_rad;

@@ -1,5 +1,5 @@
-/// Optional parts of the guidance (optional_part.h): parameters and state of each. Freestanding
-/// C++14.
+/// Optional parts of the guidance, which a firmware can leave out (optional_part.h): parameters and
+/// state of each. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
@@ -14,8 +14,9 @@
 
 namespace awmr {
 
-/// Pose and motion of the vehicle for the guidance of one step. Time is the type of the clock:
-/// uint32_t in ms on the chip, which wraps to 0 after 49.7 days; double in s in the simulator.
+/// Pose and motion of the vehicle for the guidance of one step. `Time` is the type of the clock. On
+/// the chip, it is uint32_t, in ms, which wraps to 0 after 49.7 days; in the simulator double, in
+/// s.
 template <class T, class Time>
 struct VehiclePose {
   const Position<T>& position_m;
@@ -43,17 +44,19 @@ struct LineFollower {
 template <class T, class Time>
 struct PathFollower {
   Lissajous<T> path;
-  T gain_per_s;  ///< k of closed_path(), > 0; 0: open_path()
-  T held_rad;    ///< psi_d of the last step, valid once is_started
-  Time start;    ///< the path's t = 0, valid once is_started
+  /// Gain k of the position feedback in closed_path(), > 0. 0: no feedback, open_path() is used.
+  T gain_per_s;
+  T held_rad;  ///< last psi_d, rad; valid once is_started
+  Time start;  ///< time at which the path began (its t = 0), valid once is_started
   bool is_on;
   bool is_started;  ///< at least one step along the path was made
 };
 
-/// Reduces the speed before the last waypoint, or before the end of the line.
+/// Reduces the reference speed before the last waypoint, or before the end of the line.
 template <class T>
 struct SlowDown {
-  T distance_m;  ///< distance from the end at which the speed begins to fall, m; 0: disabled
+  /// Distance from the end of the route at which the speed begins to fall, m. 0: disabled.
+  T distance_m;
 };
 
 /// Avoids obstacles.
@@ -106,7 +109,7 @@ void reset(Shaper<T>& part) {
   part.is_started = false;
 }
 
-/// True if the part will use the position in the next step.
+/// True if this part of the guidance will use the position in the next step.
 template <class Part>
 AWMR_INLINE bool needs_position(const Disabled<Part>&) {
   return false;

@@ -28,29 +28,29 @@ AWMR_CALLED T distance_m(const Position<T>& a, const Position<T>& b) {
   return sqrt(squared_distance_m2(a, b));
 }
 
-/// Two points coincide, and have no direction between them, if x and y each differ by at most this,
-/// m.
+/// Two points coincide if their x and y each differ by at most this, m. Coinciding points have no
+/// direction between them.
 template <class T>
 constexpr T coincident_m() {
   return T(1e-20);
 }
 
-/// Vector from `from` to `point`, m, along the world's axes.
+/// Vector from the point `from` to the point `point`, m, in the world frame.
 template <class T>
 Position<T> seen_from(const Position<T>& from, const Position<T>& point) {
   return {point.x_m - from.x_m, point.y_m - from.y_m};
 }
 
-/// True if the vector `away_m` is not longer than `radius_m`, whose square is `radius_m2`. Usually
-/// one coordinate alone exceeds the radius, and no product is necessary.
+/// True if the length of the vector `away_m` is at most `radius_m`. `radius_m2` is the square of
+/// `radius_m`. One component alone usually exceeds the radius, so that no product is necessary.
 template <class T>
 AWMR_INLINE bool is_reached(const Position<T>& away_m, const T& radius_m, const T& radius_m2) {
   if (math::is_beyond(away_m.x_m, radius_m) || math::is_beyond(away_m.y_m, radius_m)) return false;
   return !math::is_above(T(away_m.x_m * away_m.x_m + away_m.y_m * away_m.y_m), radius_m2);
 }
 
-/// The direction of the vector `away_m`, rad, in (-pi, pi]; `otherwise_rad` if neither component
-/// exceeds coincident_m().
+/// Direction of the vector `away_m`, rad, in (-pi, pi]. If neither component exceeds
+/// coincident_m(), the vector has no direction, and the result is `otherwise_rad`.
 template <class T>
 AWMR_INLINE T direction_rad(const Position<T>& away_m, const T& otherwise_rad) {
   const T here = coincident_m<T>();

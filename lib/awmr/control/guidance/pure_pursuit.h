@@ -1,7 +1,8 @@
 /// Pure pursuit, a guidance law that follows a line. Freestanding C++14.
 ///
-/// The vehicle drives towards a goal point on the line, at the lookahead distance from the vehicle.
-/// The goal passes a corner before the vehicle does, so the corner is rounded on its inside.
+/// The vehicle drives towards a goal, a point on the line at the lookahead distance from the
+/// vehicle. The goal passes a corner of the line before the vehicle does, so the vehicle rounds the
+/// corner on its inside.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -11,8 +12,8 @@ namespace awmr {
 /// Parameters of pure pursuit.
 template <class T>
 struct PurePursuit {
-  /// L, m, > 0: distance from the vehicle to its goal. Larger: smoother, slower to reach the line,
-  /// and corners are cut more.
+  /// L, m, > 0: lookahead distance from the vehicle to its goal. With a larger L, the motion is
+  /// smoother, the line is reached later, and the vehicle cuts corners more.
   T lookahead_m;
   bool sideslip_compensation;
 
@@ -24,12 +25,12 @@ struct PurePursuit {
   }
 };
 
-/// Position of the goal along a segment, m from its start:
+/// Position of the goal along a segment, m from the start of the segment:
 ///   s_g = max(0, s + sqrt(L^2 - e^2))
-/// s and e are the vehicle's distances along and to the left of the segment. The goal is the
-/// farther of the two points of the line at the distance L from the vehicle. If the line is farther
-/// away than L, the goal is the nearest point of the line. The goal is never before the segment's
-/// start.
+/// s: position of the vehicle along the segment; e: its distance to the left of the segment; L:
+/// lookahead distance. Two points of the line are at the distance L from the vehicle; the goal is
+/// the one farther along the line. If the line is farther away than L, the goal is the point of the
+/// line nearest to the vehicle. The goal is never before the start of the segment.
 template <class T>
 T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   using math::sqrt;
@@ -38,16 +39,16 @@ T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   return goal_m > T(0.0) ? goal_m : T(0.0);
 }
 
-/// The next segment starts when the goal reaches the end of the current one. On the last segment
-/// the goal continues straight beyond its end.
+/// True when the goal reaches the end of the current segment: the next segment then starts. On the
+/// last segment, the goal continues straight beyond the end.
 template <class T>
 bool is_passed(const PurePursuit<T>& law, const AlongSegment<T>& s, const T& /*corner_m*/) {
   return !(goal_along_m(law, s) < s.length_m);
 }
 
-/// Signed distance, left positive, from the line of the current or of the previous segment,
-/// whichever is nearer. The previous segment is needed because the goal passes a corner before the
-/// vehicle does.
+/// Distance from the line, m, left positive. Of the current and the previous segment, the one
+/// nearer to the vehicle is used: at a corner, the goal is already on the current segment while the
+/// vehicle is still on the previous one.
 template <class T>
 T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
                  const Position<T>& position_m, const AlongSegment<T>& s) {
@@ -60,11 +61,14 @@ T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
   return is_nearer ? before.cross_track_m : s.cross_track_m;
 }
 
-/// The approach angle atan2(e, s_g - s), rad, which guide() in line.h subtracts. psi_d then points
-/// to the goal, which is s_g from A along the segment from A to B:
+/// Returns the approach angle atan2(e, s_g - s), rad, which guide() in line.h subtracts from the
+/// direction psi_AB of the segment:
 ///   psi_d = psi_AB - beta - atan2(e, s_g - s)
-/// (Coulter, Implementation of the pure pursuit path tracking algorithm, 1992. His law commands an
-/// arc to the goal; here the heading law turns the vehicle to the heading of the goal.)
+/// So psi_d is the direction from the vehicle to the goal. s and s_g: positions of the vehicle and
+/// of the goal along the segment, m; e: distance of the vehicle from the segment, left positive;
+/// beta: sideslip angle. (Coulter, Implementation of the pure pursuit path tracking algorithm,
+/// 1992. His law commands an arc to the goal; here the heading law turns the vehicle to the
+/// direction of the goal.)
 template <class T>
 T approach_rad(const PurePursuit<T>& law, const AlongSegment<T>& s, const LineMotion<T>&,
                T& /*memory*/) {

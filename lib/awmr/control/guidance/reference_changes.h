@@ -1,5 +1,6 @@
-/// Changes the reference that the guidance along the route has computed: turns its heading away
-/// from obstacles and smooths it. The overloads for Disabled<Part> do nothing. Freestanding C++14.
+/// Changes of the reference that the guidance has computed: turns the heading away from obstacles,
+/// and smooths it. The overloads for Disabled<Part>, a part that is not compiled in, do nothing.
+/// Freestanding C++14.
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -10,20 +11,21 @@ namespace awmr {
 /// Target of the guidance in one step.
 template <class T>
 struct GuidanceTarget {
-  const Position<T>* target_m;  ///< obstacles farther away than this point are ignored; 0: no
-                                ///< obstacle is ignored
-  bool arrived;                 ///< the route is finished
+  /// Target point of the guidance; obstacles farther away than this point are ignored. Null: no
+  /// obstacle is ignored.
+  const Position<T>* target_m;
+  bool arrived;  ///< the route is finished
 };
 
-/// Distance to the target, m, for avoid() if there is no target. It is larger than the distance to
-/// any obstacle, so that every obstacle counts.
+/// Distance to the target, m, that avoid() gets if the guidance has no target. It exceeds the
+/// distance to any obstacle, so that no obstacle is ignored.
 template <class T>
 constexpr T no_target_m() {
   return T(1e30);
 }
 
-/// Turns the reference heading away from obstacles, and reduces the reference speed while an
-/// obstacle is close ahead.
+/// Turns the reference heading away from obstacles, and reduces the reference speed if an obstacle
+/// is close ahead.
 template <class Part, class T, class Time>
 AWMR_INLINE void steer_around_obstacles(Disabled<Part>&, const VehiclePose<T, Time>&,
                                         const GuidanceTarget<T>&, Reference<T>&) {}
@@ -42,8 +44,8 @@ AWMR_CALLED void steer_around_obstacles(Avoider<T>& part, const VehiclePose<T, T
   ref.psi_rate_radps = T(0.0);
 }
 
-/// Smooths the reference heading by the filter of heading_shaping.h and adds its rate and
-/// acceleration. The filter starts at the vehicle's heading.
+/// Smooths the reference heading by the filter of heading_shaping.h, and sets the heading rate and
+/// acceleration of the reference. The filter starts at the vehicle's heading.
 template <class Part, class T, class Time>
 AWMR_INLINE void shape_heading(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
 template <class T, class Time>

@@ -1,7 +1,7 @@
 /// Stanley, a guidance law that follows a line. Freestanding C++14.
 ///
-/// The approach angle depends on the ratio of the distance from the line to the speed. So the
-/// distance falls with nearly the same time constant at every speed well above `softening_mps`.
+/// The approach angle grows with the ratio of the distance from the line to the speed. So the
+/// distance decreases with nearly the same time constant at every speed well above `softening_mps`.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -11,10 +11,12 @@ namespace awmr {
 /// Parameters of Stanley.
 template <class T>
 struct Stanley {
-  /// k, 1/s, > 0: near the line, the distance falls as exp(-k t u/(k_s + u)). Larger: the line is
-  /// reached sooner and more abruptly.
+  /// k, 1/s, > 0: gain. Near the line, the distance decreases with the time t as exp(-k t u/(k_s +
+  /// u)) at the speed u. With a larger k, the line is reached sooner and the vehicle turns more
+  /// abruptly.
   T gain_per_s;
-  /// k_s, m/s, > 0: added to the speed. Larger: smoother at low speed.
+  /// k_s, m/s, > 0: speed that is added to u. With a larger k_s, the motion at low speed is
+  /// smoother.
   T softening_mps;
   bool sideslip_compensation;
 
@@ -27,12 +29,13 @@ struct Stanley {
   }
 };
 
-/// The approach angle atan(k e/(k_s + u)), rad, which guide() in line.h subtracts:
+/// Returns the approach angle atan(k e/(k_s + u)), rad, which guide() in line.h subtracts from the
+/// direction psi_AB of the line:
 ///   psi_d = psi_AB - beta - atan(k e/(k_s + u))
-/// (Hoffmann, Tomlin, Montemerlo, Thrun, Autonomous automobile trajectory tracking for off-road
-/// driving, 2007. They use the distance of the front axle from the line and command the steering
-/// angle; here e is the distance of the centre of gravity, m, left positive, and psi_d is
-/// commanded.) A vehicle that rolls backward counts as at rest.
+/// e: distance of the centre of gravity from the line, m, left positive; u: speed, where a vehicle
+/// that rolls backward counts as at rest; beta: sideslip angle. (Hoffmann, Tomlin, Montemerlo,
+/// Thrun, Autonomous automobile trajectory tracking for off-road driving, 2007. They use the
+/// distance of the front axle and command the steering angle; here the heading psi_d is commanded.)
 template <class T>
 T approach_rad(const Stanley<T>& law, const AlongSegment<T>& s, const LineMotion<T>& motion,
                T& /*memory*/) {

@@ -6,7 +6,7 @@
 
 namespace awmr {
 
-/// A point of a timed path and its derivatives.
+/// Point of a timed path, and its first and second time derivatives.
 template <class T>
 struct PathPoint {
   Position<T> position_m;  ///< p_d = (x_d, y_d), m
@@ -14,7 +14,7 @@ struct PathPoint {
   T ax_mps2, ay_mps2;      ///< p_d_ddot, m/s^2
 };
 
-/// A Lissajous figure:
+/// A Lissajous figure, which the desired point (x_d, y_d) traverses as a function of the time t:
 ///   x_d = A_x cos(w_x t)
 ///   y_d = A_y sin(w_y t)                                                       [paper (117)-(118)]
 template <class T>
@@ -22,7 +22,7 @@ struct Lissajous {
   T amplitude_x_m, amplitude_y_m;  ///< A_x, A_y, m: 10 each in the paper
   T rate_x_radps, rate_y_radps;    ///< w_x, w_y, rad/s: 0.01 and 0.03 in the paper
 
-  /// The point of the path at the time t_s and its derivatives.
+  /// The point of the path at the time t_s, s, and its derivatives.
   AWMR_CALLED PathPoint<T> at(const T& t_s) const {
     using math::cos;
     using math::sin;
@@ -46,19 +46,19 @@ struct PathGuidance {
   T speed_mps;       ///< u_d, m/s, >= 0
 };
 
-/// If the point of a path moves more slowly than this, m/s, as at a cusp or reversal, it has no
-/// direction, and the heading is held.
+/// Smallest speed of the path's point, m/s, at which the path has a direction. Below it, as at a
+/// cusp or a reversal, the heading is held.
 template <class T>
 constexpr T path_speed_min_mps() {
   return T(1e-4);
 }
 
-/// Direction and speed of the path, open loop in position as in the paper:
+/// Heading and speed along the path p_d = (x_d, y_d), without position feedback, as in the paper:
 ///   psi_d     = atan2(y_d_dot, x_d_dot)                                              [paper (116)]
 ///   psi_d_dot = (x_d_dot y_d_ddot - y_d_dot x_d_ddot)/|p_d_dot|^2
 ///   u_d       = |p_d_dot|
-/// `held_rad` is the psi_d of the last step, used while |p_d_dot| <= path_speed_min_mps(); u_d is
-/// then 0.
+/// While |p_d_dot| <= path_speed_min_mps(), psi_d is `held_rad`, the psi_d of the last step, and
+/// u_d is 0.
 template <class T>
 AWMR_CALLED PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_rad) {
   using math::atan2;
@@ -70,14 +70,16 @@ AWMR_CALLED PathGuidance<T> open_path(const PathPoint<T>& path, const T& held_ra
           (path.vx_mps * path.ay_mps2 - path.vy_mps * path.ax_mps2) / speed2, sqrt(speed2)};
 }
 
-/// Direction and speed of the path with position feedback, this project's addition to the paper.
-/// With the position error e_p = p_d - p, k = gain_per_s > 0, the unit vector t along the path and
-/// w = p_d_dot + k e_p:
+/// Heading and speed along the path with position feedback, an addition to the paper. p_d is the
+/// point of the path, p the position of the vehicle, e_p = p_d - p the position error, t the unit
+/// vector along the path, k = gain_per_s > 0 the gain, and beta = `sideslip` the sideslip angle,
+/// rad:
+///   w     = p_d_dot + k e_p
 ///   psi_d = atan2(w_y, w_x) - beta
 ///   u_d   = max(0, |p_d_dot| + k e_p . t)
-/// A vehicle at p_d gets the speed of the path; a vehicle behind p_d gets a higher one and catches
-/// up. `sideslip` is beta, rad. `held_rad` is the psi_d of the last step, used with u_d = 0 while
-/// |w| <= path_speed_min_mps().
+/// A vehicle at p_d gets the speed of the path. A vehicle behind p_d gets a higher speed and
+/// catches up. While |w| <= path_speed_min_mps(), psi_d is `held_rad`, the psi_d of the last step,
+/// and u_d is 0.
 template <class T>
 AWMR_CALLED PathGuidance<T> closed_path(const PathPoint<T>& path, const T& gain_per_s,
                                         const Position<T>& position_m, const T& sideslip,

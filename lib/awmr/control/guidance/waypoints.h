@@ -12,11 +12,12 @@ template <class T>
 struct Waypoints {
   const Position<T>* points_m;  ///< not owned; `count` of them
   int count;                    ///< >= 0
-  T acceptance_m;               ///< m, > 0: a point is reached within this distance of it
-  /// Handling of a waypoint that the vehicle has passed at a larger distance than `acceptance_m`;
-  /// it has passed when it is beyond the perpendicular to the leg through the point. true: the
-  /// point counts as missed and the next one follows, for a vehicle that cannot turn tightly enough
-  /// to return. false, as in the paper: the vehicle turns back to the point.
+  /// m, > 0: a waypoint is reached when the vehicle is within this distance
+  T acceptance_m;
+  /// Handling of a waypoint that the vehicle has passed outside `acceptance_m`. Passed: the vehicle
+  /// is beyond the line through the waypoint that is perpendicular to the leg. true: the waypoint
+  /// counts as missed, and the next one follows; for a vehicle that cannot turn tightly enough to
+  /// return. false, as in the paper: the vehicle turns back to the waypoint.
   bool skip_passed;
 };
 
@@ -26,10 +27,11 @@ struct WaypointProgress {
   int next;                 ///< index of the current waypoint; `count` when all are done
   int missed;               ///< number of missed waypoints, see Waypoints::skip_passed
   Position<T> leg_start_m;  ///< start of the current leg
-  T psi_rad;                ///< the last line of sight, rad, held when no waypoint is left
+  T psi_rad;                ///< last direction to a waypoint, rad; held once no waypoint is left
 };
 
-/// The progress before the first step: `position_m` and `psi_rad` are the vehicle's.
+/// Returns the progress before the first step. `position_m` and `psi_rad` are position and heading
+/// of the vehicle.
 template <class T>
 WaypointProgress<T> start_waypoints(const Position<T>& position_m, const T& psi_rad) {
   return {0, 0, position_m, psi_rad};
@@ -39,11 +41,11 @@ WaypointProgress<T> start_waypoints(const Position<T>& position_m, const T& psi_
 template <class T>
 struct WaypointGuidance {
   T psi_rad;      ///< psi_d, rad, in (-pi, pi]
-  bool finished;  ///< no waypoint is left: psi_d holds the last line of sight
+  bool finished;  ///< no waypoint is left, and psi_d holds its last value
 };
 
-/// True if the position is beyond the perpendicular to the leg through the end of the leg. Never
-/// true for a leg of zero length.
+/// True if the position is beyond the line that goes through the end of the leg and is
+/// perpendicular to the leg. Never true for a leg of zero length.
 template <class T>
 bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
              const Position<T>& leg_end_m) {
@@ -52,13 +54,14 @@ bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
   return along > T(0.0);
 }
 
-/// The line of sight to the first waypoint (x_d, y_d) that is not reached yet:
+/// Computes the heading psi_d from the vehicle at (x, y) to the first waypoint (x_d, y_d) that is
+/// not reached yet:
 ///   psi_d = atan2(y_d - y, x_d - x)                                       [paper (103), corrected]
 /// Corrected: the printed differences point from the waypoint to the vehicle.
 ///
-/// Several waypoints are reached in the same step if the vehicle is within the acceptance radius of
-/// each. With no waypoints, guidance is finished at once and the heading is held. `acceptance_m2`
-/// is the square of Waypoints::acceptance_m.
+/// If the vehicle is within the acceptance radius of several waypoints in sequence, it reaches them
+/// in the same step. With no waypoints, guidance is finished at once and the heading is held.
+/// `acceptance_m2` is the square of Waypoints::acceptance_m.
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& acceptance_m2,
                                       const Position<T>& position_m,
@@ -79,7 +82,7 @@ AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& ac
   }
   return {progress.psi_rad, true};
 }
-/// guide() that computes acceptance_m2 in each step.
+/// Same as guide() above, but computes acceptance_m2 in each step.
 template <class T>
 AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Position<T>& position_m,
                                       WaypointProgress<T>& progress) {
@@ -87,15 +90,16 @@ AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Posit
   return guide(waypoints, acceptance_m2, position_m, progress);
 }
 
-/// Fraction of the reference speed that remains at the end of the route. It is above 0, so that the
-/// vehicle reaches the end.
+/// Fraction of the reference speed at which the vehicle arrives at the end of the route. It is
+/// above 0, because the vehicle would otherwise not reach the end.
 template <class T>
 constexpr T arrival_share_min() {
   return T(0.1);
 }
 
 /// Fraction of the reference speed at the distance `to_go_m` before the end of the route:
-/// to_go_m/slow_down_m, clamped to [arrival_share_min(), 1]. `slow_down_m` > 0.
+///   to_go_m/slow_down_m, clamped to [arrival_share_min(), 1]
+/// `slow_down_m`, > 0, is the distance at which the speed begins to fall.
 template <class T>
 T arrival_share(const T& slow_down_m, const T& to_go_m) {
   return math::clamp(T(to_go_m / slow_down_m), arrival_share_min<T>(), T(1.0));

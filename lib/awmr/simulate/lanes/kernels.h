@@ -1,5 +1,5 @@
-/// The kernels (compiled steps of the closed loop for each instruction set) that this processor can
-/// run. Private to simulate/.
+/// List of the kernels that this processor can run. A kernel is the closed loop's arithmetic,
+/// compiled for one instruction set. Private to simulate/.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace awmr {
 namespace lanes {
 
-/// The steps of the closed loop for one instruction set.
+/// The functions of the closed loop, compiled for one instruction set.
 using Kernel = LoopSteps<Row>;
 
 }  // namespace lanes
@@ -25,8 +25,8 @@ extern const awmr::lanes::Kernel awmr_lanes_neon;
 namespace awmr {
 namespace lanes {
 
-/// The kernels that are built and that this processor can run, the widest first. Empty: runs are
-/// simulated one at a time by simulate().
+/// Returns the kernels that are built and that this processor can run, the widest registers first.
+/// If there is none, simulate() computes one run at a time.
 std::vector<const Kernel*> supported_kernels();
 
 }  // namespace lanes

@@ -1,6 +1,6 @@
-/// pow, sin, cos, atan, atan2, hypot and the wrap of an angle for `Lanes` (lanes.h). The
-/// polynomials are Chebyshev fits on the reduced interval, with an error below 1e-17 of the result.
-/// For an argument outside the range of a function, the result is NaN.
+/// pow, sin, cos, atan, atan2, hypot and the wrap of an angle for `Lanes` (lanes.h). Each argument
+/// is reduced to a short interval, where a polynomial (Chebyshev fit) has a relative error below
+/// 1e-17. For an argument outside the range of a function, the result is NaN.
 /// tests/simulate/lane_math_test.cpp measures the errors.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace AWMR_LANES {
 
 using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
 
-/// Reinterprets the 64 bits of each lane. The template argument of the cast is the type of a lane
-/// in xsimd 9 and later; in earlier versions, it is the type of a register.
+/// Reinterprets the bits of each lane as a 64-bit integer. The template argument of the cast is the
+/// type of a lane in xsimd 9 and later, and the type of a register in earlier versions.
 AWMR_LANE_INLINE Bits to_bits(const Register& x) {
 #if XSIMD_VERSION_MAJOR < 9
   return xsimd::bitwise_cast<Bits>(x);
@@ -32,13 +32,13 @@ AWMR_LANE_INLINE Register to_register(const Bits& x) {
 #endif
 }
 
-/// `result`, or NaN where `in_range` is false.
+/// Returns `result` in the lanes where `in_range` is true, else NaN.
 AWMR_LANE_INLINE Lanes only_where(const LaneMask& in_range, const Lanes& result) {
   return select(in_range, result, Lanes(__builtin_nan("")));
 }
 
-/// The polynomial c[0] + c[1] x + ..., computed by two Horner schemes: one for the even powers of x
-/// and one for the odd powers.
+/// Polynomial c[0] + c[1] x + c[2] x^2 + ..., computed by two Horner schemes, one for the even and
+/// one for the odd powers of x. The processor can compute both at the same time.
 template <int N>
 AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
   const Lanes z = x * x;
@@ -53,11 +53,11 @@ AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
   return fma(last, x, before);
 }
 
-/// Adding this number, 1.5 times 2^52, rounds x, |x| < 2^51: the last bits of the sum are the
-/// integer nearest to x.
+/// Rounds to an integer: after this number, 1.5 times 2^52, is added to x, |x| < 2^51, the last
+/// bits of the sum are the integer nearest to x.
 constexpr double kRounder = 0x1.8p52;
 
-/// x = m 2^k with m in [sqrt(1/2), sqrt 2), for positive normal numbers x (not subnormal).
+/// The parts m and k of a positive normal number x = m 2^k, with m in [sqrt(1/2), sqrt 2).
 struct Split {
   Lanes m, k;
 };
@@ -67,12 +67,13 @@ AWMR_LANE_INLINE Split split(const Lanes& x) {
   const Bits bits = to_bits(x.value);
   // The biased exponent of x/sqrt(1/2).
   const Bits biased = (bits + Bits(kOne - kRootHalf)) >> 52;
-  // An integer n < 2^52 in the mantissa of 2^52 gives 2^52 + n.
+  // The conversion of an integer n < 2^52 to double: n in the mantissa bits of 2^52 gives 2^52 + n.
   const Register k = to_register(biased | Bits(0x4330000000000000ULL)) - Register(0x1p52 + 1023.0);
   return {to_register(bits - ((biased << 52) - Bits(kOne))), k};
 }
 
-/// log2(x) for positive normal numbers x = m 2^k (see Split). With s = (m - 1)/(m + 1),
+/// log2(x) for a positive normal number x = m 2^k (see Split), by a series in s:
+///   s       = (m - 1)/(m + 1)
 ///   log2(x) = k + 2/ln 2 (s + s^3/3 + s^5/5 + ...)
 AWMR_LANE_INLINE Lanes log2_of_normal(const Lanes& x) {
   constexpr double kSeries[] = {0x1.5555555555558p-2, 0x1.99999999952e2p-3, 0x1.2492492df148dp-3,
@@ -98,8 +99,8 @@ AWMR_LANE_INLINE Lanes exp2_of_normal(const Lanes& y) {
   return to_register(to_bits(p.value) + (to_bits(rounded.value) << 52));
 }
 
-/// x^y for x >= 2^-1022, the smallest normal number, else NaN. Results below 2^-1000 are returned
-/// as 2^-1000, results of 2^1000 or more as NaN.
+/// x^y for x >= 2^-1022, the smallest normal number. For smaller x, the result is NaN. A result
+/// below 2^-1000 is replaced by 2^-1000, a result of 2^1000 or more by NaN.
 AWMR_LANE_INLINE Lanes pow(const Lanes& x, const Lanes& y) {
   const Lanes power = y * log2_of_normal(x);
   const Lanes at_least = select(power < Lanes(-1000.0), Lanes(-1000.0), power);
@@ -110,8 +111,8 @@ struct SinCos {
   Lanes sin, cos;
 };
 
-/// Bound of |angle|, rad, for sin and cos. The reduction to |r| <= pi/4 subtracts a multiple (the
-/// quadrant) of pi/2, which is a sum of three parts. The first two parts have 33 bits, so that
+/// Largest |angle|, rad, for sin and cos. The reduction to |r| <= pi/4 subtracts a multiple (the
+/// quadrant) of pi/2. There, pi/2 is the sum of three parts. The first two have 33 bits, so that
 /// their products with a quadrant up to 2^20 are exact.
 constexpr double kLargestAngle = 0x1p20;
 
@@ -129,10 +130,11 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   const Lanes z = r * r;
   const Lanes s = fma(r * z, polynomial(kSin, z), r);
   const Lanes c = fma(z * z, polynomial(kCos, z), fma(z, Lanes(-0.5), Lanes(1.0)));
-  // Odd quadrants swap sine and cosine. To test for them, the last bit of the quadrant is shifted
-  // to a place where it alone makes the number 2.0. The second bit of the quadrant is the sign of
-  // the sine, that of quadrant + 1 the sign of the cosine. To set a sign, this bit is shifted to
-  // the place of the sign bit.
+  // An angle is reduced by a number of right angles, its quadrant. In odd quadrants, sine and
+  // cosine are swapped. To test for them, the last bit of the quadrant is shifted to a place where
+  // it alone makes the number 2.0. The second bit of the quadrant is the sign of the sine, the
+  // second bit of quadrant + 1 that of the cosine. To set a sign, the bit is shifted to the place
+  // of the sign bit.
   const Bits whole = to_bits(rounded.value);
   const LaneMask swapped = to_register((whole & Bits(std::uint64_t{1})) << 62) > Register(1.0);
   const auto with_sign = [&whole](const Lanes& value, std::uint64_t quadrants_on) -> Lanes {
@@ -150,8 +152,8 @@ AWMR_LANE_INLINE Lanes cos(const Lanes& x) {
   return only_where(abs(x) < Lanes(kLargestAngle), sin_cos_in_range(x).cos);
 }
 
-/// The direction of the vector (x, y), x >= 0, in [-pi/2, pi/2]. With t = tan(pi/8) and a = |y|,
-/// the magnitude of the angle is
+/// Direction of the vector (x, y), rad, in [-pi/2, pi/2], for x >= 0. Its magnitude is, with a =
+/// |y| and t = tan(pi/8),
 ///   a <= t x           atan(a/x)
 ///   t x < a <= x/t     pi/4 + atan((a - x)/(a + x))
 ///   a > x/t            pi/2 - atan(x/a)
@@ -186,7 +188,8 @@ AWMR_LANE_INLINE Lanes atan2(const Lanes& y, const Lanes& x) {
 
 AWMR_LANE_INLINE Lanes hypot(const Lanes& x, const Lanes& y) { return sqrt(x * x + y * y); }
 
-/// wrap_angle() of control/wrap_angle.h for lanes: it removes all turns at once, not in loops.
+/// wrap_angle() of control/wrap_angle.h for lanes. It subtracts all full turns at once instead of
+/// in loops.
 AWMR_LANE_INLINE Lanes wrap_angle(const Lanes& angle_rad) {
   constexpr double kTurn = 0x1.921fb54442d18p+2;
   constexpr double kTurnRest = 0x1.1a62633145c07p-52;

@@ -3,9 +3,9 @@
 /// only (kernel.inc).
 ///
 /// A kernel file defines AWMR_LANES, the name of its instruction set, before it includes this file.
-/// The name is a namespace around every type here, and so part of the name of every template
+/// The name is a namespace around every type here, so it is part of the name of every template
 /// instantiated with such a type. Without this namespace, the linker would merge functions of the
-/// same name from several kernels, and could keep one that needs a newer processor.
+/// same name from several kernels. It could keep one that needs a newer processor.
 #pragma once
 
 #include <xsimd/xsimd.hpp>
@@ -33,7 +33,7 @@ struct LaneMask {
       : mask(Register(everywhere ? 1.0 : 0.0) > Register(0.0)) {}
 };
 
-/// One double per lane. Converts from double, so that templates can write T(1.0).
+/// One double per lane. A double can be converted to Lanes, so that templates can write T(1.0).
 struct Lanes {
   Register value;
   Lanes() = default;
@@ -72,7 +72,8 @@ AWMR_LANE_INLINE LaneMask operator||(const LaneMask& a, const LaneMask& b) {
   return a.mask | b.mask;
 }
 
-/// Flips the sign bit. For AVX-512, xsimd 8 would compute 0 - x, which is 0 and not -0 for x = 0.
+/// Flips the sign bit. The negation of xsimd 8 for AVX-512 computes 0 - x, which gives 0 and not -0
+/// for x = 0.
 AWMR_LANE_INLINE Lanes operator-(const Lanes& a) { return a.value ^ Register(-0.0); }
 AWMR_LANE_INLINE Lanes& operator+=(Lanes& a, const Lanes& b) { return a = a + b; }
 AWMR_LANE_INLINE Lanes& operator-=(Lanes& a, const Lanes& b) { return a = a - b; }
@@ -88,7 +89,7 @@ AWMR_LANE_INLINE LaneMask select(const LaneMask& m, const LaneMask& a, const Lan
   return (m && a) || (!m && b);
 }
 
-/// a b + c, rounded once. (For AVX-512, xsimd 8 rounds twice.)
+/// a b + c, rounded once. (The function of xsimd 8 for AVX-512 would round twice.)
 AWMR_LANE_INLINE Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
 #ifdef __AVX512F__
   return Register(_mm512_fmadd_pd(a.value, b.value, c.value));

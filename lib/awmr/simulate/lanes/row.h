@@ -1,14 +1,14 @@
-/// `Row`: one number of each of the sixteen runs that are simulated together. Plain data, because
-/// the kernels are compiled for other instruction sets and must not share code with the rest of the
-/// program.
+/// `Row`: one number of each of the sixteen runs that are simulated together. The struct is plain
+/// data: the kernels are compiled for other instruction sets, and must not share functions with the
+/// rest of the program.
 #pragma once
 
 namespace awmr {
 namespace lanes {
 
-/// Number of runs in a block (the runs that are simulated together), the same for every instruction
-/// set. A kernel processes Lanes::kCount of them at a time: eight with AVX-512, four with AVX2,
-/// two with NEON.
+/// Number of runs in a block: the runs that are simulated together. It is the same for every
+/// instruction set. A kernel processes a block in groups of Lanes::kCount runs: eight with AVX-512,
+/// four with AVX2, two with NEON.
 constexpr int kLanes = 16;
 
 struct alignas(64) Row {
