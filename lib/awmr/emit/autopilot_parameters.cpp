@@ -68,8 +68,8 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>
   return rest;
 }
 
-/// Returns the controller in float. Values derived from it are also computed in float, as awmr.cpp
-/// computes them in the firmware, because the check sum covers their bits.
+/// Returns the controller in float. awmr.cpp in the firmware computes derived values in float. They
+/// are computed in float here as well, because the check sum covers their bits.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
                                    const Gains<double>& gains) {
   Controller<float> controller{};
@@ -137,7 +137,7 @@ Status check_family(const Plant<double>& plant, ResistanceForm form) {
   return {};
 }
 
-/// A resistance law and the data from which its table is made.
+/// A resistance law of the firmware, and the data from which its table is made.
 struct ChipLaw {
   std::string name;   ///< "surge" or "yaw", for messages
   ResistanceLaw law;  ///< g1, dimensionless, or g3, m
@@ -153,11 +153,12 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
   return chip;
 }
 
-/// The largest float below `top`. The last cell of the table ends at `top` but does not contain it.
+/// Returns the largest float below `top`, the end of the table's last cell. The cell does not
+/// contain its end, so `top` itself is outside of the table.
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
 /// Adds the tables of g1 and g3 to the parameters. Errors (refused): `table_error` is given, and no
-/// table of at most 1024 lines meets it.
+/// table of at most 1024 lines has an error within it.
 Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double> table_error,
                   AutopilotParameters& parameters) {
   const auto table = [&](const ChipLaw& chip) {

@@ -31,7 +31,8 @@ constexpr std::string_view kCheckMacro = R"(
 
 )";
 
-/// The constraint T2 < T1 of tune/ in a form without a division, which a compiler can check:
+/// The constraint T2 < T1 of tune/, reaching the sliding surface faster than moving along it, in a
+/// form without a division, which a compiler can check:
 ///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
 constexpr std::string_view kRelations =
     R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than the
@@ -120,8 +121,8 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
   }
   if (!faults.empty()) return input_errors(std::move(faults));
 
-  // The user's compiler may evaluate the product in float or exactly. T2 < T1 must hold in both
-  // cases.
+  // The user's compiler may evaluate the product epsilon lambda in float or exactly. T2 < T1 must
+  // hold in both cases.
   const float epsilon = static_cast<float>(gains.heading.epsilon);
   const float lambda = static_cast<float>(gains.heading.lambda);
   const float mu = static_cast<float>(gains.heading.mu);

@@ -14,14 +14,15 @@
 namespace awmr {
 namespace {
 
-/// Criterion for "d tends to 0": largest distance from the line in the last quarter of the run, as
-/// a fraction of the lane's half width.
+/// Criterion for the claim that the distance d from the line tends to 0: largest |d| in the last
+/// quarter of the run, as a fraction of the lane's half width.
 constexpr double kOnTheLineShare = 0.01;
-/// Criterion for "alike": the longest finishing time of a mode exceeds the shortest by at most this
-/// fraction.
+/// Criterion for the claim that the modes avoid obstacles alike: the longest finishing time of a
+/// mode exceeds the shortest by at most this fraction.
 constexpr double kAlikeShare = 0.10;
-/// Criterion for "followed": largest distance from the moving point of the path. It is a twentieth
-/// of the path's width of 20 m; less is hardly visible in a printed figure.
+/// Criterion for the claim that the timed path is followed: largest distance from the moving point
+/// of the path. It is a twentieth of the path's width of 20 m; less is hardly visible in a printed
+/// figure.
 constexpr double kPathTolerance_m = 1.0;
 /// A value counts as equal to the best one if it is at most this fraction larger.
 constexpr double kAsGoodShare = 0.01;

@@ -54,7 +54,8 @@ function nextSteps(data) {
 }
 
 /// Chart of the heading in every mode with the tuned gains, in the first scenario with heading
-/// steps, else in the first scenario. Without simulated runs: the trials, or a validated log.
+/// steps, else in the first scenario. If there are no simulated runs, the chart shows the trials,
+/// or a validated log.
 function responseChart(parent, data) {
   const height = 210;
   const type = (run) => (((data.scenarios[run.scenario] || {}).guidance || {}).type || "");
