@@ -56,7 +56,7 @@ const valuesOf = (s) => (s.kind === "shade" ? [[s.limit, 1e12], [-1e12, -s.limit
 
 /// Value in the signal `hidden` that hides all circles (obstacles) of a chart.
 const circlesKey = "circles";
-/// Initial value of the Vega signal `hidden`: indices of the hidden series, and circlesKey if the
+/// Value of the Vega signal `hidden`: indices of the hidden series, and circlesKey if the
 /// circles (obstacles) are hidden.
 const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])),
   ...(chart.circlesHidden ? [circlesKey] : [])];
