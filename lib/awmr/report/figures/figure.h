@@ -48,8 +48,8 @@ struct Axis {
   std::string quantity = {};
   std::string unit = {};  ///< empty if dimensionless
   bool zero = false;      ///< true: the range includes 0 and has a line there
-  std::vector<std::string> rows =
-      {};  ///< row names at y = 0, 1, ... from the top; empty for an axis with numbers
+  /// Row names at y = 0, 1, ... from the top. Empty for an axis with numbers.
+  std::vector<std::string> rows = {};
 };
 
 struct FigureCircle {
