@@ -30,8 +30,8 @@ TableShape shape_of(const EmittedTable& table) {
 /// Returns the value rounded to float32, as on the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
-/// Range of F' that the allocation can request: that of the wheel forces, reduced by the dead zone
-/// of the motors as in make_controller().
+/// Range of the wheel force F' (divided by F_max) that the allocation can request: the range in
+/// vehicle.json, reduced by the dead zone of the motors as in make_controller().
 Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehicle) {
   const Controller<double> controller = make_controller(plant, vehicle, {});
   return {controller.limits.force_min, controller.limits.force_max};
@@ -114,8 +114,8 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
   return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/allocation",
-                     "the firmware does not support the small-angle allocation: give \"exact\", or "
-                     "emit the header alone (" +
+                     "the firmware does not support the small-angle allocation: set \"exact\" "
+                     "instead, or emit the header alone (" +
                          option_text("header-only") + ")");
 }
 
@@ -127,12 +127,14 @@ Status check_drive(const Plant<double>& plant, const Model& model) {
                          option_text("header-only") + ")");
 }
 
-/// Errors (input): powf is selected, but the resistance is not a power law.
+/// Checks that the firmware can compute the resistance in this form. Errors (input): powf is
+/// selected, but the resistance is not a power law.
 Status check_family(const Plant<double>& plant, ResistanceForm form) {
   if (form == ResistanceForm::kPowf && !is_power_law(plant)) {
-    return input_error(ErrorCode::kUnsupported, option_text("resistance"),
-                       "powf supports only the power law; this model's resistance family needs the "
-                       "table: leave this option out");
+    return input_error(
+        ErrorCode::kUnsupported, option_text("resistance"),
+        "powf supports only power laws; this model has another resistance, which needs "
+        "the table: leave this option out");
   }
   return {};
 }

@@ -101,14 +101,14 @@ struct EmitOptions {
 
 /// A table of g1 or g3 for the chip, and its errors. Speeds are in m/s for g1, in rad/s for g3.
 struct EmittedTable {
-  std::vector<ResistanceLine> lines;  ///< ResistanceTable::lines
-  std::uint16_t first = 0;            ///< ResistanceTable::first
-  std::uint8_t mantissa_bits = 0;     ///< ResistanceTable::mantissa_bits
-  double lowest_speed = 0.0;          ///< start of the first cell; below it, the table is a line
-                                      ///< through the origin
-  double top_speed = 0.0;             ///< end of the last cell
-  double split = 0.0;                 ///< a tenth of the largest force or moment, in the unit of g
-  double worst_error = 0.0;           ///< largest error where g is below `split`, in the unit of g
+  std::vector<ResistanceLine> lines;  ///< the lines, as in ResistanceTable::lines
+  std::uint16_t first = 0;            ///< number of the first cell (ResistanceTable::first)
+  std::uint8_t mantissa_bits = 0;     ///< leading mantissa bits that number the cells, 0 ... 7
+  double lowest_speed = 0.0;          ///< speed at which the first cell begins; below it, the table
+                                      ///< is a line through the origin
+  double top_speed = 0.0;             ///< speed at which the last cell ends
+  double split = 0.0;        ///< tenth of the largest force (g1) or moment (g3), in the unit of g
+  double worst_error = 0.0;  ///< largest error where g is below `split`, in the unit of g
   double worst_relative_error = 0.0;  ///< largest error relative to g, where g is above `split`
 
   /// Returns the largest relative error: relative to g, or to `split` where g is below `split`.
@@ -139,20 +139,20 @@ struct AutopilotParameters {
   EmittedTable surge;                                  ///< table of g1; empty for kPowf
   EmittedTable yaw;                                    ///< table of g3; empty for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
-  double table_error = 0.0;               ///< largest of the bound (default kTableError) and the
-                                          ///< errors of both tables
+  double table_error = 0.0;               ///< bound on the relative error (default kTableError);
+                                          ///< larger if a table has a larger error
   float sample_time_s = 0.0F;             ///< AWMR_SAMPLE_TIME_S, s
   float route_speed_mps = 0.0F;           ///< AWMR_ROUTE_SPEED_MPS, m/s
-  double steady_error_rad = 0.0;          ///< steady heading error, rad, if the forces of the
-                                          ///< motors differ by 16 %
+  double steady_error_rad = 0.0;          ///< heading error, rad, that remains if the forces of
+                                          ///< left and right motors differ by 16 %
   float on_course_rad = 0.0F;             ///< AWMR_ON_COURSE_RAD, rad
   float off_course_mrad = 0.0F;           ///< AWMR_OFF_COURSE_MRAD, m rad
   PositionFilter<float> position{};       ///< filter of the GPS fixes
   std::uint32_t position_latency_ms = 0;  ///< latency of the GPS, ms
-  std::set<FirmwarePart> parts;           ///< as in EmitOptions, and the observer of the gains
+  std::set<FirmwarePart> parts;           ///< EmitOptions::parts, and kObserver for such gains
   std::size_t line_law = 0;               ///< as in EmitOptions
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
-  std::uint32_t crc = 0;  ///< crc32_of_parameters(), over block, tables, rest and observer
+  std::uint32_t crc = 0;  ///< check sum over block, tables, rest and observer
 };
 
 /// Computes the numbers of the firmware from the model and the gains. Errors: those of
@@ -169,7 +169,7 @@ std::string autopilot_header(const AutopilotParameters& parameters);
 
 /// A file of the emitted library.
 struct EmittedFile {
-  std::string path;  ///< relative to the output directory, with '/'
+  std::string path;  ///< path from the output directory, with '/'
   std::string bytes;
 };
 

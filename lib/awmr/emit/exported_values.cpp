@@ -39,7 +39,7 @@ void export_parameters(const Model& model, std::vector<ExportedValue>& values) {
                               estimate));
   }
   for (const SiQuantity& quantity : si_quantities(model)) {
-    // The mass m, which is given, is listed by export_vehicle().
+    // Given quantities (the mass m) are skipped here, because export_vehicle() lists them.
     if (quantity.estimate.source == Source::kGiven) continue;
     values.push_back(exported("si" + identifier(quantity.pointer), quantity.unit,
                               fmt::format("{} in SI units", quantity.name), quantity.estimate));

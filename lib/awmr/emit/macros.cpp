@@ -102,7 +102,8 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
   }
   add("AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
   add("AWMR_SPEED_EPSILON", gains.speed.epsilon,
-      "epsilon_s, m/s: half width of the boundary layer of u_d - u", "/speed/epsilon");
+      "epsilon_s, m/s: half width of the boundary layer of the speed error u_d - u",
+      "/speed/epsilon");
   if (!gains.observer.is_on()) return;
   add("AWMR_OBSERVER_BANDWIDTH_RADPS", gains.observer.bandwidth_radps,
       "L, rad/s: bandwidth of the disturbance observer", "/observer/bandwidth_radps");

@@ -102,21 +102,22 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
                     params_sha256(inputs));
 }
 
-/// Checks F'min < F'max, d_max < 90 deg and T2 < T1. Compares the values after rounding to float32,
-/// as the header has them, because rounding can make two of them equal.
+/// Checks F'min < F'max (wheel force), d_max < 90 deg (steering stop) and T2 < T1 (heading law). The
+/// values are compared after rounding to float32, because rounding can make two of them equal.
 Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
   if (!(static_cast<float>(vehicle.wheel_force.lo) < static_cast<float>(vehicle.wheel_force.hi))) {
-    faults.push_back({ErrorCode::kWrongOrder, file_name(model) + ":/vehicle/wheel_force",
-                      fmt::format("min = {:g} has to be below max = {:g}; correct vehicle.json and "
-                                  "identify again",
-                                  vehicle.wheel_force.lo, vehicle.wheel_force.hi)});
+    faults.push_back(
+        {ErrorCode::kWrongOrder, file_name(model) + ":/vehicle/wheel_force",
+         fmt::format("the smallest wheel force, {:g}, has to be below the largest, {:g}; "
+                     "correct vehicle.json and identify again",
+                     vehicle.wheel_force.lo, vehicle.wheel_force.hi)});
   }
   if (!(static_cast<float>(radians(vehicle.steering_max_deg)) < 1.57079633F)) {
     faults.push_back({ErrorCode::kOutOfRange, file_name(model) + ":/vehicle/steering/max_deg",
-                      fmt::format("{:g} deg has to be below 90 deg; correct vehicle.json and "
-                                  "identify again",
+                      fmt::format("the steering stop, {:g} deg, has to be below 90 deg; correct "
+                                  "vehicle.json and identify again",
                                   vehicle.steering_max_deg)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));

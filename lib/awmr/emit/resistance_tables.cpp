@@ -102,11 +102,14 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
                                       double full_scale, double top,
                                       std::optional<double> error_share, double rest_speed) {
   const int top_exponent = std::ilogb(top);
-  EmittedTable best;                 // the smallest table within the bound
-  EmittedTable closest;              // the table with the smallest error
-  std::map<int, TableErrors> below;  // errors below the first entry, the same for all mantissa bits
+  EmittedTable best;     // the smallest table within the bound
+  EmittedTable closest;  // the table with the smallest error
+  // Errors below the first cell, by the exponent of the speed at which it begins. They do not
+  // depend on the number of mantissa bits.
+  std::map<int, TableErrors> below;
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
-    TableErrors from_first;  // errors from the first entry on; each pass adds the next lower octave
+    // Errors from the first cell on. Each pass of the inner loop adds the next lower octave.
+    TableErrors from_first;
     for (int lowest = top_exponent - 1; lowest >= kLowestExponent; --lowest) {
       const int lines = (top_exponent - lowest) * (1 << bits) + 1;
       if (lines > kMaxLines) break;

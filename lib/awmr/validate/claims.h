@@ -23,7 +23,7 @@
 
 namespace awmr {
 
-/// The paper's largest tau_speed.                                              [paper 3.5]
+/// tau_speed (surge force over F_max) at the paper's full thrust.              [paper 3.5]
 inline constexpr double kFullThrust = 2.0;
 
 /// Run of a claim's scenario in one mode.
@@ -67,19 +67,20 @@ std::vector<ClaimInMode> verdicts_by_mode(const ModeRuns& runs, Condition condit
   return verdicts;
 }
 
-/// C1: at full thrust and straight ahead, u settles at u_max.                    [paper 3.5.1]
+/// Checks C1: at full thrust and straight ahead, u settles at u_max.             [paper 3.5.1]
 Claim check_straight_run(const Model& model, const Plant<double>& plant,
                          const ControlOptions& control = {});
-/// C2: with constant thrust and turning moment the path tends to a circle.       [paper 3.5.2]
+/// Checks C2: with constant thrust and yaw moment the path tends to a circle.    [paper 3.5.2]
 Claim check_circle(const Model& model, const Plant<double>& plant,
                    const ControlOptions& control = {});
-/// C14: lambda 3, mu 50, eps 12 give T1 = 0.33 s and T2 = 0.12 s.                [paper 4.1]
+/// Checks C14: the gains lambda 3, mu 50, epsilon 12 of the heading law give the time constants
+/// T1 = 0.33 s and T2 = 0.12 s.                                                  [paper 4.1]
 Claim check_time_constants(const std::optional<Gains<double>>& gains);
-/// C3 to C7 from common runs of heading steps, and C13 from its own run.
+/// Checks C3 to C7 with common runs of heading steps, and C13 with its own run.
 ///                                                                 [paper 4.3, section 6]
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
-/// C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims for each
+/// Checks C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims for each
 /// setting. Precondition: as for run_all(), all settings have the same control, arithmetic and
 /// sample time.
 ///                                                                   [paper 5, section 7]

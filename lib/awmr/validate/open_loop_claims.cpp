@@ -54,8 +54,9 @@ const TrialPoint* fastest_trial(const Model& model) {
 /// Result of C2 in one mode.
 struct Turn {
   YawMode mode{};
-  std::optional<Circle> circle;  ///< fitted to the last full turn; absent without two full turns
-  double speed_mps = 0.0;        ///< speed at the end of the run
+  /// Circle fitted to the last full turn. Absent if the run has fewer than two full turns.
+  std::optional<Circle> circle;
+  double speed_mps = 0.0;  ///< speed at the end of the run
 };
 
 /// Points of the last full turn of the run. Empty if the run has fewer than two full turns, because

@@ -13,7 +13,7 @@ function exported(chart) {
     spec.height = chart.view ? chart.view.height() : chart.height;
     spec.autosize = {type: "pad"};
   } else {
-    spec.width = chart.outer || 420;  // a range chart: width with its labels
+    spec.width = chart.outer || 420;  // a chart of ranges: its width with the row labels
   }
   spec.padding = 10;
   spec.title = {text: chart.title, anchor: "start", color: "var(--ink)", font, fontSize: 13};

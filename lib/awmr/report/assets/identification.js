@@ -161,7 +161,7 @@ function validationWords(data) {
 function identificationSection(data) {
   const {model, fits} = data;
   const box = section("Identification", model.trials.length
-    ? "Points are rows of the trials. Diamonds have a warning, which the pointer shows." : "",
+    ? "Each point is a row of the trials. Diamonds mark rows with a warning; point at one to read it." : "",
       "Model");
   const words = validationWords(data);
   if (words) add(box, "p", words[0].toUpperCase() + words.slice(1));
@@ -260,8 +260,8 @@ function logsPart(parent, validation) {
   const logs = (validation || {}).logs || [];
   if (!logs.length) return;
   add(parent, "h3", "Logs, measured and predicted");
-  small(parent, "Predicted from the commands alone over windows. NRMSE is the error divided by " +
-    "the signal's standard deviation.");
+  small(parent, "Predicted from the commands alone, from the measured state at the start of each window. " +
+    "NRMSE is the RMS error divided by the signal's standard deviation.");
   table(parent, ["log", "channel", "#samples", "#R², to the next row", "#R², over a window",
     "#NRMSE, over a window"],
     logs.flatMap((log) => Object.entries(log.channels).map(([name, c]) =>

@@ -137,7 +137,7 @@ function liveCharts(parent, start) {
 async function liveSection(data) {
   const packed = document.getElementById("wasm").textContent;
   if (!packed && data.gains) section("Try other gains",
-    "This awmr was built without WebAssembly, so the page has no sliders. For sliders: " +
+    "This awmr was built without WebAssembly, so the page has no sliders. To get sliders, run " +
     "scripts/setup all, scripts/build release, then awmr report.", "Try gains");
   if (!packed || !data.live) return;
   const box = section("Try other gains",

@@ -84,7 +84,7 @@ function tradeOffChart(parent, gains) {
       points: [at(point)], colour: "var(--ink)", shape: (gainsStyle[name] || {}).shape}))];
   add(parent, "h3", "Settling time and control variation");
   small(parent, "Means over the modes, manoeuvres and plants of the search. Of all gains of the " +
-    "search that meet every constraint, none are better in both than those on the line.");
+    "search that meet every constraint, none have both shorter settling and less variation than those on the line.");
   plot(add(parent, "div", undefined, {class: "grid"}),
     {title: "trade-off", x: "settling time, s", y: "control variation, 1/s", series, height: 260,
       zero: "xy", byPoint: true});
@@ -129,7 +129,7 @@ function historyChart(parent, gains) {
     `${gainsWords[set]}: local from evaluation ${h.global_evaluations + 1} of ${h.evaluations}`);
   small(parent, `The best gains so far that meet every constraint; 1 is ${baselineWords(gains)}. ` +
     `A global search, then a local one (${phases.join("; ")}).` +
-    (nominal ? " Each is relative to the baseline under its own conditions." : ""));
+    (nominal ? " Each objective is relative to that of the baseline under the same conditions." : ""));
   plot(add(parent, "div", undefined, {class: "grid"}),
     {title: "objective, best so far", x: "evaluation", y: "objective", series, height: 260,
       zero: "xy"});
@@ -143,7 +143,7 @@ const robustFigures = [["settling_time_s", "settling time, s"],
 function goalsTable(parent, goals) {
   if (!goals || !goals.length) return;
   add(parent, "h3", "Goals");
-  small(parent, "Share of newly drawn vehicles for which every limit is met, with its 95 % interval.");
+  small(parent, "Share of the newly drawn vehicles for which every limit of the goal is met, with its 95 % interval.");
   const limits = (goal) => Object.entries(goal.at_most).map(([name, most]) =>
     `${metricWords(name)} at most ${digits(most)}`).join("; ") + (goal.soft ? " (soft)" : "");
   table(parent, ["goal", "mode", "gains", "#required", "#kept", "verdict"],

@@ -49,7 +49,7 @@ struct Pending {
   uint8_t number;
   Row row;
 };
-Pending pending;            // last event of the step, which loop() writes to the card
+Pending pending;            // last event of a control step, which loop() writes to the card
 volatile bool has_pending = false;
 uint16_t rows_lost = 0;
 
