@@ -143,7 +143,7 @@ Status check_family(const Plant<double>& plant, ResistanceForm form) {
 struct ChipLaw {
   std::string name;   ///< "surge" or "yaw", for messages
   ResistanceLaw law;  ///< g1, dimensionless, or g3, m
-  double full_scale;  ///< the largest possible force or moment, in the unit of g
+  double full_scale;  ///< largest possible force (g1) or moment (g3)
   double top;         ///< top speed of the table (table_top()), m/s or rad/s
   double rest_speed;  ///< speed below which the chip never uses the table, m/s or rad/s
 };

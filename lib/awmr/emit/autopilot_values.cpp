@@ -114,11 +114,15 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
   const double closed_s = gains.epsilon / gains.mu;
   pilot.add(
       p, "1/(m/s)",
-      fmt::format("m'/(4 T), T = eps_s/mu_s = {:.4g} s, the time constant of the closed loop",
+      fmt::format("m'/(4 T); m': mass over F_max, T = eps_s/mu_s = {:.4g} s: time constant of the "
+                  "closed loop",
                   closed_s),
       [closed_s](const Plant<double>& plant) { return plant.mass_norm / (4.0 * closed_s); }, usual);
   pilot.add(
-      i, "1/m", fmt::format("g1'(u)/(4 T) at the speed of throttle {:g}", throttle),
+      i, "1/m",
+      fmt::format("g1'(u)/(4 T): slope of the surge resistance at the speed of throttle {:g}; T: "
+                  "time constant of the closed loop",
+                  throttle),
       [closed_s, throttle](const Plant<double>& plant) {
         return slope(plant.surge, speed_at(plant, throttle)) / (4.0 * closed_s);
       },
@@ -161,7 +165,10 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
     // s/r: steering output s divided by the yaw rate r, with 4 d s = g3(r) at constant yaw rate.
     const double s = 0.5 * pilot.vehicle().wheel_force.hi;
     pilot.add(
-        kName, "1/(rad/s)", fmt::format("s/r with 4 d s = g3(r) at s = {:g}", s),
+        kName, "1/(rad/s)",
+        fmt::format("s/r at the steering output s = {:g}; r: yaw rate with 4 d s = g3(r), d: half "
+                    "track, g3: yaw resistance",
+                    s),
         [s](const Plant<double>& plant) {
           return s / steady_or_never(plant.yaw, 4.0 * plant.half_track_m * s);
         },
@@ -173,8 +180,8 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
   // so the value is multiplied by u.
   pilot.add(
       kName, "1/(rad/s)",
-      "s/r with l_f g1(u) tan(s d_max/2) = g3(r) at s = 0.5 and CRUISE_SPEED, times u above "
-      "MOT_SPD_SCA_BASE = 1 m/s",
+      "s/r at the steering output s = 0.5; r: yaw rate with l_f g1(u) tan(s d_max/2) = g3(r) at "
+      "the speed u = CRUISE_SPEED; if u is above MOT_SPD_SCA_BASE = 1 m/s, times u",
       [throttle](const Plant<double>& plant) {
         const double u = speed_at(plant, throttle);
         const double moment =
@@ -213,11 +220,15 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const HeadingGains<double> gains = pilot.source.gains->heading;
   const double closed_s = 1.0 / (gains.lambda + gains.mu / gains.epsilon);
   pilot.add("RO_YAW_RATE_P", "1/(rad/s)",
-            fmt::format("I'z/(4 d T), T = 1/(lambda + mu/epsilon) = {:.4g} s", closed_s),
+            fmt::format("I'z/(4 d T); I'z: yaw inertia over F_max, d: half track, T = 1/(lambda + "
+                        "mu/epsilon) = {:.4g} s: time constant of the closed loop",
+                        closed_s),
             [closed_s](const Plant<double>& plant) {
               return plant.inertia_norm / (4.0 * plant.half_track_m * closed_s);
             });
-  pilot.add("RO_YAW_RATE_I", "1/rad", "g3'(r)/(4 d T) at half of RO_YAW_RATE_LIM",
+  pilot.add("RO_YAW_RATE_I", "1/rad",
+            "g3'(r)/(4 d T): slope of the yaw resistance at half of RO_YAW_RATE_LIM; d: half "
+            "track, T: time constant of the closed loop",
             [closed_s, rate](const Plant<double>& plant) {
               return slope(plant.yaw, 0.5 * rate(plant)) / (4.0 * plant.half_track_m * closed_s);
             });
@@ -228,9 +239,11 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
 /// so that
 ///   RO_YAW_RATE_CORR = g3(r) u_max/(4 d^2 r)
 void add_skid(Autopilot& pilot, const OfPlant& rate) {
-  pilot.add("RD_WHEEL_TRACK", "m", "2 d",
+  pilot.add("RD_WHEEL_TRACK", "m", "2 d; d: half track",
             [](const Plant<double>& plant) { return 2.0 * plant.half_track_m; });
-  pilot.add("RO_YAW_RATE_CORR", "1", "g3(r) RO_MAX_THR_SPEED/(4 d^2 r) at half of RO_YAW_RATE_LIM",
+  pilot.add("RO_YAW_RATE_CORR", "1",
+            "g3(r) RO_MAX_THR_SPEED/(4 d^2 r); g3: yaw resistance, d: half track, r: half of "
+            "RO_YAW_RATE_LIM",
             [rate](const Plant<double>& plant) {
               const double r = 0.5 * rate(plant);
               const double d = plant.half_track_m;
@@ -240,7 +253,7 @@ void add_skid(Autopilot& pilot, const OfPlant& rate) {
 }
 
 void add_steered(Autopilot& pilot) {
-  pilot.add("RA_MAX_STR_ANG", "rad", "d_max",
+  pilot.add("RA_MAX_STR_ANG", "rad", "d_max: steering stop",
             [](const Plant<double>& plant) { return plant.steering_max_rad; });
   pilot.add("RA_STR_RATE_LIM", "deg/s", "largest rate of the steering angle",
             [](const Plant<double>& plant) { return degrees(plant.steering_max_rate_radps); });
@@ -274,7 +287,8 @@ Result<AutopilotValues> ardupilot_values(const ExportSource& source) {
   const double throttle = 0.01 * percent;
   pilot.add("CRUISE_THROTTLE", "%", "half of the largest wheel force, in whole percent",
             [percent](const Plant<double>&) { return percent; });
-  pilot.add("CRUISE_SPEED", "m/s", "u with g1(u) = 4 F' at CRUISE_THROTTLE",
+  pilot.add("CRUISE_SPEED", "m/s",
+            "speed u at which the surge resistance g1(u) equals the force 4 F' of CRUISE_THROTTLE",
             [throttle](const Plant<double>& plant) { return speed_at(plant, throttle); });
   add_speed_loop(pilot, "ATC_SPEED_P", "ATC_SPEED_I", throttle, Interval{0.0, 2.0});
   add_steering_feed_forward(pilot, throttle);
@@ -288,7 +302,9 @@ Result<AutopilotValues> ardupilot_values(const ExportSource& source) {
 Result<AutopilotValues> px4_values(const ExportSource& source) {
   AWMR_RETURN_IF_ERROR(check_surge(source.model));
   Autopilot pilot{source};
-  pilot.add("RO_MAX_THR_SPEED", "m/s", "u with g1(u) = 4 F' at F' = 1" + extrapolated(source.model),
+  pilot.add("RO_MAX_THR_SPEED", "m/s",
+            "speed u at which the surge resistance g1(u) equals the largest force 4 F' (F' = 1)" +
+                extrapolated(source.model),
             [](const Plant<double>& plant) { return speed_at(plant, 1.0); });
   add_speed_loop(pilot, "RO_SPEED_P", "RO_SPEED_I", 0.5 * pilot.vehicle().wheel_force.hi);
   leave_out_observer(pilot);
@@ -301,10 +317,11 @@ Result<AutopilotValues> px4_values(const ExportSource& source) {
                         measured_degps](const Plant<double>& plant) {
     return largest_yaw_rate(plant, vehicle, measured_degps);
   };
-  pilot.add("RO_YAW_RATE_LIM", "deg/s",
-            "r with g3(r) = the largest yaw moment, but at most the highest yaw rate at which "
-            "resistance was measured",
-            [rate](const Plant<double>& plant) { return degrees(rate(plant)); });
+  pilot.add(
+      "RO_YAW_RATE_LIM", "deg/s",
+      "yaw rate r at which the yaw resistance g3(r) equals the largest yaw moment, but at most "
+      "the highest yaw rate at which resistance was measured",
+      [rate](const Plant<double>& plant) { return degrees(rate(plant)); });
   if (pilot.vehicle().has_steering()) {
     add_steered(pilot);
   } else {

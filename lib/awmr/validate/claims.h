@@ -47,7 +47,7 @@ struct ClaimSetting {
   ControlOptions control = {};  ///< control options of every scenario
 
   /// Simulates the scenario in all three modes. Preconditions: the model has every parameter, and a
-  /// 95 % interval for each parameter in the scenario's `corner`, which is set to an end of it.
+  /// 95 % interval for each parameter that the scenario's `corner` sets to an end of its interval.
   ModeRuns run(const Scenario& scenario) const;
 };
 /// Simulates the scenario with each setting in all three modes, as ClaimSetting::run() does, in one

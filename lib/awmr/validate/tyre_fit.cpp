@@ -139,7 +139,7 @@ std::string comparison_text(const TyreFit& tyres) {
                                   ? "the four-wheel plant predicts better than the 3-DOF model"
                                   : "the 3-DOF model predicts better than the four-wheel plant";
   return fmt::format(
-      "over {} windows of {:g} s, each held out from the fit that predicts it, {} (RMS errors, SI "
+      "over {} windows of {:g} s, each predicted by a fit without this window, {} (RMS errors, SI "
       "units: {})",
       tyres.windows, kWindow_s, verdict, text);
 }
@@ -275,9 +275,10 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (!shown) return fail(shown.error());
   const auto sums = held_out(windows, plants, *shown);
   if (!sums) {
-    return fail(finding(first, Severity::kError, "tyres-not-converged",
-                        "the fit to every other window, for the comparison of the plants, does not "
-                        "converge; record a longer drive"));
+    return fail(
+        finding(first, Severity::kError, "tyres-not-converged",
+                "the fit to every other window, with which the plants are compared, does not "
+                "converge; record a longer drive"));
   }
   TyreFit tyres{
       .tyres = tyres_at(shown->fit.at),

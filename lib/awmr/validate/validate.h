@@ -24,7 +24,7 @@ struct TrialResidual {
   int line = 0;
   std::string unit;
   double measured = 0.0;
-  /// In `unit`; absent if the model gives no prediction (predicted_measurement()).
+  /// Predicted value, in `unit`; absent if the model gives none (predicted_measurement()).
   std::optional<double> predicted;
   std::optional<double> relative_error;  ///< (predicted - measured)/measured
 };
