@@ -31,8 +31,8 @@ constexpr std::string_view kCheckMacro = R"(
 
 )";
 
-/// The constraint T2 < T1 of tune/, reaching the sliding surface faster than moving along it, in a
-/// form without a division, which a compiler can check:
+/// The constraint T2 < T1 of tune/: the sliding surface is reached faster than the heading error
+/// decays on it. The form without a division can be checked by a compiler:
 ///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
 constexpr std::string_view kRelations =
     R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than the
@@ -95,11 +95,12 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
     text += fmt::format("/* {} */\n#define {} {}\n", comment_safe(macro.comment), macro.name,
                         float_literal(macro.value));
   }
-  return text + fmt::format(
-                    "/* SHA-256 of the model's SHA-256 followed by the gains', as 128 lower-case "
-                    "hexadecimal digits */\n"
-                    "#define AWMR_PARAMS_SHA256 \"{}\"\n",
-                    params_sha256(inputs));
+  return text +
+         fmt::format(
+             "/* SHA-256 of 128 lower-case hexadecimal digits: the SHA-256 of the model file, then "
+             "that of the gains file */\n"
+             "#define AWMR_PARAMS_SHA256 \"{}\"\n",
+             params_sha256(inputs));
 }
 
 /// Checks F'min < F'max (wheel force), d_max < 90 deg (steering stop) and T2 < T1 (heading law). The

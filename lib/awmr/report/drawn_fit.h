@@ -31,7 +31,7 @@ struct LeftOver {
 struct DrawnFit {
   /// Indices of the runs of this kind in the model's list of trials; never empty.
   std::vector<std::size_t> trials = {};
-  Resistance<double> law{};            ///< `coulomb` includes the motors' dead zone (surge only)
+  Resistance<double> law{};            ///< law; for surge, `coulomb` includes the dead zone
   std::vector<CurvePoint> curve = {};  ///< fitted curve; empty if the model does not have the law
   bool has_band = false;               ///< true: the curve has a confidence band
   /// Residuals of the runs; empty if the model predicts fewer than three of them.

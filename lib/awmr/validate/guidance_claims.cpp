@@ -156,7 +156,8 @@ double off_path_m(const ModeRun& run) {
   return largest;
 }
 
-/// The path's smallest radius of curvature, m: |p_dot|^3/|p_dot x p_ddot| = speed/(yaw rate).
+/// Smallest radius of curvature of the path p(t), m: |p_dot|^3/|p_dot x p_ddot|, which is the speed
+/// divided by the yaw rate.
 double least_radius_m(const Lissajous<double>& path, double duration_s) {
   double least = 1e300;
   for (double t_s = 0.0; t_s < duration_s; t_s += 0.1) {
@@ -166,7 +167,7 @@ double least_radius_m(const Lissajous<double>& path, double duration_s) {
   return least;
 }
 
-/// off_path_m() by mode. Kept instead of the runs, which need much memory.
+/// Results of off_path_m() by mode, which are kept instead of the runs to save memory.
 using OffPath = std::map<YawMode, double>;
 OffPath off_path_by_mode(const ModeRuns& runs) {
   OffPath off;

@@ -40,7 +40,7 @@ ControlOptions control_in(const ClaimCase& open) {
 }
 
 /// Divides the indices of the cases into batches with the same allocation and split. A batch has at
-/// most two cases, because the six runs of C11 (two cases in three modes) take 120 MB.
+/// most two cases, because the six runs of claim C11 (two cases in three modes) take 120 MB.
 std::vector<std::vector<std::size_t>> batches_of(const std::vector<ClaimCase>& cases) {
   constexpr std::size_t kCasesMax = 2;
   std::map<std::pair<AllocationForm, CombinedSplit>, std::vector<std::size_t>> open;
