@@ -8,8 +8,8 @@
 ///     skid steering s: F'L = throttle + s, F'R = throttle - s   4 d s = g3(r)
 ///     steered wheels:  d_r = steering times the stop            l_f g1(u) tan(d_r/2) = g3(r)
 ///
-/// The equations for skid steering and for steered wheels follow from [paper (41)] for turns in the
-/// positive direction. The autopilots' laws are in ArduPilot's
+/// The equations for skid steering and for steered wheels follow from (41) of the paper for turns
+/// in the positive direction. The autopilots' laws are in ArduPilot's
 /// libraries/APM_Control/AR_AttitudeControl.cpp (get_throttle_out_speed, get_steering_out_rate) and
 /// AR_Motors/AP_MotorsUGV.cpp, and in PX4's src/lib/rover_control/RoverControl.cpp (speedControl,
 /// rateControl) and rovercontrol_params.yaml.

@@ -103,8 +103,8 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
              params_sha256(inputs));
 }
 
-/// Checks F'min < F'max (wheel force), d_max < 90 deg (steering stop) and T2 < T1 (heading law). The
-/// values are compared after rounding to float32, because rounding can make two of them equal.
+/// Checks F'min < F'max (wheel force), d_max < 90 deg (steering stop) and T2 < T1 (heading law).
+/// The values are compared after rounding to float32, because rounding can make two of them equal.
 Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;

@@ -80,8 +80,8 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains);
 ///                                                                 [paper 4.3, section 6]
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
-/// Checks C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims for each
-/// setting. Precondition: as for run_all(), all settings have the same control, arithmetic and
+/// Checks C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims for
+/// each setting. Precondition: as for run_all(), all settings have the same control, arithmetic and
 /// sample time.
 ///                                                                   [paper 5, section 7]
 std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);

@@ -1,6 +1,7 @@
 /* C interface of the autopilot for one vehicle. C99 and C++11. Angles are in rad, counter-clockwise
    positive; x is forward, y left. Forces are divided by F_max, the largest force of one motor. No
-   memory is allocated. There is one autopilot: call all functions from the same thread or interrupt.
+   memory is allocated. There is one autopilot: call all functions from the same thread or
+   interrupt.
 
      awmr_init();
      every AWMR_SAMPLE_TIME_S: fill an awmr_input; awmr_step(&input, &output); drive the motors. */

@@ -79,7 +79,7 @@ class Recorder {
     }
     if (state_ == kWaiting || state_ == kDone) return kNothing;
     if (is_doubtful) return lose();
-    if (!m.is_held && state_ != kCoasting) return give_up(kLetGo); /* motors are off while coasting */
+    if (!m.is_held && state_ != kCoasting) return give_up(kLetGo); /* coasting: motors are off */
     const float t_s = static_cast<float>(m.now_ms - since_ms_) * 1e-3f;
     const bool is_fresh = m.speed_ms != speed_ms_;
     speed_ms_ = m.speed_ms;
