@@ -30,8 +30,8 @@ TableShape shape_of(const EmittedTable& table) {
 /// Returns the value rounded to float32, as on the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
-/// Range of F' that the allocation can request: that of the wheel forces, reduced by the dead zone
-/// of the motors as in make_controller().
+/// Range of the wheel force F' (divided by F_max) that the allocation can request: the range in
+/// vehicle.json, reduced by the dead zone of the motors as in make_controller().
 Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehicle) {
   const Controller<double> controller = make_controller(plant, vehicle, {});
   return {controller.limits.force_min, controller.limits.force_max};
@@ -68,8 +68,8 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>
   return rest;
 }
 
-/// Returns the controller in float. Values derived from it are also computed in float, as awmr.cpp
-/// computes them in the firmware, because the check sum covers their bits.
+/// Returns the controller in float. awmr.cpp in the firmware computes derived values in float. They
+/// are computed in float here as well, because the check sum covers their bits.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
                                    const Gains<double>& gains) {
   Controller<float> controller{};
@@ -114,8 +114,8 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
   return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/allocation",
-                     "the firmware does not support the small-angle allocation: give \"exact\", or "
-                     "emit the header alone (" +
+                     "the firmware does not support the small-angle allocation: set \"exact\" "
+                     "instead, or emit the header alone (" +
                          option_text("header-only") + ")");
 }
 
@@ -127,21 +127,23 @@ Status check_drive(const Plant<double>& plant, const Model& model) {
                          option_text("header-only") + ")");
 }
 
-/// Errors (input): powf is selected, but the resistance is not a power law.
+/// Checks that the firmware can compute the resistance in this form. Errors (input): powf is
+/// selected, but the resistance is not a power law.
 Status check_family(const Plant<double>& plant, ResistanceForm form) {
   if (form == ResistanceForm::kPowf && !is_power_law(plant)) {
-    return input_error(ErrorCode::kUnsupported, option_text("resistance"),
-                       "powf supports only the power law; this model's resistance family needs the "
-                       "table: leave this option out");
+    return input_error(
+        ErrorCode::kUnsupported, option_text("resistance"),
+        "powf supports only power laws; this model has another resistance, which needs "
+        "the table: leave this option out");
   }
   return {};
 }
 
-/// A resistance law and the data from which its table is made.
+/// A resistance law of the firmware, and the data from which its table is made.
 struct ChipLaw {
   std::string name;   ///< "surge" or "yaw", for messages
   ResistanceLaw law;  ///< g1, dimensionless, or g3, m
-  double full_scale;  ///< the largest possible force or moment, in the unit of g
+  double full_scale;  ///< largest possible force (g1) or moment (g3)
   double top;         ///< top speed of the table (table_top()), m/s or rad/s
   double rest_speed;  ///< speed below which the chip never uses the table, m/s or rad/s
 };
@@ -153,11 +155,12 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
   return chip;
 }
 
-/// The largest float below `top`. The last cell of the table ends at `top` but does not contain it.
+/// Returns the largest float below `top`, the end of the table's last cell. The cell does not
+/// contain its end, so `top` itself is outside of the table.
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
 /// Adds the tables of g1 and g3 to the parameters. Errors (refused): `table_error` is given, and no
-/// table of at most 1024 lines meets it.
+/// table of at most 1024 lines has an error within it.
 Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double> table_error,
                   AutopilotParameters& parameters) {
   const auto table = [&](const ChipLaw& chip) {

@@ -1,14 +1,15 @@
 /// Computes the parameters of ArduPilot Rover and of PX4's rovers from a model.
 ///
-/// The loops of these autopilots with the model's symbols; throttle and steering are in [-1, 1]
-/// like F':
+/// Throttle and steering of these autopilots are in [-1, 1], like the wheel force F' (divided by
+/// the largest force F_max). At constant speed u and yaw rate r, with the model's symbols (d: half
+/// track, l_f: centre of gravity to front axle, d_r: steering angle, g1, g3: resistances):
 ///
-///     throttle = F' of every wheel                              4 F' = g1(u) at a steady speed u
+///     throttle = F' of every wheel                              4 F' = g1(u)
 ///     skid steering s: F'L = throttle + s, F'R = throttle - s   4 d s = g3(r)
 ///     steered wheels:  d_r = steering times the stop            l_f g1(u) tan(d_r/2) = g3(r)
 ///
-/// The equations for skid steering and for steered wheels follow from (41) at constant speed, for
-/// turns in the positive direction. The autopilots' laws are in ArduPilot's
+/// The equations for skid steering and for steered wheels follow from (41) of the paper for turns
+/// in the positive direction. The autopilots' laws are in ArduPilot's
 /// libraries/APM_Control/AR_AttitudeControl.cpp (get_throttle_out_speed, get_steering_out_rate) and
 /// AR_Motors/AP_MotorsUGV.cpp, and in PX4's src/lib/rover_control/RoverControl.cpp (speedControl,
 /// rateControl) and rovercontrol_params.yaml.
@@ -50,7 +51,7 @@ struct Autopilot {
 
   /// Adds a positive number computed from the plant, with an interval that is symmetric in the
   /// logarithm of the number. `usual`: range in the autopilot's documentation. A number outside of
-  /// it is kept and reported.
+  /// this range is exported as well, with a remark.
   void add(const char* name, const char* unit, std::string derivation, const OfPlant& f,
            std::optional<Interval> usual = {}) {
     const double value = f(source.model.plant_as_known());
@@ -90,16 +91,17 @@ bool knows_yaw(const Autopilot& pilot) {
   return pilot.knows(ParameterId::kYawAlpha) && pilot.knows(ParameterId::kYawBeta);
 }
 
-/// Returns the steady speed u for a throttle: g1(u) = 4 (F' minus the dead zone). NaN if the force
-/// does not overcome friction.
+/// Returns the steady speed u for a throttle F': g1(u) = 4 (F' minus the dead zone of the motors).
+/// NaN if the force does not overcome friction.
 double speed_at(const Plant<double>& plant, double throttle) {
   return steady_or_never(plant.surge, 4.0 * beyond_dead_zone(throttle, plant.wheel_dead_zone));
 }
 
-/// Adds the gains of the autopilot's speed loop, a PI controller of the throttle. Its closed loop
-/// has the time constant T that awmr's speed law has inside its boundary layer:
-///   T = eps_s/mu_s,   K_p = m'/(4 T),   K_i = g1'(u)/(4 T)
-/// The zero of the PI controller cancels the pole of the plant, m' du/dt = 4 dF' - g1'(u) du.
+/// Adds the gains of the autopilot's speed loop, a PI controller of the throttle with the gains K_p
+/// and K_i. The closed loop gets the time constant T that awmr's speed law (gains mu_s, eps_s) has
+/// inside its boundary layer:
+///   T = eps_s/mu_s,   K_p = m'/(4 T),   K_i = g1'(u)/(4 T),   g1' = dg1/du
+/// The zero of the PI controller then cancels the pole of the plant, m' du/dt = 4 dF' - g1'(u) du.
 /// [Skogestad 2003, J. Process Control 13, 291]
 void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throttle,
                     std::optional<Interval> usual = {}) {
@@ -112,11 +114,15 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
   const double closed_s = gains.epsilon / gains.mu;
   pilot.add(
       p, "1/(m/s)",
-      fmt::format("m'/(4 T), T = eps_s/mu_s = {:.4g} s, the time constant of the closed loop",
+      fmt::format("m'/(4 T); m': mass over F_max, T = eps_s/mu_s = {:.4g} s: time constant of the "
+                  "closed loop",
                   closed_s),
       [closed_s](const Plant<double>& plant) { return plant.mass_norm / (4.0 * closed_s); }, usual);
   pilot.add(
-      i, "1/m", fmt::format("g1'(u)/(4 T) at the speed of throttle {:g}", throttle),
+      i, "1/m",
+      fmt::format("g1'(u)/(4 T): slope of the surge resistance at the speed of throttle {:g}; T: "
+                  "time constant of the closed loop",
+                  throttle),
       [closed_s, throttle](const Plant<double>& plant) {
         return slope(plant.surge, speed_at(plant, throttle)) / (4.0 * closed_s);
       },
@@ -127,7 +133,8 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
 void leave_out_observer(Autopilot& pilot) {
   if (!pilot.source.gains || !pilot.source.gains->observer.is_on()) return;
   pilot.leave_out("the disturbance observer",
-                  "the gains were tuned with it; this autopilot has integrators instead");
+                  "the gains were tuned with this observer, which the autopilot does not have; its "
+                  "integrators replace it");
 }
 
 Status check_surge(const Model& model) {
@@ -155,22 +162,26 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
   constexpr Interval kUsual{0.0, 3.0};
   if (!knows_yaw(pilot)) return pilot.leave_out(kName, kNoYaw);
   if (!pilot.vehicle().has_steering()) {
-    // The steering output s divided by the yaw rate r, with 4 d s = g3(r).
+    // s/r: steering output s divided by the yaw rate r, with 4 d s = g3(r) at constant yaw rate.
     const double s = 0.5 * pilot.vehicle().wheel_force.hi;
     pilot.add(
-        kName, "1/(rad/s)", fmt::format("s/r with 4 d s = g3(r) at s = {:g}", s),
+        kName, "1/(rad/s)",
+        fmt::format("s/r at the steering output s = {:g}; r: yaw rate with 4 d s = g3(r), d: half "
+                    "track, g3: yaw resistance",
+                    s),
         [s](const Plant<double>& plant) {
           return s / steady_or_never(plant.yaw, 4.0 * plant.half_track_m * s);
         },
         kUsual);
     return;
   }
-  // s/r, with l_f g1(u) tan(s d_max/2) = g3(r). Above MOT_SPD_SCA_BASE = 1 m/s, ArduPilot divides
-  // the output by u, so the value is multiplied by u.
+  // s/r: steering output s divided by the yaw rate r, with l_f g1(u) tan(s d_max/2) = g3(r) at
+  // constant yaw rate. Above MOT_SPD_SCA_BASE = 1 m/s, ArduPilot divides the output by the speed u,
+  // so the value is multiplied by u.
   pilot.add(
       kName, "1/(rad/s)",
-      "s/r with l_f g1(u) tan(s d_max/2) = g3(r) at s = 0.5 and CRUISE_SPEED, times u above "
-      "MOT_SPD_SCA_BASE = 1 m/s",
+      "s/r at the steering output s = 0.5; r: yaw rate with l_f g1(u) tan(s d_max/2) = g3(r) at "
+      "the speed u = CRUISE_SPEED; if u is above MOT_SPD_SCA_BASE = 1 m/s, times u",
       [throttle](const Plant<double>& plant) {
         const double u = speed_at(plant, throttle);
         const double moment =
@@ -180,7 +191,9 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
       kUsual);
 }
 
-/// Yaw rate r at full commands, but at most the highest yaw rate at which resistance was measured:
+/// Steady yaw rate r at the largest steering command, but at most the highest yaw rate at which
+/// resistance was measured. d: half track, l_f: centre of gravity to front axle, d_max: steering
+/// stop:
 ///   skid:     g3(r) = 2 d (F'max - F'min)
 ///   steered:  g3(r) = 2 l_f F'max sin d_max
 double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,
@@ -194,10 +207,9 @@ double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,
   return measured_degps ? std::min(rate, radians(*measured_degps)) : rate;
 }
 
-/// Adds the gains of PX4's yaw-rate loop for skid steering. Its closed loop has the time constant T
-/// that the yaw rate has with awmr's heading law inside the boundary layer, T = 1/(lambda +
-/// mu/epsilon):
-///   K_p = I'z/(4 d T),   K_i = g3'(r)/(4 d T)
+/// Adds the gains K_p and K_i of PX4's yaw-rate loop for skid steering. The closed loop gets the
+/// time constant T that the yaw rate has with awmr's heading law inside the boundary layer:
+///   T = 1/(lambda + mu/epsilon),   K_p = I'z/(4 d T),   K_i = g3'(r)/(4 d T),   g3' = dg3/dr
 void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const bool known = pilot.source.gains && pilot.knows(ParameterId::kInertiaNorm);
   if (!known) {
@@ -208,23 +220,30 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const HeadingGains<double> gains = pilot.source.gains->heading;
   const double closed_s = 1.0 / (gains.lambda + gains.mu / gains.epsilon);
   pilot.add("RO_YAW_RATE_P", "1/(rad/s)",
-            fmt::format("I'z/(4 d T), T = 1/(lambda + mu/epsilon) = {:.4g} s", closed_s),
+            fmt::format("I'z/(4 d T); I'z: yaw inertia over F_max, d: half track, T = 1/(lambda + "
+                        "mu/epsilon) = {:.4g} s: time constant of the closed loop",
+                        closed_s),
             [closed_s](const Plant<double>& plant) {
               return plant.inertia_norm / (4.0 * plant.half_track_m * closed_s);
             });
-  pilot.add("RO_YAW_RATE_I", "1/rad", "g3'(r)/(4 d T) at half of RO_YAW_RATE_LIM",
+  pilot.add("RO_YAW_RATE_I", "1/rad",
+            "g3'(r)/(4 d T): slope of the yaw resistance at half of RO_YAW_RATE_LIM; d: half "
+            "track, T: time constant of the closed loop",
             [closed_s, rate](const Plant<double>& plant) {
               return slope(plant.yaw, 0.5 * rate(plant)) / (4.0 * plant.half_track_m * closed_s);
             });
 }
 
-/// Adds the parameters of a skid-steered rover. PX4's feed-forward of the steering output is
-/// s = RO_YAW_RATE_CORR r d/RO_MAX_THR_SPEED. The model needs 4 d s = g3(r), so that
+/// Adds the parameters of a skid-steered rover. PX4's feed-forward of the steering output is s =
+/// RO_YAW_RATE_CORR r d/u_max, with u_max = RO_MAX_THR_SPEED. The model needs s with 4 d s = g3(r),
+/// so that
 ///   RO_YAW_RATE_CORR = g3(r) u_max/(4 d^2 r)
 void add_skid(Autopilot& pilot, const OfPlant& rate) {
-  pilot.add("RD_WHEEL_TRACK", "m", "2 d",
+  pilot.add("RD_WHEEL_TRACK", "m", "2 d; d: half track",
             [](const Plant<double>& plant) { return 2.0 * plant.half_track_m; });
-  pilot.add("RO_YAW_RATE_CORR", "1", "g3(r) RO_MAX_THR_SPEED/(4 d^2 r) at half of RO_YAW_RATE_LIM",
+  pilot.add("RO_YAW_RATE_CORR", "1",
+            "g3(r) RO_MAX_THR_SPEED/(4 d^2 r); g3: yaw resistance, d: half track, r: half of "
+            "RO_YAW_RATE_LIM",
             [rate](const Plant<double>& plant) {
               const double r = 0.5 * rate(plant);
               const double d = plant.half_track_m;
@@ -234,15 +253,16 @@ void add_skid(Autopilot& pilot, const OfPlant& rate) {
 }
 
 void add_steered(Autopilot& pilot) {
-  pilot.add("RA_MAX_STR_ANG", "rad", "d_max",
+  pilot.add("RA_MAX_STR_ANG", "rad", "d_max: steering stop",
             [](const Plant<double>& plant) { return plant.steering_max_rad; });
   pilot.add("RA_STR_RATE_LIM", "deg/s", "largest rate of the steering angle",
             [](const Plant<double>& plant) { return degrees(plant.steering_max_rate_radps); });
-  pilot.leave_out("RA_WHEEL_BASE", "the model has only the front axle; measure the wheelbase");
+  pilot.leave_out("RA_WHEEL_BASE",
+                  "the model has only the front axle's position; measure the wheelbase");
   for (const char* name : {"RO_YAW_RATE_CORR", "RO_YAW_RATE_P", "RO_YAW_RATE_I"}) {
     pilot.leave_out(
         name,
-        "it corrects the steering angle that PX4 computes from the wheelbase; tune it in "
+        "corrects the steering angle that PX4 computes from the wheelbase; tune this value in "
         "Acro mode");
   }
 }
@@ -267,7 +287,8 @@ Result<AutopilotValues> ardupilot_values(const ExportSource& source) {
   const double throttle = 0.01 * percent;
   pilot.add("CRUISE_THROTTLE", "%", "half of the largest wheel force, in whole percent",
             [percent](const Plant<double>&) { return percent; });
-  pilot.add("CRUISE_SPEED", "m/s", "u with g1(u) = 4 F' at CRUISE_THROTTLE",
+  pilot.add("CRUISE_SPEED", "m/s",
+            "speed u at which the surge resistance g1(u) equals the force 4 F' of CRUISE_THROTTLE",
             [throttle](const Plant<double>& plant) { return speed_at(plant, throttle); });
   add_speed_loop(pilot, "ATC_SPEED_P", "ATC_SPEED_I", throttle, Interval{0.0, 2.0});
   add_steering_feed_forward(pilot, throttle);
@@ -281,7 +302,9 @@ Result<AutopilotValues> ardupilot_values(const ExportSource& source) {
 Result<AutopilotValues> px4_values(const ExportSource& source) {
   AWMR_RETURN_IF_ERROR(check_surge(source.model));
   Autopilot pilot{source};
-  pilot.add("RO_MAX_THR_SPEED", "m/s", "u with g1(u) = 4 F' at F' = 1" + extrapolated(source.model),
+  pilot.add("RO_MAX_THR_SPEED", "m/s",
+            "speed u at which the surge resistance g1(u) equals the largest force 4 F' (F' = 1)" +
+                extrapolated(source.model),
             [](const Plant<double>& plant) { return speed_at(plant, 1.0); });
   add_speed_loop(pilot, "RO_SPEED_P", "RO_SPEED_I", 0.5 * pilot.vehicle().wheel_force.hi);
   leave_out_observer(pilot);
@@ -294,10 +317,11 @@ Result<AutopilotValues> px4_values(const ExportSource& source) {
                         measured_degps](const Plant<double>& plant) {
     return largest_yaw_rate(plant, vehicle, measured_degps);
   };
-  pilot.add("RO_YAW_RATE_LIM", "deg/s",
-            "r with g3(r) = the largest yaw moment, but at most the highest yaw rate at which "
-            "resistance was measured",
-            [rate](const Plant<double>& plant) { return degrees(rate(plant)); });
+  pilot.add(
+      "RO_YAW_RATE_LIM", "deg/s",
+      "yaw rate r at which the yaw resistance g3(r) equals the largest yaw moment, but at most "
+      "the highest yaw rate at which resistance was measured",
+      [rate](const Plant<double>& plant) { return degrees(rate(plant)); });
   if (pilot.vehicle().has_steering()) {
     add_steered(pilot);
   } else {

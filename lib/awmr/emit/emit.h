@@ -21,7 +21,8 @@
 
 namespace awmr {
 
-/// Inputs that the emitted headers name as their origin. The model's file name is in Model::file.
+/// Input files that the emitted headers name as their origin. The name of the model file is in
+/// Model::file.
 struct EmitInputs {
   std::string model_sha256;               ///< SHA-256 of the model file, lower-case hexadecimal
   std::string gains_sha256;               ///< SHA-256 of the gains file, lower-case hexadecimal
@@ -45,7 +46,7 @@ Result<std::string> params_header(const Model& model, const Gains<double>& gains
 /// Method by which the firmware computes the resistances g1 (surge) and g3 (yaw).
 enum class ResistanceForm {
   kTable,  ///< interpolates a table in flash: much faster than kPowf, needs more flash
-  kPowf    ///< computes the power law with the C library's powf; for no other law
+  kPowf    ///< computes the power law with the C library's powf; supports no other law
 };
 inline constexpr NameTable<ResistanceForm, 2> kResistanceFormNames{
     {{"table", ResistanceForm::kTable}, {"powf", ResistanceForm::kPowf}}};
@@ -67,17 +68,18 @@ inline constexpr NameTable<FirmwarePart, 6> kFirmwarePartNames{
      {"shaping", FirmwarePart::kShaping},
      {"observer", FirmwarePart::kObserver}}};
 
-/// Default of EmitOptions::table_error. Far below the usual uncertainty of an identified law.
+/// Default of EmitOptions::table_error. This error is far below the usual uncertainty of an
+/// identified law.
 inline constexpr double kTableError = 5e-4;
 
 /// Options of the firmware.
 struct EmitOptions {
   /// kPowf saves flash but lengthens the control step, and supports only the power law.
   ResistanceForm resistance = ResistanceForm::kTable;
-  /// Bound on the relative error of a resistance table, > 0. The error is divided by the resistance
-  /// or, where the resistance is smaller than that, by a tenth of the largest force
-  /// (surge: 4 F'max) or moment (yaw: 4 d F'max). A larger bound gives a smaller table. Absent:
-  /// kTableError or, if no table meets it, the smallest error possible.
+  /// Bound on the relative error of a resistance table, > 0. The error is relative to the
+  /// resistance or, where the resistance is small, to a tenth of the largest force (surge: 4 F'max)
+  /// or moment (yaw: 4 d F'max). A larger bound gives a smaller table. Absent: kTableError or, if
+  /// no table meets this bound, the smallest error possible.
   std::optional<double> table_error = {};
   /// Optional features to compile in. Each needs flash, RAM and, while in use, time in every step.
   std::set<FirmwarePart> parts = {};
@@ -99,14 +101,14 @@ struct EmitOptions {
 
 /// A table of g1 or g3 for the chip, and its errors. Speeds are in m/s for g1, in rad/s for g3.
 struct EmittedTable {
-  std::vector<ResistanceLine> lines;  ///< ResistanceTable::lines
-  std::uint16_t first = 0;            ///< ResistanceTable::first
-  std::uint8_t mantissa_bits = 0;     ///< ResistanceTable::mantissa_bits
-  double lowest_speed = 0.0;          ///< start of the first cell; below it, the table is a line
-                                      ///< through the origin
-  double top_speed = 0.0;             ///< end of the last cell
-  double split = 0.0;                 ///< a tenth of the largest force or moment, in the unit of g
-  double worst_error = 0.0;           ///< largest error where g is below `split`, in the unit of g
+  std::vector<ResistanceLine> lines;  ///< the lines, as in ResistanceTable::lines
+  std::uint16_t first = 0;            ///< number of the first cell (ResistanceTable::first)
+  std::uint8_t mantissa_bits = 0;     ///< leading mantissa bits that number the cells, 0 ... 7
+  double lowest_speed = 0.0;          ///< speed at which the first cell begins; below it, the table
+                                      ///< is a line through the origin
+  double top_speed = 0.0;             ///< speed at which the last cell ends
+  double split = 0.0;        ///< tenth of the largest force (g1) or moment (g3), in the unit of g
+  double worst_error = 0.0;  ///< largest error where g is below `split`, in the unit of g
   double worst_relative_error = 0.0;  ///< largest error relative to g, where g is above `split`
 
   /// Returns the largest relative error: relative to g, or to `split` where g is below `split`.
@@ -115,8 +117,8 @@ struct EmittedTable {
   ResistanceTable view() const;
 };
 
-/// Noise of a GPS fix (standard deviation per axis, m) and its latency (s) if vehicle.json has
-/// none.
+/// Values that replace a missing noise or latency of the GPS in vehicle.json: standard deviation of
+/// a fix per axis, m, and latency, s.
 inline constexpr double kUsualFixNoise_m = 1.5;
 inline constexpr double kUsualFixLatency_s = 0.2;
 
@@ -127,33 +129,36 @@ inline constexpr double kMaxOnCourse_rad = radians(45.0);
 /// Parameters of the firmware, in the types that the chip uses.
 struct AutopilotParameters {
   ParameterBlock block{};
-  /// Coulomb friction, dead zone and back-EMF to compensate; absent if the model has none of them.
+  /// Coulomb friction, dead zone and back-EMF that the firmware compensates; absent if the model
+  /// has none of them.
   std::optional<RestBlock> rest;
-  /// The observer that the gains were tuned with. Absent: off, unless the sketch enables one.
+  /// The observer that the gains were tuned with. Absent: there is no observer, unless the sketch
+  /// enables one.
   std::optional<ObserverBlock> observer;
   float steering_max_tan_half = 0.0F;                  ///< tan(d_max/2), d_max: steering stop
   EmittedTable surge;                                  ///< table of g1; empty for kPowf
   EmittedTable yaw;                                    ///< table of g3; empty for kPowf
   ResistanceForm resistance = ResistanceForm::kTable;  ///< as in EmitOptions
-  double table_error = 0.0;               ///< largest of the bound (default kTableError) and the
-                                          ///< errors of both tables
+  double table_error = 0.0;               ///< bound on the relative error (default kTableError);
+                                          ///< larger if a table has a larger error
   float sample_time_s = 0.0F;             ///< AWMR_SAMPLE_TIME_S, s
   float route_speed_mps = 0.0F;           ///< AWMR_ROUTE_SPEED_MPS, m/s
-  double steady_error_rad = 0.0;          ///< steady heading error, rad, if the forces of the
-                                          ///< motors differ by 16 %
+  double steady_error_rad = 0.0;          ///< heading error, rad, that remains if the forces of
+                                          ///< left and right motors differ by 16 %
   float on_course_rad = 0.0F;             ///< AWMR_ON_COURSE_RAD, rad
   float off_course_mrad = 0.0F;           ///< AWMR_OFF_COURSE_MRAD, m rad
   PositionFilter<float> position{};       ///< filter of the GPS fixes
   std::uint32_t position_latency_ms = 0;  ///< latency of the GPS, ms
-  std::set<FirmwarePart> parts;           ///< as in EmitOptions, and the observer of the gains
+  std::set<FirmwarePart> parts;           ///< EmitOptions::parts, and kObserver for such gains
   std::size_t line_law = 0;               ///< as in EmitOptions
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
-  std::uint32_t crc = 0;  ///< crc32_of_parameters(), over block, tables, rest and observer
+  std::uint32_t crc = 0;  ///< check sum over block, tables, rest and observer
 };
 
-/// Computes the firmware's numbers for this model and these gains. Errors: those of params_header();
-/// (input) small-angle allocation, front-wheel drive, or kPowf for a resistance other than the
-/// power law; (refused) no table is within options.table_error.
+/// Computes the numbers of the firmware from the model and the gains. Errors: those of
+/// params_header(); (input) small-angle allocation, front-wheel drive, or kPowf for a resistance
+/// other than the power law; (refused) options.table_error is given, and no table has an error
+/// within it.
 Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
                                                  const EmitInputs& inputs,
                                                  const EmitOptions& options);
@@ -164,7 +169,7 @@ std::string autopilot_header(const AutopilotParameters& parameters);
 
 /// A file of the emitted library.
 struct EmittedFile {
-  std::string path;  ///< relative to the output directory, with '/'
+  std::string path;  ///< path from the output directory, with '/'
   std::string bytes;
 };
 

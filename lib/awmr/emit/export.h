@@ -16,9 +16,9 @@ namespace awmr {
 
 enum class ExportFormat {
   kRos2,       ///< ROS 2 parameter file (YAML) for nodes of any name
-  kMatlab,     ///< script that fills the struct `awmr`
-  kPython,     ///< module that defines constants
-  kCsv,        ///< name,value,unit,std_error,ci95_lo,ci95_hi,source
+  kMatlab,     ///< MATLAB script that assigns the values to the struct `awmr`
+  kPython,     ///< Python module that defines the values as constants
+  kCsv,        ///< table: name,value,unit,std_error,ci95_lo,ci95_hi,source
   kArduPilot,  ///< parameter file of ArduPilot Rover (.param): NAME,VALUE
   kPx4,        ///< parameter file of PX4's rovers (.params), as QGroundControl reads it
 };

@@ -104,8 +104,9 @@ std::string csv_text(const ExportSource& source) {
   return text;
 }
 
-/// Appends to `text` each value in the format of `row`, below a comment with its equation; then a
-/// comment with the reason for each parameter that the model does not determine.
+/// Appends each value of an autopilot to `text`: a comment with the equation, then the value in the
+/// format of `row`. Last comes one comment for each parameter that the model does not determine,
+/// with the reason.
 template <class Row>
 std::string autopilot_text(std::string text, const AutopilotValues& found, const Row& row) {
   for (const ExportedValue& value : found.values) {
@@ -116,7 +117,7 @@ std::string autopilot_text(std::string text, const AutopilotValues& found, const
 }
 
 constexpr std::string_view kFirstDrive =
-    "# Computed from the model, as initial values: drive first with the wheels lifted, then "
+    "# These initial values are computed from the model. First drive with the wheels lifted, then "
     "slowly, with a hand on the power switch.\n"
     "# Intervals are from the model's covariance, to first order.\n";
 

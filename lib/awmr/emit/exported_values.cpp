@@ -39,7 +39,7 @@ void export_parameters(const Model& model, std::vector<ExportedValue>& values) {
                               estimate));
   }
   for (const SiQuantity& quantity : si_quantities(model)) {
-    // The mass m, which is given, is listed by export_vehicle().
+    // Given quantities (the mass m) are skipped here, because export_vehicle() lists them.
     if (quantity.estimate.source == Source::kGiven) continue;
     values.push_back(exported("si" + identifier(quantity.pointer), quantity.unit,
                               fmt::format("{} in SI units", quantity.name), quantity.estimate));
@@ -86,8 +86,8 @@ void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     add("heading_friction_width", gains.heading.friction_width_radps, "rad/s",
         "w0: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot + "
-        "lambda e while this sum is below w0; in differential mode below 0.02 rad/s (with an "
-        "observer: w0)");
+        "lambda e while the magnitude of this sum is below w0; in differential mode the limit "
+        "is 0.02 rad/s without and w0 with an observer");
   }
   if (gains.friction_width_at(0.5) > feed_forward_rest_speed<double>()) {
     add("heading_combined_friction_width", gains.friction_width_at(0.5), "rad/s",

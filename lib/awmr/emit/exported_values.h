@@ -26,9 +26,9 @@ struct ExportedValue {
 /// limits of the vehicle, and the gains. Unknown values are left out.
 std::vector<ExportedValue> exported_values(const ExportSource& source);
 
-/// Values for an autopilot's parameter file, and the parameters that the model does not determine.
+/// Values for an autopilot's parameter file, and texts about the parameters without a value.
 struct AutopilotValues {
-  std::vector<ExportedValue> values;  ///< ExportedValue::meaning is the equation of the value
+  std::vector<ExportedValue> values;  ///< the equation is in ExportedValue::meaning
   std::vector<std::string> left_out;  ///< "NAME: reason"
 };
 /// Derives the parameters of ArduPilot Rover and of PX4's rovers. Errors (input): the model lacks

@@ -6,8 +6,8 @@
 namespace awmr {
 namespace {
 
-/// Text of library.properties, which the Arduino IDE requires. Fields: version, SHA-256 of the
-/// parameters.
+/// Text of library.properties, which the Arduino IDE requires. The two placeholders are the version
+/// and the SHA-256 of the parameters.
 constexpr std::string_view kProperties = R"(name=awmr
 version={}
 author=awmr
@@ -19,8 +19,8 @@ architectures=*
 includes=awmr.h
 )";
 
-/// Metadata for PlatformIO. Without them, PlatformIO would accept the library only for Arduino
-/// boards, but it runs on any chip.
+/// Text of library.json, the metadata for PlatformIO. Without this file, PlatformIO would accept
+/// the library only for Arduino boards, although it runs on any chip.
 constexpr std::string_view kLibraryJson = R"({{
   "name": "awmr",
   "version": "{}",

@@ -5,7 +5,8 @@
 
 namespace awmr {
 
-/// The float nearest to `value`, as %.9g and `f`: it reads back to the same float.
+/// Returns the float nearest to `value` as a C literal, with nine significant digits (%.9g) and the
+/// suffix `f`. A compiler reads the literal as the same float.
 std::string float_literal(double value);
 
 }  // namespace awmr

@@ -39,8 +39,8 @@ void add_parameters(std::vector<Macro>& macros, const Model& model, const std::s
   add("AWMR_SWAY_ALPHA", ParameterId::kSwayAlpha, MacroRange::kPositive);
   add("AWMR_MASS_NORM", ParameterId::kMassNorm, MacroRange::kPositive);
   add("AWMR_INERTIA_NORM", ParameterId::kInertiaNorm, MacroRange::kPositive);
-  // Terms of other resistance families are added only if they are not 0. A power law has none of
-  // them.
+  // Adds the terms of the other resistance families, but only those that are not 0, so that the
+  // header of a power law has none of them.
   const std::pair<const char*, ParameterId> terms[] = {
       {"AWMR_SURGE_COULOMB", ParameterId::kSurgeCoulomb},
       {"AWMR_SURGE_QUADRATIC", ParameterId::kSurgeQuadratic},
@@ -90,8 +90,8 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
   if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
     add("AWMR_HEADING_FRICTION_WIDTH_RADPS", gains.heading.friction_width_radps,
         "w0, rad/s: in steering mode the fed-forward Coulomb friction is proportional to "
-        "psi_d_dot + lambda e while this sum is below w0; in differential mode below 0.02 rad/s "
-        "(with an observer: w0)",
+        "psi_d_dot + lambda e while the magnitude of this sum is below w0; in differential mode "
+        "the limit is 0.02 rad/s without and w0 with an observer",
         "/heading/friction_width_radps");
   }
   if (gains.friction_width_at(0.5) > feed_forward_rest_speed<double>()) {
@@ -102,14 +102,17 @@ void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std
   }
   add("AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
   add("AWMR_SPEED_EPSILON", gains.speed.epsilon,
-      "epsilon_s, m/s: half width of the boundary layer of u_d - u", "/speed/epsilon");
+      "epsilon_s, m/s: half width of the boundary layer of the speed error u_d - u",
+      "/speed/epsilon");
   if (!gains.observer.is_on()) return;
   add("AWMR_OBSERVER_BANDWIDTH_RADPS", gains.observer.bandwidth_radps,
       "L, rad/s: bandwidth of the disturbance observer", "/observer/bandwidth_radps");
   add("AWMR_OBSERVER_YAW_MAX_M", gains.observer.yaw_max_m,
-      "m: largest moment over F_max that the observer compensates", "/observer/yaw_max_m");
+      "m: largest yaw moment that the observer compensates, divided by F_max",
+      "/observer/yaw_max_m");
   add("AWMR_OBSERVER_SURGE_MAX", gains.observer.surge_max,
-      "1: largest force over F_max that the observer compensates", "/observer/surge_max");
+      "1: largest surge force that the observer compensates, divided by F_max",
+      "/observer/surge_max");
 }
 
 /// True if a float32 has full precision for the value: 0 and normal numbers. False for NaN.

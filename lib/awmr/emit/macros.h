@@ -13,7 +13,7 @@ enum class MacroRange { kPositive, kNotNegative, kAnySign };
 
 struct Macro {
   std::string name;     ///< "AWMR_SURGE_ALPHA"
-  double value = 0.0;   ///< in the unit that `comment` names, before rounding to float32
+  double value = 0.0;   ///< value in the unit that `comment` names, not yet rounded to float32
   std::string comment;  ///< symbol, unit, meaning, origin
   std::string place;    ///< `FILE:/json/pointer` of the value, for error messages
   MacroRange range = MacroRange::kPositive;

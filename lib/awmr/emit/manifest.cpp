@@ -14,7 +14,8 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kEmitSchema = "awmr.emit/1";
-/// Beginnings of the headers that emit writes. They identify such a file without a manifest.
+/// First characters of the headers that emit writes. A file that begins with them may be replaced
+/// even without a manifest.
 constexpr std::string_view kMarks[] = {"/* awmr_params.h: ", "/* awmr_autopilot_params.h, "};
 
 /// SHA-256 of each file by its path relative to the emitted directory.
@@ -57,8 +58,8 @@ Result<Hashes> hashes_in(const std::filesystem::path& directory) {
   return hashes;
 }
 
-/// Returns why `file` must not replace the existing file with the content `bytes`; empty if it may.
-/// `written`: hashes of the manifest.
+/// Returns the reason why `file` must not replace the existing file, whose content is `bytes`.
+/// Empty if it may replace the file. `written`: hashes of the manifest.
 std::string fault_of(const EmittedFile& file, const std::string& bytes, const Hashes& written) {
   if (bytes == file.bytes) return {};
   const auto known = written.find(file.path);

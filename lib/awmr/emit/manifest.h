@@ -17,9 +17,10 @@ namespace awmr {
 
 inline constexpr const char* kManifest = "awmr_emit.json";
 
-/// Returns the text of the manifest: origin, `figures`, the findings, and every file with its
-/// SHA-256. Entries of the existing manifest in `directory` for other files are kept. `figures`:
-/// empty, or the text of a JSON object whose keys are added to the manifest.
+/// Returns the text of the manifest: the inputs from which the files were made, `figures`, the
+/// findings, and every file with its SHA-256. Entries of the existing manifest in `directory` for
+/// other files are kept. `figures`: empty, or the text of a JSON object whose keys are added to the
+/// manifest.
 std::string manifest_text(const std::filesystem::path& directory,
                           const std::vector<EmittedFile>& files, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
@@ -31,8 +32,8 @@ std::string manifest_text(const std::filesystem::path& directory,
 Status check_replaceable(const std::filesystem::path& directory,
                          const std::vector<EmittedFile>& files);
 
-/// Returns the files of firmware_library(). Files whose content depends on the model are empty.
-/// With them, check_replaceable() can check a directory before a model exists.
+/// Returns the files of firmware_library(), with empty content where it depends on the model. With
+/// these files, check_replaceable() can check a directory before a model exists.
 std::vector<EmittedFile> library_outline();
 
 /// The JSON Schema of the manifest.

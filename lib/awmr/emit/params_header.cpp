@@ -31,7 +31,8 @@ constexpr std::string_view kCheckMacro = R"(
 
 )";
 
-/// The constraint T2 < T1 of tune/ in a form without a division, which a compiler can check:
+/// The constraint T2 < T1 of tune/: the sliding surface is reached faster than the heading error
+/// decays on it. The form without a division can be checked by a compiler:
 ///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
 constexpr std::string_view kRelations =
     R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than the
@@ -94,34 +95,36 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
     text += fmt::format("/* {} */\n#define {} {}\n", comment_safe(macro.comment), macro.name,
                         float_literal(macro.value));
   }
-  return text + fmt::format(
-                    "/* SHA-256 of the model's SHA-256 followed by the gains', as 128 lower-case "
-                    "hexadecimal digits */\n"
-                    "#define AWMR_PARAMS_SHA256 \"{}\"\n",
-                    params_sha256(inputs));
+  return text +
+         fmt::format(
+             "/* SHA-256 of 128 lower-case hexadecimal digits: the SHA-256 of the model file, then "
+             "that of the gains file */\n"
+             "#define AWMR_PARAMS_SHA256 \"{}\"\n",
+             params_sha256(inputs));
 }
 
-/// Checks F'min < F'max, d_max < 90 deg and T2 < T1. Compares the values after rounding to float32,
-/// as the header has them, because rounding can make two of them equal.
+/// Checks F'min < F'max (wheel force), d_max < 90 deg (steering stop) and T2 < T1 (heading law).
+/// The values are compared after rounding to float32, because rounding can make two of them equal.
 Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
   if (!(static_cast<float>(vehicle.wheel_force.lo) < static_cast<float>(vehicle.wheel_force.hi))) {
-    faults.push_back({ErrorCode::kWrongOrder, file_name(model) + ":/vehicle/wheel_force",
-                      fmt::format("min = {:g} has to be below max = {:g}; correct vehicle.json and "
-                                  "identify again",
-                                  vehicle.wheel_force.lo, vehicle.wheel_force.hi)});
+    faults.push_back(
+        {ErrorCode::kWrongOrder, file_name(model) + ":/vehicle/wheel_force",
+         fmt::format("the smallest wheel force, {:g}, has to be below the largest, {:g}; "
+                     "correct vehicle.json and identify again",
+                     vehicle.wheel_force.lo, vehicle.wheel_force.hi)});
   }
   if (!(static_cast<float>(radians(vehicle.steering_max_deg)) < 1.57079633F)) {
     faults.push_back({ErrorCode::kOutOfRange, file_name(model) + ":/vehicle/steering/max_deg",
-                      fmt::format("{:g} deg has to be below 90 deg; correct vehicle.json and "
-                                  "identify again",
+                      fmt::format("the steering stop, {:g} deg, has to be below 90 deg; correct "
+                                  "vehicle.json and identify again",
                                   vehicle.steering_max_deg)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
 
-  // The user's compiler may evaluate the product in float or exactly. T2 < T1 must hold in both
-  // cases.
+  // The user's compiler may evaluate the product epsilon lambda in float or exactly. T2 < T1 must
+  // hold in both cases.
   const float epsilon = static_cast<float>(gains.heading.epsilon);
   const float lambda = static_cast<float>(gains.heading.lambda);
   const float mu = static_cast<float>(gains.heading.mu);

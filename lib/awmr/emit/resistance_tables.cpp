@@ -14,8 +14,9 @@ namespace awmr {
 namespace {
 
 constexpr int kMaxMantissaBits = 7;
-constexpr int kLowestExponent = -20;  ///< the first entry is at 2^-20 = 1e-6 m/s or rad/s, or above
-constexpr int kMaxLines = 1024;       ///< per table: 8 KiB of flash
+/// The first entry is at a speed of at least 2^-20 = 1e-6 m/s or rad/s.
+constexpr int kLowestExponent = -20;
+constexpr int kMaxLines = 1024;  ///< per table: 8 KiB of flash
 constexpr int kSamplesPerCell = 64;
 
 /// Returns the straight line through the points of the law at the speeds `from` and `to`. If `from`
@@ -46,14 +47,15 @@ EmittedTable table_between(const ResistanceLaw& law, int lowest_exponent, int to
   return table;
 }
 
-/// Largest errors of a table in a range of speeds. EmittedTable defines them for the whole table.
+/// Largest errors of a table in a range of speeds, as EmittedTable::worst_error and
+/// worst_relative_error.
 struct TableErrors {
   double absolute = 0.0;
   double relative = 0.0;
 };
 
 /// Compares the table with the law at `samples` speeds in [lo, hi), except those below
-/// `rest_speed`. Where a difference is larger than `errors`, stores it there.
+/// `rest_speed`. Increases `errors` to the largest differences found.
 void measure(const ResistanceLaw& law, double lo, double hi, int samples, double rest_speed,
              const EmittedTable& table, TableErrors& errors) {
   const ResistanceTable view = table.view();
@@ -100,11 +102,14 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
                                       double full_scale, double top,
                                       std::optional<double> error_share, double rest_speed) {
   const int top_exponent = std::ilogb(top);
-  EmittedTable best;                 // the smallest within the bound
-  EmittedTable closest;              // the one with the smallest error
-  std::map<int, TableErrors> below;  // errors below the first entry, the same for all mantissa bits
+  EmittedTable best;     // the smallest table within the bound
+  EmittedTable closest;  // the table with the smallest error
+  // Errors below the first cell, by the exponent of the speed at which it begins. They do not
+  // depend on the number of mantissa bits.
+  std::map<int, TableErrors> below;
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
-    TableErrors from_first;  // errors from the first entry on; each pass adds the next lower octave
+    // Errors from the first cell on. Each pass of the inner loop adds the next lower octave.
+    TableErrors from_first;
     for (int lowest = top_exponent - 1; lowest >= kLowestExponent; --lowest) {
       const int lines = (top_exponent - lowest) * (1 << bits) + 1;
       if (lines > kMaxLines) break;

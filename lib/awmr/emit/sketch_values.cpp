@@ -22,10 +22,11 @@ double route_speed_mps(const Plant<double>& plant, double full_force) {
 }
 
 /// Fastest steady yaw rate of the vehicle at a speed, rad/s. Absent if the yaw moment does not
-/// exceed the resistance at rest. The moment is made by steering, or by the wheel forces if the
-/// vehicle has no steering:
-///   tau_turn = l_f tau_speed tan(d_max/2)                                      [paper (41)]
-///   tau_turn = d (4 F'max - tau_speed)                              by the wheel forces
+/// exceed the resistance at rest. The largest yaw moment tau_turn comes from the steering or,
+/// without steering, from the wheel forces. tau_speed is the surge force at this speed, l_f the
+/// distance of the front axle, d_max the steering stop, d the half track:
+///   tau_turn = l_f tau_speed tan(d_max/2)                by steering            [paper (41)]
+///   tau_turn = d (4 F'max - tau_speed)                   by the wheel forces
 std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle& vehicle,
                                       double full_force, double speed_mps) {
   const double tau_speed = plant.surge.at(speed_mps);
@@ -36,14 +37,15 @@ std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle&
 }
 
 /// Yaw moment, m, of motors that make unequal forces from equal commands: 0.08 d tau_speed, if left
-/// and right force differ by 16 % of their mean.
+/// and right force differ by 16 % of their mean. d: half track; tau_speed: surge force.
 double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
   return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
 }
 
-/// Fastest steady yaw rate that the heading law reaches at a speed, rad/s, if the resistance is 1.4
-/// times that of the model and the forces of the motors differ by 16 %. It is the solution r
-/// outside of the boundary layer (sat = 1) of
+/// Fastest steady yaw rate r that the heading law reaches at a speed, rad/s, under unfavourable
+/// conditions: the yaw resistance is 1.4 g3(r), 1.4 times that of the model, and the forces of the
+/// motors differ by 16 %, which takes the moment 0.08 d tau_speed. Outside of the boundary layer of
+/// the law (sat = 1), r is the solution of
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
 std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
                                   double speed_mps) {
@@ -53,8 +55,8 @@ std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains
                      plant.inertia_norm * gains.lambda / kMore);
 }
 
-/// Steady heading error e, rad, if the forces of the motors differ by 16 %. In the boundary layer
-/// of the heading law (heading_law.h), at r = 0:
+/// Heading error e, rad, that remains if the forces of the motors differ by 16 %. The heading law
+/// (heading_law.h) inside its boundary layer, at yaw rate 0, balances the moment of these motors:
 ///   0.08 d tau_speed = I'z lambda (mu/epsilon) e
 double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
                         double route_mps) {
@@ -67,11 +69,12 @@ double on_course_rad(double error_rad) {
   return std::clamp(2.0 * error_rad, radians(15.0), kMaxOnCourse_rad);
 }
 
-/// Returns AWMR_OFF_COURSE_MRAD, m rad: the limit of the integral of (heading error - e0) over the
-/// distance (control/motion_check.h), with e0 = `on_course_rad`. A turn by 180 deg with the radius
-/// R adds R (pi - e0)^2/2 to that integral. The limit is this plus 10 m rad for the distance until
-/// the turn begins, but at most 90 m rad. R is the largest turning radius at 1/4, 1/2, 3/4 and all
-/// of the route's speed, because friction at rest can make slow turns wide.
+/// Returns AWMR_OFF_COURSE_MRAD, m rad, the limit of fault 17. The detector
+/// (control/motion_check.h) integrates (heading error - e0) over the distance, with e0 =
+/// `on_course_rad`. A turn by 180 deg with the radius R adds R (pi - e0)^2/2 to this integral
+/// without any failure. The limit is that amount plus 10 m rad for the distance until the turn
+/// begins, but at most 90 m rad. R is the largest turning radius at 1/4, 1/2, 3/4 and all of the
+/// route's speed, because friction at rest can make slow turns wide.
 double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
                        const HeadingGains<double>& gains, double full_force, double route_mps,
                        double on_course_rad) {

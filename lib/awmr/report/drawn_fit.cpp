@@ -21,9 +21,9 @@ constexpr double kWithin99 = 2.576;
 /// Half width of a 95 % interval in standard errors, for a normal distribution.
 constexpr double kNormalQuantile95 = 1.96;
 
-/// Returns the quantile of Student's t that the fit used for its 95 % intervals, computed as half
-/// the width of the exponent's interval divided by the standard error. kNormalQuantile95 if the
-/// exponent has no interval.
+/// Returns the number of standard errors in half of a 95 % interval. The fit took it from Student's
+/// t; it is recomputed here from the interval of the exponent. kNormalQuantile95 if the exponent
+/// has no interval.
 double quantile_of_exponent(const Estimate& beta) {
   if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
   return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
@@ -61,14 +61,15 @@ void add_left_over(const Model& model, DrawnFit& fit) {
     squares += fit.left_over.back().percent * fit.left_over.back().percent;
   }
   if (fit.left_over.size() < 3) return fit.left_over.clear();
-  // n - 2 degrees of freedom: alpha and beta of the law were fitted to the runs.
+  // The variance has n - 2 degrees of freedom, because the law's alpha and beta were fitted to the
+  // n runs.
   fit.bound_percent =
       kWithin99 * std::sqrt(squares / static_cast<double>(fit.left_over.size() - 2));
 }
 
-/// Returns the initial speeds of the coast-downs, m/s, ascending and each once, with the longest
-/// stop time of each, s. If there are more than kMaxCoastdowns speeds, only that many are kept,
-/// evenly spaced in rank.
+/// Returns the initial speeds of the coast-downs, m/s, in ascending order, and for each speed the
+/// longest stop time, s. If there are more than kMaxCoastdowns speeds, kMaxCoastdowns of them are
+/// kept, evenly spaced in rank.
 std::vector<std::pair<double, double>> coasts_of(const Model& model) {
   std::vector<std::pair<double, double>> coasts;
   for (const TrialPoint& trial : model.record.trials) {
@@ -76,7 +77,7 @@ std::vector<std::pair<double, double>> coasts_of(const Model& model) {
       coasts.emplace_back(trial.input, std::max(trial.measured, trial.predicted.value_or(0.0)));
     }
   }
-  // Sorted so that the longest stop time of each speed is first: unique() keeps the first.
+  // Among coast-downs of equal speed the longest comes first, because unique() keeps the first.
   std::sort(coasts.begin(), coasts.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second > b.second;
   });

@@ -1,6 +1,6 @@
-/// Data for the charts of the identification, in the page and in the print figures: the curve
-/// through steady runs with its confidence band, residuals, and modelled coast-downs. Private to
-/// report/.
+/// Data for the charts of the identification, which the page and the print figures share: the curve
+/// through the steady runs with its confidence band, residuals, and modelled coast-downs. Private
+/// to report/.
 #pragma once
 
 #include <cstddef>
@@ -29,9 +29,9 @@ struct LeftOver {
 
 /// Steady runs of one kind of trial, and the resistance law of the model.
 struct DrawnFit {
-  /// Indices of these runs in the model's list of trials; never empty.
+  /// Indices of the runs of this kind in the model's list of trials; never empty.
   std::vector<std::size_t> trials = {};
-  Resistance<double> law{};            ///< `coulomb` includes the motors' dead zone (surge only)
+  Resistance<double> law{};            ///< law; for surge, `coulomb` includes the dead zone
   std::vector<CurvePoint> curve = {};  ///< fitted curve; empty if the model does not have the law
   bool has_band = false;               ///< true: the curve has a confidence band
   /// Residuals of the runs; empty if the model predicts fewer than three of them.
@@ -43,17 +43,18 @@ struct DrawnFit {
 /// no such run.
 std::optional<DrawnFit> drawn_fit(const Model& model, TrialKind kind);
 
-/// A modelled coast-down, m' du/dt = -g1(u), from its initial speed until 1.1 times the measured or
-/// the predicted stop time, whichever is longer.
+/// A modelled coast-down, m' du/dt = -g1(u) (u: speed, g1: surge resistance, m': normalised mass),
+/// from its initial speed. It ends at 1.1 times the measured or the predicted stop time, whichever
+/// is longer.
 struct CoastdownCurve {
   double initial_speed_mps = 0.0;
   std::vector<double> t_s = {};
   std::vector<double> speed_mps = {};
 };
 
-/// Computes one curve for each initial speed of the model's coast-downs. If there are more than
-/// eight speeds, eight are used, evenly chosen. Empty if there is no coast-down, or if the model
-/// lacks g1 or m'.
+/// Computes one curve for each initial speed of the model's coast-downs, or for eight evenly chosen
+/// speeds if there are more than eight. Empty if there is no coast-down, or if the model lacks g1
+/// or m'.
 std::vector<CoastdownCurve> coastdown_curves(const Model& model);
 
 /// Returns a flag for each trial of the model: true if a warning or an error refers to its row.

@@ -16,9 +16,9 @@
 namespace awmr {
 namespace {
 
-/// Reads which form of the constraint T2 < T1 was required: the strict form, T2 < margin/lambda, or
-/// the paper's form. The margin is computed from the limit of the strict form, which gains.json has
-/// in both cases.
+/// Reads which form of the constraint T2 < T1 = 1/lambda was required: the strict form, T2 <
+/// margin/lambda, or the paper's form. gains.json has the limit of the strict form in both cases;
+/// the margin is computed from this limit.
 void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
   for (JsonObject& constraint : gains.optional_objects("constraints")) {
     const bool strict = constraint.string("name") == "T2 < T1 (strict)";
@@ -30,7 +30,7 @@ void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context)
   }
 }
 
-/// Settings of the vehicles that were drawn for the tuning.
+/// Number, seed and unmodelled variation of the vehicles that were drawn for the tuning.
 struct Draws {
   int count = 0;
   std::uint64_t seed = 1;

@@ -11,10 +11,10 @@
 namespace awmr {
 
 /// Returns LiveSetup (live/setup.h) as a list of numbers; empty if the model cannot simulate turns.
-/// `gains`: content of gains.json. The page evaluates the constraints of `awmr tune` with the
-/// settings in `/robust`, `/constraints`, `/limits` and `/examined` of that file. Precondition: the
-/// scenario commands headings. Errors (input): gains.json does not have the format of `awmr tune`;
-/// its latency is more than 20 sample times. Also the errors of vehicles_of() (tune/robust.h).
+/// `gains`: content of gains.json, whose keys `/robust`, `/constraints`, `/limits` and `/examined`
+/// have the settings for the constraints of `awmr tune`. Precondition: the scenario commands
+/// headings. Errors (input): gains.json does not have the format of `awmr tune`; its latency is
+/// more than 20 sample times. Also the errors of vehicles_of() (tune/robust.h).
 Result<std::vector<double>> live_numbers(const Model& model, const Json& gains,
                                          const Scenario& scenario);
 

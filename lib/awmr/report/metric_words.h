@@ -14,11 +14,12 @@ struct MetricWords {
   std::string unit;   ///< unit, such as "s"; empty if dimensionless
 };
 
-/// Returns the words and the unit for the name that a metric has in comparison.json. For an unknown
-/// metric the words are that name and the unit is empty.
+/// Returns readable name and unit of a metric. `name`: the name of the metric in comparison.json.
+/// An unknown metric keeps this name and has an empty unit.
 MetricWords metric_words(std::string_view name);
 
-/// The words of all metrics as JSON for the page: {"settling_time_s": "settling time, s", ...}.
+/// Readable names and units of all metrics as JSON for the page: {"settling_time_s": "settling
+/// time, s", ...}.
 Json metric_words_json();
 
 }  // namespace awmr

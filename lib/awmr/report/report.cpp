@@ -22,7 +22,7 @@ extern const std::string_view kPageHtml;
 extern const std::string_view kPlotPy;
 extern const std::string_view kPageCss;
 extern const std::string_view kPageJs;
-/// WebAssembly of the sliders (gzip, base64); empty if not built.
+/// The WebAssembly program of the sliders (gzip, base64). Empty if awmr was built without it.
 extern const std::string_view kLiveWasm;
 
 namespace {
@@ -59,8 +59,8 @@ void round_numbers(Json& json) {
   for (Json& value : json) round_numbers(value);
 }
 
-/// Rounds the numbers that the page only displays. The gains are not rounded, because the page
-/// simulates and copies them.
+/// Rounds the numbers that the page only displays. The gains are not rounded, because the page uses
+/// them for simulations and for the copy button.
 void round_shown(Json& data) {
   for (const char* name : {"model", "validation", "comparison", "pil", "suggest"}) {
     if (data.contains(name)) round_numbers(data[name]);
@@ -72,7 +72,7 @@ void round_shown(Json& data) {
 }
 
 /// Makes the page: replaces each `@name@` in page.html by the part of that name (style, scripts,
-/// data). Text between two `@` inside a part is not replaced.
+/// data). The replacement is not repeated inside of the parts, whose text can contain `@`.
 std::string assembled(const Json& data) {
   const std::string json = script_safe(data);
   const std::array<std::pair<std::string_view, std::string_view>, 5> parts{
@@ -92,9 +92,9 @@ std::string assembled(const Json& data) {
   }
 }
 
-/// Adds the initial data of the interactive part (the sliders). Its scenario is the first one for
-/// which is_plain_heading() is true, else headings of 30, then -30 deg. Adds nothing without gains,
-/// or if the model cannot simulate turns.
+/// Adds the initial data of the interactive part (the sliders). The sliders simulate the first
+/// scenario for which is_plain_heading() is true or, if there is none, headings of 30, then -30
+/// deg. Adds nothing without gains, or if the model cannot simulate turns.
 Status add_live(const fs::path& directory, const Model& model, Json& data) {
   if (kLiveWasm.empty() || !data.contains("gains")) return {};
   Scenario scenario = heading_steps({30.0, -30.0}, {.name = "headings 30 then -30 deg"});
@@ -132,7 +132,7 @@ Status check_report_page(const fs::path& path) {
   if (page.find("<title>awmr report</title>") != std::string::npos) return {};
   return input_error(
       ErrorCode::kWouldOverwrite, path.string(),
-      "is not a page that awmr wrote, and the report would replace it. Move the file away");
+      "is not a page that awmr wrote, and the report would replace this file. Move it away");
 }
 
 Result<FigureSet> report_figures(const fs::path& directory) {

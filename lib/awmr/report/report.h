@@ -26,8 +26,8 @@ struct ReportPage {
 /// there is no model.json, or a file is invalid.
 Result<ReportPage> report_page(const std::filesystem::path& directory);
 
-/// Checks that the page may be written to `path`. Error (input): a file of this name exists and is
-/// not a page of awmr (by its title).
+/// Checks that the page may be written to `path`. Error (input): a file of this name exists, and
+/// its title shows that it is not a page of awmr.
 Status check_report_page(const std::filesystem::path& path);
 
 /// File name of the Python program that draws the figures.
@@ -38,7 +38,7 @@ inline constexpr const char* kPlotName = "plot.py";
 struct FigureSet {
   std::vector<OutputFile> files = {};     ///< the files, with paths relative to an output directory
   std::vector<std::string> names = {};    ///< names of the figures: CSV file names, no extension
-  std::vector<std::string> lacking = {};  ///< figures without data: names and reason, one text each
+  std::vector<std::string> lacking = {};  ///< missing figures: names and reason in one text each
 };
 
 /// Makes all figures for which the directory has results. The same results give the same bytes.

@@ -24,14 +24,15 @@
 namespace awmr {
 namespace {
 
-/// Hashes of model.json and gains.json in the directory.
+/// Hashes of model.json and gains.json in the directory, with which the inputs of other results are
+/// compared.
 struct Origin {
   std::string model_sha256;
   std::string gains_sha256 = {};  ///< empty if there is no gains.json for this model
 };
 
 /// Returns a finding if a result was made from another model or other gains than those in the
-/// directory. Empty if it was made from those, or if it does not name its inputs.
+/// directory. Empty if model and gains are the same, or if the result does not name its inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
   const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);
@@ -85,8 +86,8 @@ Result<std::optional<Finding>> foreign_run(const std::filesystem::path& director
   return foreign;
 }
 
-/// The findings for the page, without repetitions, those with the largest effect on the results
-/// first.
+/// The findings as JSON for the page. Those with the largest effect on the results come first;
+/// repetitions are left out.
 Json shown_findings(const std::vector<Finding>& findings) {
   std::vector<Finding> order;
   for (const Finding* finding : by_effect(findings)) {
@@ -99,7 +100,8 @@ Json shown_findings(const std::vector<Finding>& findings) {
   return findings_to_json(order);
 }
 
-/// Reads gains.json and the other results. Results of another model are omitted.
+/// Reads gains.json and the other results. Results that were made from another model or other gains
+/// are omitted.
 Status read_results(const std::filesystem::path& directory, Origin& origin, ReportData& data,
                     std::vector<Finding>& of_results) {
   for (const char* name : {"gains", "validation", "comparison", "pil", "suggest"}) {
@@ -122,8 +124,8 @@ Status read_results(const std::filesystem::path& directory, Origin& origin, Repo
   return {};
 }
 
-/// Reads the samples of comparison.csv. Adds a warning instead if comparison.json names another
-/// hash for this file.
+/// Reads the samples of comparison.csv. If comparison.json names another hash for this file, the
+/// file is omitted with a warning.
 Status read_own_samples(const std::filesystem::path& directory, ReportData& data) {
   const std::filesystem::path path = directory / "comparison.csv";
   AWMR_ASSIGN_OR_RETURN(const bool is_there, regular_file_exists(path));
@@ -161,10 +163,11 @@ Result<ReportData> read_report_data(const std::filesystem::path& directory) {
   AWMR_ASSIGN_OR_RETURN(const bool has_model, regular_file_exists(directory / "model.json"));
   if (!has_model) {
     return input_error(ErrorCode::kCannotRead, (directory / "model.json").string(),
-                       "there is no such file; a report needs a directory that awmr run filled, or "
-                       "the model.json of awmr identify");
+                       "there is no such file; a report needs a directory with the results of awmr "
+                       "run, or at least with the model.json of awmr identify");
   }
-  // read_model() is called first, because its error has the position of the fault in the file.
+  // read_model() is called before read_json_file(), because its errors name the position of the
+  // fault in the file.
   AWMR_ASSIGN_OR_RETURN(data.model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.json["model"], read_json_file(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(directory / "model.json"));

@@ -12,11 +12,15 @@ namespace awmr {
 /// Content of a directory of results.
 struct ReportData {
   Model model;
-  /// The data of the page: the existing files under their names ("model", "gains", "validation",
-  /// "comparison", "pil", "suggest"), "samples" of comparison.csv, "runs" and "scenarios"
-  /// (run_data.h), "fits" (drawn_fit.h), "metric_words", "header" (true if awmr_params.h exists),
-  /// "yaw_rate_measured_degps" (highest yaw rate with a measured resistance), and "findings" of all
-  /// files, those with the largest effect on the results first.
+  /// The data of the page, by key:
+  /// - "model", "gains", "validation", "comparison", "pil", "suggest": content of the file of this
+  ///   name, if it exists;
+  /// - "samples": content of comparison.csv; "runs" and "scenarios": see run_data.h; "fits": see
+  ///   drawn_fit.h;
+  /// - "metric_words": names and units of the metrics; "header": true if awmr_params.h exists;
+  /// - "yaw_rate_measured_degps": highest yaw rate with a measured resistance;
+  /// - "findings": those of all files, with those first that have the largest effect on the
+  ///   results.
   Json json;
   /// A warning for each result that is not in `json`: it was made from another model or other gains
   /// than those in the directory (`result-of-another-model`), or the file that names its inputs is

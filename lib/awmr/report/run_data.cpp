@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Maximum number of rows of all runs together, and of one run, in the page. A row takes about 100
+/// Maximum number of rows in the page, of all runs together and of one run. A row takes about 100
 /// bytes, and the page must be smaller than 3 MB.
 constexpr std::size_t kMaxRows = 20000;
 constexpr std::size_t kMaxRowsOfRun = 1500;
@@ -88,9 +88,9 @@ Json columns_of(const CsvTable& table, std::size_t most_rows) {
   return columns;
 }
 
-/// Returns the files in a directory whose names match the pattern, sorted by name. An entry has the
-/// name, then the groups of the match. Errors (input): the directory cannot be read; a match is not
-/// a regular file.
+/// Returns the files in a directory whose names match the pattern, sorted by name. Each entry has
+/// the name of the file, then the text of each group of the pattern. Errors (input): the directory
+/// cannot be read; a match is not a regular file.
 Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& directory,
                                                              const std::regex& pattern) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> entries, list_directory(directory));
@@ -105,8 +105,8 @@ Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& dir
   return files;
 }
 
-/// At most kMaxSamples of the values, ascending and evenly spaced by rank, including the smallest
-/// and the largest.
+/// Reduces the values to at most kMaxSamples, in ascending order and evenly spaced by rank. The
+/// smallest and the largest value are included.
 Json at_even_ranks(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t count = std::min(values.size(), kMaxSamples);

@@ -22,15 +22,17 @@ namespace {
 
 constexpr double kLevel = 0.95;
 constexpr double kShortest_s = 2.0;
-/// First random stream of the predicted drives; drive i has the stream kReadingsStream + i for its
-/// latencies, initial state and added noise. The simulator uses other streams.
+/// Number of the first random stream of the predicted drives. Drive i draws its latencies, its
+/// initial state and its added noise from the stream kReadingsStream + i. The number is so large
+/// that the simulator uses none of these streams.
 constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
   if (options.draws >= 39 && options.draws <= 10000) return {};
   return input_error(
       ErrorCode::kOutOfRange, "draws",
-      fmt::format("found {} predicted drives; give a number from 39 to 10000", options.draws));
+      fmt::format("{} is not a valid number of predicted drives; give a number from 39 to 10000",
+                  options.draws));
 }
 
 State<double> moved_by(State<double> state, const State<double>& error, Random& random) {
@@ -56,18 +58,19 @@ LoopConditions drawn(LoopConditions c, const Vehicle& vehicle, Random& random) {
 
 /// The logged drive, with the conditions and the initial state for its prediction.
 struct LoggedDrive {
-  double from_s = 0.0;  ///< t_s of the log's row at which the scenario begins
+  double from_s = 0.0;  ///< time in the log, s, at which the scenario begins
   /// Time from from_s to the end of the log or of the scenario, whichever comes first.
   double duration_s = 0.0;
   LoopConditions conditions;
   std::vector<DriveChannel> channels;
   DriveStart start;
-  Scenario scenario;  ///< with these conditions and this initial state
+  Scenario scenario;  ///< scenario with these conditions, from this initial state
 };
 
-/// A simulated drive: means of each channel over windows of half a second.
+/// A simulated drive, reduced to the means of each channel over windows of half a second.
 struct PredictedDrive {
-  /// Scenario time at the end of the run; later windows are invalid.
+  /// Scenario time at the end of the run, s. Windows after this time have no simulated values and
+  /// must not be used.
   double end_s = 0.0;
   std::vector<WindowMeans> windows;  ///< window means by channel
 };
@@ -129,8 +132,9 @@ PredictedBand prediction_of(const DriveChannel& channel, const std::vector<Windo
     for (const WindowMeans& draw : draws) squares += std::pow(draw.mean[w] - series.mean[w], 2);
     series.spread[w] = std::sqrt(squares / (n - 1.0));
   }
-  // The lower bound keeps distances finite if all predicted drives are equal, such as for a command
-  // at its limit.
+  // A standard deviation of 0 would make distances infinite. It occurs if all predicted drives are
+  // equal, such as for a command that stays at its limit. Therefore the standard deviations get a
+  // small lower bound.
   const double most = *std::max_element(series.spread.begin(), series.spread.end());
   double size = channel.noise;
   for (const double mean : series.mean) size = std::max(size, std::abs(mean));
@@ -186,7 +190,9 @@ Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> d
   return one;
 }
 
-/// For each draw, the largest of the ratios Compared::largest/Compared::usual of all channels.
+/// For each predicted drive, the largest ratio of distance to usual distance
+/// (Compared::largest/Compared::usual) over the channels. The division makes the channels
+/// comparable.
 std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std::size_t draws) {
   std::vector<double> factors(draws);
   for (const Compared& one : channels) {
@@ -246,8 +252,8 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
     result.channels.push_back(evaluate(one, allowed));
     reached = std::max(reached, result.channels.back().distance / one.usual);
   }
-  // The logged drive is counted, too: if the model is right, its rank among all n + 1 drives is
-  // uniformly distributed.
+  // p counts the logged drive as well as the n predicted ones: if the model is right, the rank of
+  // the logged drive among all n + 1 drives is uniformly distributed.
   const auto as_far = std::count_if(factors.begin(), factors.end(),
                                     [&](double factor) { return factor >= reached; });
   result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);

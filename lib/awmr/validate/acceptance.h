@@ -41,9 +41,10 @@ struct ChannelAcceptance {
   /// Limit of the distance: 95 % of the predicted drives are within the limits of all channels.
   double allowed = 0.0;
   bool inside = false;  ///< true: distance <= allowed
-  /// Scenario time, s, of the first window with a larger distance than allowed; absent if inside.
+  /// Scenario time, s, of the first window whose distance is larger than allowed. Absent if there
+  /// is no such window.
   std::optional<double> outside_since_s = {};
-  double difference = 0.0;  ///< measured minus predicted in the window of `distance`, in `unit`
+  double difference = 0.0;  ///< measured minus predicted mean, window of `distance`, in `unit`
 };
 
 /// A possible cause of the difference between the logged drive and the prediction: a change of one
@@ -62,7 +63,8 @@ struct Acceptance {
   std::string scenario;
   YawMode mode{};
   double from_s = 0.0;  ///< time in the log at which the scenario begins
-  /// Compared duration: to the end of the log or of the shortest simulated run.
+  /// Duration of the comparison, s. It ends with the log, the scenario or the shortest simulated
+  /// run, whichever is first.
   double duration_s = 0.0;
   int draws = 0;
   /// Fraction of all drives (the predicted ones and the logged one) that are at least as far from

@@ -11,8 +11,9 @@
 namespace awmr {
 namespace {
 
-/// Largest steady yaw rate of a mode, rad/s. The yaw moment is the largest that the mode can make
-/// while tau_speed holds the speed:
+/// Largest steady yaw rate r of a mode, rad/s, at a steady speed. The yaw moment is the largest
+/// that the mode can make while the surge force tau_speed holds the speed. The yaw resistance is
+/// taken as the power law g3(r) = a3 r^b3, so that
 ///   r = (moment/a3)^(1/b3)
 double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits<double>& limits,
                               YawMode mode, double speed_mps) {
@@ -75,7 +76,9 @@ double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, Ya
 int reversals(std::span<const double> signal, double band) {
   if (signal.empty()) return 0;
   int count = 0;
-  int direction = 0;  // 1: rising, -1: falling, 0: not yet moved by more than the band
+  // Direction of the last movement. 1: rising, -1: falling, 0: no movement yet by more than the
+  // band.
+  int direction = 0;
   double low = signal[0];
   double high = signal[0];
   for (const double value : signal) {

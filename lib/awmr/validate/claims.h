@@ -23,7 +23,7 @@
 
 namespace awmr {
 
-/// The paper's largest tau_speed.                                              [paper 3.5]
+/// tau_speed (surge force over F_max) at the paper's full thrust.              [paper 3.5]
 inline constexpr double kFullThrust = 2.0;
 
 /// Run of a claim's scenario in one mode.
@@ -47,11 +47,11 @@ struct ClaimSetting {
   ControlOptions control = {};  ///< control options of every scenario
 
   /// Simulates the scenario in all three modes. Preconditions: the model has every parameter, and a
-  /// 95 % interval for each parameter in the scenario's `corner`, which is set to an end of it.
+  /// 95 % interval for each parameter that the scenario's `corner` sets to an end of its interval.
   ModeRuns run(const Scenario& scenario) const;
 };
-/// ClaimSetting::run() for each setting, simulated together in one batch. Precondition: all
-/// settings have the same control, arithmetic and sample time.
+/// Simulates the scenario with each setting in all three modes, as ClaimSetting::run() does, in one
+/// batch. Precondition: all settings have the same control, arithmetic and sample time.
 std::vector<ModeRuns> run_all(std::span<const ClaimSetting> settings, Scenario scenario);
 
 template <class Condition>
@@ -67,25 +67,30 @@ std::vector<ClaimInMode> verdicts_by_mode(const ModeRuns& runs, Condition condit
   return verdicts;
 }
 
-/// C1: at full thrust and straight ahead, u settles at u_max.                    [paper 3.5.1]
+/// Checks C1: at full thrust and straight ahead, u settles at u_max.             [paper 3.5.1]
 Claim check_straight_run(const Model& model, const Plant<double>& plant,
                          const ControlOptions& control = {});
-/// C2: with constant thrust and turning moment the path tends to a circle.       [paper 3.5.2]
+/// Checks C2: with constant thrust and yaw moment the path tends to a circle.    [paper 3.5.2]
 Claim check_circle(const Model& model, const Plant<double>& plant,
                    const ControlOptions& control = {});
-/// C14: lambda 3, mu 50, eps 12 give T1 = 0.33 s and T2 = 0.12 s.                [paper 4.1]
+/// Checks C14: the gains lambda 3, mu 50, epsilon 12 of the heading law give the time constants
+/// T1 = 0.33 s and T2 = 0.12 s.                                                  [paper 4.1]
 Claim check_time_constants(const std::optional<Gains<double>>& gains);
-/// C3 to C7 from one set of runs, and C13.                            [paper 4.3, section 6]
+/// Checks C3 to C7 with common runs of heading steps, and C13 with its own run.
+///                                                                 [paper 4.3, section 6]
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
-/// C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims of each
-/// setting. Precondition: that of run_all().                             [paper 5, section 7]
+/// Checks C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims for
+/// each setting. Precondition: as for run_all(), all settings have the same control, arithmetic and
+/// sample time.
+///                                                                   [paper 5, section 7]
 std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);
 
 /// Longest settling time that counts as fast in C3, s: the time for the heading step at the largest
-/// steady yaw rate of the mode, plus 4 (T1 + 2 T2) with the paper's gains. The sliding variable S
-/// decays with the time constant 2 T2, then the heading error with T1. After four time constants
-/// e^-4 = 1.8 % remains, which is within the settling band of 2 %.
+/// steady yaw rate of the mode, plus 4 (T1 + 2 T2). T1 = 1/lambda and T2 = epsilon/(2 mu) are time
+/// constants of the heading law with the paper's gains. The sliding variable S decays with the time
+/// constant 2 T2, then the heading error decays with T1. After four time constants e^-4 = 1.8 %
+/// remains, which is within the settling band of 2 %.
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
                           double step_rad, double speed_mps);
 /// Number of reversals of a signal. A reversal is a return by more than `band` from the signal's
@@ -95,8 +100,8 @@ int reversals(std::span<const double> signal, double band);
 /// Checks all claims, in the paper's order; without gains, only those that need no gains.
 std::vector<Claim> check_claims(const Model& model, const std::optional<Gains<double>>& gains,
                                 const BatchArithmetic& arithmetic);
-/// check_claims() for each model, with the given control. Precondition: each model has every
-/// parameter, and all have the same sample time.
+/// Checks all claims for each model, with the given control, as check_claims() does for one.
+/// Precondition: each model has every parameter, and all have the same sample time.
 std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
                                                 const std::optional<Gains<double>>& gains,
                                                 const BatchArithmetic& arithmetic,

@@ -32,8 +32,8 @@ double white_noise(const std::vector<double>& values, double quantum) {
   return std::max(least, spread / std::sqrt(6.0));
 }
 
-/// A sensor of the controller: the member of a scenario's Sensors with its errors, and the member
-/// of a run's row with its reading.
+/// A sensor of the controller, as pointers to members: where a scenario's Sensors have the errors
+/// of the sensor, and where a run's Measurement has its reading.
 struct ControllersSensor {
   Channel Sensors::*errors;
   double Measurement<double>::*reading;
@@ -143,8 +143,8 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
       ErrorCode::kTooFewData, log.file,
       from_s ? fmt::format("the log ends before {:g} s ({}); give an earlier time", *from_s,
                            option_text("from"))
-             : "the log commands nothing (every force and steering command is 0); give a log of "
-               "the drive");
+             : "the log commands nothing (every force and steering command is 0); give the log of "
+               "a drive with commands");
 }
 
 LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle) {

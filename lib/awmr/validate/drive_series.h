@@ -25,7 +25,7 @@ struct DriveChannel {
   std::function<double(const RunRow& row)> of_run;
   double noise = 0.0;           ///< standard deviation of the noise of a reading, in `unit`
   bool noise_from_log = false;  ///< true: `noise` was estimated from the log
-  bool noise_in_run = false;    ///< true: of_run() already includes the noise
+  bool noise_in_run = false;    ///< true: the values of of_run() include the noise
   std::vector<double> t_s;      ///< scenario time of each measured row
   std::vector<double> measured;
 };
@@ -52,10 +52,10 @@ Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<doub
 /// give is estimated from the log, if the log has the channel.
 LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle);
 
-/// Returns the measured channels of the log and its commands, over duration_s from row `first`.
-/// Noise of a channel: for a sensor of the controller, noise and rounding of the scenario; if these
-/// are 0, and for every other sensor, the noise estimated from the log; for a command, 0.
-/// Precondition: the scenario has `sensors`.
+/// Returns the measured channels of the log and its commands, over duration_s from row `first`,
+/// each with the standard deviation of its noise. Sensors of the controller have the noise and
+/// rounding of the scenario. If these are 0, and for every other sensor, the noise is estimated
+/// from the log. Commands have no noise. Precondition: the scenario has `sensors`.
 std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, double duration_s,
                                       const Scenario& scenario);
 
@@ -66,8 +66,8 @@ DriveStart start_of(const DrivingLog& log, std::size_t first,
 
 /// Means of the measured values, for the windows that end at duration_s or before.
 WindowMeans means_of(const DriveChannel& channel, double duration_s);
-/// Window means of the values in a simulated run, at the times of the log's rows. If the run does
-/// not include noise (noise_in_run), noise drawn from `random` is added; none if it is null.
+/// Window means of the values in a simulated run, at the times of the log's rows. Noise drawn from
+/// `random` is added, unless the run already includes noise (noise_in_run) or `random` is null.
 WindowMeans means_of(const DriveChannel& channel, const Run& run, double sample_time_s,
                      double duration_s, Random* random);
 

@@ -25,7 +25,7 @@ struct Change {
   std::string what;
   std::string unit;
   Interval range;  ///< range of the search; factors are searched in the logarithm
-  double none;     ///< value that changes nothing: 0, or 1 for a factor
+  double none;     ///< value without effect: 1 for a factor, else 0
   std::function<void(PerturbedModel&, double value)> apply;
   bool is_factor() const { return unit == "times"; }
 };
@@ -123,7 +123,7 @@ Scenario without_noise(Scenario scenario) {
   return scenario;
 }
 
-/// Searches the value of a change that explains the drive best.
+/// Search for the value of a change with which the simulated drive is nearest to the logged one.
 struct Search {
   const Model& model;
   const Controller<double>& controller;

@@ -14,14 +14,15 @@
 namespace awmr {
 namespace {
 
-/// Criterion for "d tends to 0": largest distance from the line in the last quarter of the run, as
-/// a fraction of the lane's half width.
+/// Criterion for the claim that the distance d from the line tends to 0: largest |d| in the last
+/// quarter of the run, as a fraction of the lane's half width.
 constexpr double kOnTheLineShare = 0.01;
-/// Criterion for "alike": the longest finishing time of a mode exceeds the shortest by at most this
-/// fraction.
+/// Criterion for the claim that the modes avoid obstacles alike: the longest finishing time of a
+/// mode exceeds the shortest by at most this fraction.
 constexpr double kAlikeShare = 0.10;
-/// Criterion for "followed": largest distance from the moving point of the path. It is a twentieth
-/// of the path's width of 20 m; less is hardly visible in a printed figure.
+/// Criterion for the claim that the timed path is followed: largest distance from the moving point
+/// of the path. It is a twentieth of the path's width of 20 m; less is hardly visible in a printed
+/// figure.
 constexpr double kPathTolerance_m = 1.0;
 /// A value counts as equal to the best one if it is at most this fraction larger.
 constexpr double kAsGoodShare = 0.01;
@@ -155,7 +156,8 @@ double off_path_m(const ModeRun& run) {
   return largest;
 }
 
-/// The path's smallest radius of curvature, m: |p_dot|^3/|p_dot x p_ddot| = speed/(yaw rate).
+/// Smallest radius of curvature of the path p(t), m: |p_dot|^3/|p_dot x p_ddot|, which is the speed
+/// divided by the yaw rate.
 double least_radius_m(const Lissajous<double>& path, double duration_s) {
   double least = 1e300;
   for (double t_s = 0.0; t_s < duration_s; t_s += 0.1) {
@@ -165,7 +167,7 @@ double least_radius_m(const Lissajous<double>& path, double duration_s) {
   return least;
 }
 
-/// off_path_m() by mode. Kept instead of the runs, which need much memory.
+/// Results of off_path_m() by mode, which are kept instead of the runs to save memory.
 using OffPath = std::map<YawMode, double>;
 OffPath off_path_by_mode(const ModeRuns& runs) {
   OffPath off;

@@ -85,8 +85,8 @@ bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double
          1e-9;
 }
 
-/// C6. The sideslip in differential mode depends on the yaw rate, and therefore on the gains. If
-/// the gains are not the paper's, the result with the paper's gains is added.
+/// Checks C6. The sideslip in differential mode depends on the yaw rate, and therefore on the
+/// gains. If the gains are not the paper's, the result with the paper's gains is added.
 Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
     return run.metrics.sideslip_max_deg;

@@ -60,10 +60,10 @@ struct HeadingSetting : ClaimSetting {
   }
 };
 
-/// C4: the speed converges to u_d. `runs`: headings of 30, then -30 deg.
+/// Checks C4: the speed converges to u_d. `runs`: headings of 30, then -30 deg.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs);
-/// C5: the speed drop by mode, from the same runs as C4. The drops with other force limits do not
-/// affect the verdict; they are reported in Claim::figure.
+/// Checks C5, the speed drop by mode, with the same runs as C4. The drops with other force limits
+/// do not affect the verdict; they are reported in Claim::figure.
 Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs);
 
 }  // namespace awmr

@@ -24,8 +24,8 @@ std::optional<std::size_t> first_turning_row(const DrivingLog& log) {
   return std::nullopt;
 }
 
-/// The log with only its commands and its speed, the only channel that a model of straight motion
-/// predicts. Errors (input): the log turns, or has no speed.
+/// Copy of the log with only its commands and its speed, because a model of straight motion
+/// predicts no other channel. Errors (input): the log turns, or has no speed.
 Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   if (const auto row = first_turning_row(log)) {
     Error error = model.plant().error();
@@ -49,7 +49,8 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   return part;
 }
 
-/// Largest number of readings of a channel in its computed series, and in the chart.
+/// A predicted series is computed for at most kMaxInSeries readings of a channel. At most kMaxDrawn
+/// of its points are kept for the chart.
 constexpr std::size_t kMaxInSeries = 100000;
 constexpr std::size_t kMaxDrawn = 1000;
 
@@ -64,16 +65,17 @@ PredictedSeries drawn(const PredictedSeries& all) {
   return some;
 }
 
-/// Checks that the replay gave finite numbers. Error (input): it did not, in some channel.
+/// Error (input): the prediction errors of some channel are not finite, because the simulation of
+/// the log diverged.
 Status check_finite(const LogValidation& validation) {
   for (const ChannelValidation& channel : validation.channels) {
     if (std::isfinite(channel.one_step.nrmse) && std::isfinite(channel.long_horizon.nrmse))
       continue;
     return input_error(
         ErrorCode::kDiverges, validation.file,
-        fmt::format("the model's replay of this log diverges ({} is not finite): the log is of "
-                    "another vehicle, or a column is mapped to the wrong channel; check the "
-                    "mapping with awmr map",
+        fmt::format("the simulation of the model with the commands of this log diverges ({} is not "
+                    "finite): the log is of another vehicle, or a column is mapped to the wrong "
+                    "channel; check the mapping with awmr map",
                     channel.channel));
   }
   return {};

@@ -27,7 +27,8 @@ struct LogValidation {
   std::string file;
   double horizon_s = 0.0;  ///< maximum length of a window, s, at most the log's length
   std::vector<ChannelValidation> channels;
-  /// True: there is a channel, and the long-horizon NRMSE of every channel is within the tolerance.
+  /// True if there is at least one channel, and the long-horizon NRMSE of every channel is within
+  /// the tolerance.
   bool passed = false;
 };
 

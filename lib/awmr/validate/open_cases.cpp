@@ -17,7 +17,8 @@
 namespace awmr {
 namespace {
 
-/// Factor on m' with which a friction of 0.8 is just enough for the full thrust (open_cases.h).
+/// Factor on m', the normalised mass, with which a tyre friction of 0.8 is just enough for full
+/// thrust (open_cases.h).
 double mass_factor(const Model& model) {
   const double least_mass_norm = kFullThrust / (kTyreFriction * kGravity_mps2);
   return least_mass_norm / *model[ParameterId::kMassNorm].value;
@@ -39,7 +40,7 @@ ControlOptions control_in(const ClaimCase& open) {
 }
 
 /// Divides the indices of the cases into batches with the same allocation and split. A batch has at
-/// most two cases, because the six runs of C11 (two cases in three modes) take 120 MB.
+/// most two cases, because the six runs of claim C11 (two cases in three modes) take 120 MB.
 std::vector<std::vector<std::size_t>> batches_of(const std::vector<ClaimCase>& cases) {
   constexpr std::size_t kCasesMax = 2;
   std::map<std::pair<AllocationForm, CombinedSplit>, std::vector<std::size_t>> open;
@@ -66,7 +67,8 @@ using Key = std::tuple<int, double, double, double, int>;
 /// A setting that the paper leaves open.
 struct Setting {
   std::string_view name;
-  /// Sets it to one fixed value, so that cases that differ only in this setting become equal.
+  /// Sets this setting to one fixed value. Cases that differ only in this setting then become
+  /// equal.
   std::function<void(ClaimCase&)> forget;
 };
 
@@ -78,8 +80,8 @@ Key key_of(const ClaimCase& open) {
 /// Returns the number of combinations of the other settings in which the verdict depends on this
 /// setting, and the number of all combinations of the other settings.
 std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
-  // By combination of the other settings: whether the claim is reproduced in a case, and whether it
-  // is not reproduced in a case.
+  // For each combination of the other settings, two flags: the claim is reproduced in some case,
+  // and it is not reproduced in some case.
   std::map<Key, std::pair<bool, bool>> places;
   for (const ClaimCase& open : cases) {
     ClaimCase others = open;

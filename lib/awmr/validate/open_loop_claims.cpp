@@ -18,7 +18,8 @@ namespace {
 constexpr double kCircleTurn_m = 0.4;  ///< the paper's constant tau_turn [paper 3.5.2]
 
 /// Largest accepted relative difference between the final speed and the solution of g1(u) =
-/// tau_speed. The run is longer than the transient, and the error of the integrator is far smaller.
+/// tau_speed. At the end of the run the transient has decayed, and the error of the integrator is
+/// far smaller than this.
 constexpr double kSteadyTolerance = 1e-3;
 /// Largest accepted relative difference from a measured speed: 5 %, because the paper's Table 2
 /// itself has an error of 5 % (it prints 1.03 m/s for 10 m in 9.26 s, which is 1.080 m/s).
@@ -53,8 +54,9 @@ const TrialPoint* fastest_trial(const Model& model) {
 /// Result of C2 in one mode.
 struct Turn {
   YawMode mode{};
-  std::optional<Circle> circle;  ///< fitted to the last full turn; absent without two full turns
-  double speed_mps = 0.0;        ///< speed at the end of the run
+  /// Circle fitted to the last full turn. Absent if the run has fewer than two full turns.
+  std::optional<Circle> circle;
+  double speed_mps = 0.0;  ///< speed at the end of the run
 };
 
 /// Points of the last full turn of the run. Empty if the run has fewer than two full turns, because

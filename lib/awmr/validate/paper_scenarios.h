@@ -11,6 +11,6 @@ Scenario line_scenario();                        ///< C9                     [pa
 Scenario obstacle_on_line_scenario();            ///< C10, figure 43         [paper 5.2.2]
 Scenario obstacle_between_waypoints_scenario();  ///< C10, figure 44         [paper 5.2.2]
 Scenario lissajous_scenario(bool closed_loop);   ///< C11                    [paper (116)-(118)]
-Scenario polyline_scenario();                    ///< C12, the path in addition to the waypoints
+Scenario polyline_scenario();                    ///< C12: the waypoints of C8 as a polyline
 
 }  // namespace awmr

@@ -88,7 +88,8 @@ std::string speed_drop_elsewhere(const HeadingSetting& setting) {
     if (std::abs(limits.lo - own.lo) + std::abs(limits.hi - own.hi) < 1e-12) continue;
     Model other = setting.model;
     other.vehicle.wheel_force = limits;
-    // The same duration as with the vehicle's own limits, so that the drops can be compared.
+    // These runs have the same duration as those with the vehicle's own limits, so that the speed
+    // drops can be compared.
     const ModeRuns runs =
         ClaimSetting{other, setting.plant, setting.gains, setting.arithmetic, setting.control}.run(
             heading_steps(kSimulated_deg,

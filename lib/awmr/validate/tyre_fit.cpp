@@ -51,7 +51,7 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
       fmt::format(
           "a fit of the tyres needs at least {} windows of {:g} s, {} of them with each kind of "
           "turn; these logs have {}, {} with turns by left and right wheel forces{} (a turn by "
-          "forces and steering together is of neither kind). Record a drive that turns {}",
+          "forces and steering together counts as neither kind). Record a drive that turns {}",
           kMinTyreWindows, kWindow_s, kMinTurns, windows.size(), by_sides,
           steers ? fmt::format(" and {} with steered turns", by_steering) : "",
           steers ? "by wheel forces with straight wheels, then by steering with equal forces, "
@@ -63,7 +63,7 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
 struct HeldOutSums {
   ErrorSums model;
   ErrorSums four_wheel;
-  /// For each window: sums of the 3-DOF model, then sums of the four wheels.
+  /// For each window: the error sums of the 3-DOF model, then those of the four-wheel plant.
   std::vector<std::pair<ErrorSums, ErrorSums>> by_window;
 };
 
@@ -94,7 +94,8 @@ std::optional<HeldOutSums> held_out(const Windows& windows, const Plants& plants
   return sums;
 }
 
-/// The better plant, by the interval of the mean of D_w (tyre_fit.h); empty if it contains 0.
+/// The plant with the smaller errors on held-out windows, decided by the 95 % interval of the mean
+/// of D_w (tyre_fit.h). Empty if the interval contains 0.
 std::optional<PlantKind> better_plant(const HeldOutSums& sums) {
   std::vector<double> differences;
   for (const auto& [by_model, on_tyres] : sums.by_window) {
@@ -138,12 +139,13 @@ std::string comparison_text(const TyreFit& tyres) {
                                   ? "the four-wheel plant predicts better than the 3-DOF model"
                                   : "the 3-DOF model predicts better than the four-wheel plant";
   return fmt::format(
-      "over {} windows of {:g} s, each held out from the fit that predicts it, {} (RMS errors, SI "
+      "over {} windows of {:g} s, each predicted by a fit without this window, {} (RMS errors, SI "
       "units: {})",
       tyres.windows, kWindow_s, verdict, text);
 }
 
-/// Estimate of a parameter. If the logs do not determine it: empty, with a finding.
+/// Estimate of a tyre parameter. If the logs do not determine the parameter, adds a finding and
+/// returns empty.
 std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, std::size_t windows,
                                          const DrivingLog& log, std::vector<Finding>& findings) {
   if (shown.is_free[at(p)]) return estimate_of(shown.fit.at[p], *shown.errors[at(p)], windows);
@@ -162,7 +164,8 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
 /// True if a log has longer time steps than the controller, so that the commands between its rows
 /// are unknown.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
-  // Ratio of time step to sample time above which rows are missing; jitter alone stays below it.
+  // Limit of the ratio of time step to sample time. Above it, rows are missing; jitter of the time
+  // stamps alone stays below it.
   constexpr double kLonger = 1.2;
   return std::ranges::any_of(
       logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
@@ -181,10 +184,10 @@ std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) 
   return logs;
 }
 
-/// Increases the standard errors by the error due to unknown commands between the rows
-/// (tyre_fit.h): half the change of the fit when every other logged command is dropped, so that a
-/// 95 % interval includes this change. Returns false if the fit without these commands does not
-/// converge.
+/// Increases the standard errors by the error due to unknown commands between the rows of a slow
+/// log (tyre_fit.h). For this the fit is repeated without every other logged command. Half of the
+/// resulting change is added in quadrature, so that a 95 % interval includes the change. Returns
+/// false if the repeated fit does not converge.
 bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant<double>& plant,
                                 double motor_lag_s, const Plants& plants, ShownFit& shown) {
   const std::vector<DrivingLog> halved = with_half_of_the_commands(logs);
@@ -272,9 +275,10 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (!shown) return fail(shown.error());
   const auto sums = held_out(windows, plants, *shown);
   if (!sums) {
-    return fail(finding(first, Severity::kError, "tyres-not-converged",
-                        "the fit to every other window, for the comparison of the plants, does not "
-                        "converge; record a longer drive"));
+    return fail(
+        finding(first, Severity::kError, "tyres-not-converged",
+                "the fit to every other window, with which the plants are compared, does not "
+                "converge; record a longer drive"));
   }
   TyreFit tyres{
       .tyres = tyres_at(shown->fit.at),

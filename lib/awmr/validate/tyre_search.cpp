@@ -106,8 +106,8 @@ std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   return starts;
 }
 
-/// J'J and J'e of a window at the fit, with the Jacobian J of its weighted errors e. The entries of
-/// parameters that are not fitted are 0.
+/// Contribution of one window to the normal equations at the fit: J'J and J'e. e: weighted errors
+/// of the window; J: their Jacobian by the tyre parameters, 0 for parameters that are not fitted.
 struct WindowInformation {
   Eigen::Matrix2d information;
   Eigen::Vector2d score;
@@ -128,9 +128,9 @@ std::optional<WindowInformation> information_of(const ReplayedWindow& window, co
   return WindowInformation{by.transpose() * by, by.transpose() * errors};
 }
 
-/// Standard errors of the logarithms, by the jackknife over windows. Empty for parameters that are
-/// not fitted; empty for both if a parameter depends on a single window, or if a window cannot be
-/// simulated.
+/// Standard errors of the logarithms of the tyre parameters, by the jackknife over windows. Empty
+/// for parameters that are not fitted. Both are empty if a parameter depends on a single window, or
+/// if a window cannot be simulated.
 std::array<std::optional<double>, 2> log_errors(const Windows& windows, const Plants& plants,
                                                 const IsFree& is_free, const Fit& fit) {
   std::vector<WindowInformation> each;
@@ -204,7 +204,8 @@ LogTyres default_tyres() {
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from) {
   constexpr int kMaxRounds = 8;
-  constexpr double kSameCost = 1e-5;  // converged below this change of the cost per error
+  // The fit has converged if the last step changes the cost per error by less than this.
+  constexpr double kSameCost = 1e-5;
   const auto first = sums_on_tyres(windows, plants, from);
   if (!first) return std::nullopt;
   Fit best{.at = from, .weights = first->weights(), .cost = first->cost()};

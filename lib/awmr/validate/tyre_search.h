@@ -18,7 +18,9 @@ using IsFree = std::array<bool, 2>;
 struct Fit {
   LogTyres at;
   Weights weights{};
-  double cost = 0.0;  ///< sum over the channels c of n_c log(sum e^2 / n_c) (tyre_fit.h)
+  /// Sum over the channels c of n_c log(sum e^2 / n_c), with the n_c errors e of each channel
+  /// (tyre_fit.h).
+  double cost = 0.0;
   bool converged = false;
   std::string stop_reason = {};
 };

@@ -9,7 +9,8 @@ namespace awmr::tyre_fit {
 namespace {
 
 std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& plant) {
-  constexpr double kLongestStep = 0.25;  // longest step, as a fraction of the servo's time constant
+  // Longest integration step, as a fraction of the servo's time constant.
+  constexpr double kLongestStep = 0.25;
   std::vector<double> angles;
   if (!log.steering_command_rad) return angles;
   const std::vector<double>& commands = *log.steering_command_rad;
@@ -31,8 +32,8 @@ std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& 
   return angles;
 }
 
-/// True for rows whose errors count: all rows after the first second of the window. In that second,
-/// errors of the unmeasured part of the initial state decay.
+/// True for rows whose errors count: all rows after the first second of the window. Part of the
+/// initial state is not measured. The errors due to this part decay in the first second.
 bool counts(const LogWindow& rows, std::size_t row) {
   constexpr double kBegin_s = 1.0;
   return rows.log->t_s[row] - rows.log->t_s[rows.begin] >= kBegin_s;
@@ -52,8 +53,8 @@ struct ErrorsByRow {
   Eigen::Index count = 0;
 };
 
-/// Subtracts the mean over the window from the errors of heading and position, because the initial
-/// heading and position are known only with the error of one measurement.
+/// Subtracts the mean over the window from the errors of heading and position. The initial heading
+/// and position are single measurements, whose errors would shift all later values of the window.
 Eigen::VectorXd about_their_mean(const ReplayedWindow& window, Eigen::VectorXd errors) {
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     double sum = 0.0;

@@ -173,7 +173,8 @@ void add_drives(Validation& validation, std::vector<Acceptance> drives) {
 }
 
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial) {
-  // tau_speed = 4 F' at d_r = 0; the dead zone removes 4 F'0                    [paper (41)]
+  // Surge force at straight wheels (d_r = 0): tau_speed = 4 F', F' the force of one wheel over
+  // F_max. The dead zone F'0 of the motors removes 4 F'0.                  [paper (41)]
   if (trial.kind == TrialKind::kSurge) {
     return steady_rate(plant.surge, trial.input - driven_wheels(plant) * plant.wheel_dead_zone);
   }

@@ -24,7 +24,7 @@ struct TrialResidual {
   int line = 0;
   std::string unit;
   double measured = 0.0;
-  /// In `unit`; absent if the model gives no prediction (predicted_measurement()).
+  /// Predicted value, in `unit`; absent if the model gives none (predicted_measurement()).
   std::optional<double> predicted;
   std::optional<double> relative_error;  ///< (predicted - measured)/measured
 };
@@ -73,8 +73,9 @@ struct Validation {
   std::optional<TyreFit> tyres;    ///< tyres fitted to the logs; absent if not requested or refused
   std::vector<Acceptance> drives;  ///< results for drives of a scenario under the controller
   std::vector<Claim> claims;
-  /// True if every kind of trial and every log is predicted within its tolerance, and every drive
-  /// of a scenario agrees with the prediction. False if there are neither trials, logs nor drives.
+  /// Verdict of the validation. True if every kind of trial and every log is predicted within its
+  /// tolerance, and every drive of a scenario agrees with the prediction. False if there are
+  /// neither trials, logs nor drives.
   bool passed = false;
   std::string verdict;  ///< `passed` and its reasons in one sentence
 };
@@ -96,13 +97,13 @@ struct ValidateOptions {
 /// Also absent for other kinds of trial.
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
 
-/// Predicts the model's trials and checks the paper's claims. Claims do not affect `passed`,
-/// because a claim that is not reproduced is a result about the paper, not about the model. Without
-/// gains, only C1, C2 and C14 are checked. The verdict names the claims that are left out because
-/// the model lacks parameters, or because the vehicle does not have four driven wheels and
-/// steering. Errors (input): the model lacks a parameter that its trials measure or, with gains,
-/// any parameter; the input or the measurement of a trial is not above 0; the tolerance is not
-/// above 0; the errors of batch_arithmetic().
+/// Predicts the model's trials and checks the paper's claims. A claim that is not reproduced is a
+/// result about the paper, not about the model, so claims do not affect `passed`. Without gains,
+/// only C1, C2 and C14 are checked. The verdict names the claims that are left out because the
+/// model lacks parameters, or because the vehicle does not have four driven wheels and steering.
+/// Errors (input): the model lacks a parameter that its trials measure or, with gains, any
+/// parameter; the input or the measurement of a trial is not above 0; the tolerance is not above 0;
+/// the errors of batch_arithmetic().
 Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
                             const ValidateOptions& options);
 

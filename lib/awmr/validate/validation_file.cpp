@@ -113,7 +113,7 @@ Json case_json(const ClaimCase& open) {
           {"verdict", verdict_of(open.reproduced)}};
 }
 
-/// The cases of the claim, then the cases of each mode.
+/// The verdict of the claim in each case, then that of each mode in each case.
 Json cases_json(const Claim& claim) {
   Json json = Json::array();
   for (const ClaimCase& open : claim.cases) json.push_back(case_json(open));

@@ -15,7 +15,8 @@ const style = {
   legend: {labelColor: "var(--ink)", labelFont: font, labelFontSize: 11, labelLimit: 260},
 };
 
-/// Shapes of points, as Vega needs them. The legend draws the first two, too.
+/// Shapes of points, in the form that Vega needs. The legend of the page draws the first two as
+/// well.
 const shapePaths = {
   cross: "M11.5 0h3v3.5H18v3h-3.5V10h-3V6.5H8v-3h3.5z", diamond: "M13 0l5 5-5 5-5-5z",
   square: "M9 1h8v8h-8z", "triangle-up": "M13 0l5 9h-10z",
@@ -41,8 +42,8 @@ const markOfKind = {
     y2: {signal: "scale('y', max(datum[0], domain_y[0]))"}, fill: colour}}),
 };
 
-/// Vega mark of one series. It is invisible if the signal `hidden` contains the index of the
-/// series.
+/// Vega mark of one series. The mark is invisible while the signal `hidden` contains the index of
+/// the series.
 function markOf(series, index) {
   const at = {x: {scale: "x", field: "0"}, y: {scale: "y", field: "1"}};
   const {update, ...mark} = {aria: true, ...markOfKind[series.kind](series, at,
@@ -53,10 +54,10 @@ function markOf(series, index) {
 }
 const valuesOf = (s) => (s.kind === "shade" ? [[s.limit, 1e12], [-1e12, -s.limit]] : s.points);
 
-/// Entry of the signal `hidden` that hides all circles of a chart.
+/// Value in the signal `hidden` that hides all circles (obstacles) of a chart.
 const circlesKey = "circles";
-/// Value of the Vega signal `hidden`: indices of the hidden series, and circlesKey if the circles
-/// are hidden.
+/// Value of the Vega signal `hidden`: indices of the hidden series, and circlesKey if the
+/// circles (obstacles) are hidden.
 const hiddenOf = (chart) => [...chart.series.flatMap((s, i) => (s.hidden ? [i] : [])),
   ...(chart.circlesHidden ? [circlesKey] : [])];
 
@@ -80,7 +81,7 @@ const pointedRule = {type: "rule", interactive: false, aria: false, encode: {upd
 
 /// Vega specification of a chart: {title, x, y, series: [{name, kind: "line" | "points" | "band" |
 /// "shade", points: [[x, y, ...]], colour, ...}], equal, circles}. x, y: titles of the axes; equal:
-/// same scale on both.
+/// both axes have the same scale; circles: obstacles.
 function specification(chart) {
   // With equal axes, x and y have the same scale, so the axis with more pixels gets a longer range.
   const domain = (axis, length) => (chart.equal
@@ -114,8 +115,8 @@ function specification(chart) {
   };
 }
 
-/// Ranges of both axes for the visible series, with a small margin. `zero` names the axes that
-/// include 0, `least` is the smallest length of the y range.
+/// Ranges of both axes that include the visible series and circles, with a small margin. `zero`
+/// names the axes that include 0, `least` is the smallest length of the y range.
 function extentOf({series, circles, zero = "", least = 0}) {
   const range = (values, room, most) => {
     let low = Infinity, high = -Infinity;
@@ -152,7 +153,8 @@ function described(chart) {
   return `${chart.title}, ${chart.y} over ${chart.x}. ${shown.map(of).join("; ")}.`;
 }
 
-/// Adds the frame of a chart: a caption with its buttons, and the box in which it is drawn.
+/// Adds the frame of a chart to the page: a caption with buttons, and the box in which the chart is
+/// drawn.
 function framed(parent, chart) {
   chart.figure = add(parent, "figure");
   const caption = add(chart.figure, "figcaption");
@@ -173,9 +175,9 @@ function framed(parent, chart) {
   return chart;
 }
 
-/// Adds a chart to `parent`. It is drawn when it comes near the visible area, or before printing.
-/// Charts of the same `group` share the x range, the cursor and the hidden series. With `legend`
-/// false, the chart has no legend of its own, because the group has one.
+/// Adds a chart to `parent`. The chart is drawn when it comes near the visible area, or before
+/// printing. Charts of the same `group` share the x range, the cursor and the hidden series. With
+/// `legend` false, the chart has no legend of its own, because the group has one.
 function plot(parent, options) {
   const series = options.series.filter((s) => s.kind === "shade" || s.points.length);
   if (!series.some((s) => s.kind !== "shade")) return undefined;
@@ -186,7 +188,7 @@ function plot(parent, options) {
   return framed(parent, chart);
 }
 
-/// Adds buttons that show and hide the series of these names in all of `charts`.
+/// Adds buttons, one for each of these series, that show and hide the series in all of `charts`.
 function legend(parent, entries, charts) {
   const box = add(parent, "div", undefined, {class: "legend", role: "group",
     "aria-label": "series"});
@@ -207,7 +209,7 @@ function legend(parent, entries, charts) {
   }
 }
 
-/// Small drawing of a series' line and mark, for the legend.
+/// Small drawing of the line and the mark of a series, for the legend.
 function sample(entry) {
   const {kind, colour, opacity, width, dash, shape, fill} = entry;
   const svg = drawIn(document.createElement("span"), "svg",

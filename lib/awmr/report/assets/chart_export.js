@@ -1,7 +1,7 @@
-// Saves a chart as SVG or PNG with its legend, in the colours that the page has on paper.
+// Saves a chart as SVG or PNG with its legend, in the colours of the printed page.
 
-/// Vega specification of a chart as it is shown now (zoom, hidden series), with a title and a
-/// legend. The page's style variables are replaced by colours.
+/// Vega specification of a chart in its present state (zoom, hidden series), with a title and a
+/// legend. Colours replace the style variables of the page.
 function exported(chart) {
   const spec = chart.specification(chart);
   for (const signal of spec.signals) {
@@ -13,7 +13,7 @@ function exported(chart) {
     spec.height = chart.view ? chart.view.height() : chart.height;
     spec.autosize = {type: "pad"};
   } else {
-    spec.width = chart.outer || 420;  // a range chart: width with its labels
+    spec.width = chart.outer || 420;  // a chart of ranges: its width with the row labels
   }
   spec.padding = 10;
   spec.title = {text: chart.title, anchor: "start", color: "var(--ink)", font, fontSize: 13};

@@ -1,4 +1,4 @@
-// Range chart: one row per entry, with a bar from low to high, a mark at `middle` (median) and
+// Chart of ranges: one row per entry, with a bar from low to high, a mark at `middle` (median) and
 // small marks for single values. The axis includes 0.
 
 /// `rows`: [{label, low, high, middle, values: [], colour, dash, shape, note, absent}]; a row

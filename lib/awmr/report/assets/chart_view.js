@@ -4,8 +4,8 @@ const onScreen = new IntersectionObserver((entries) => {
   for (const entry of entries) if (entry.isIntersecting) draw(entry.target.chart);
 }, {rootMargin: "300px"});
 const resized = new ResizeObserver((entries) => {
-  // Deferred to the next frame: changing a height in the observer's callback would trigger it
-  // again.
+  // Resizes the charts in the next frame. Changing a height in the callback of the ResizeObserver
+  // would call it again.
   requestAnimationFrame(() => entries.forEach(({target}) => fit(target.chart, target.clientWidth)));
 });
 
@@ -51,8 +51,8 @@ function draw(chart) {
   if (chart.series.length) listen(chart);
 }
 
-/// Sizes a chart. outer: width in pixels, with margins; most: largest height. With equal axes, the
-/// height follows from the ranges of the axes, within limits.
+/// Sets the size of a chart. outer: width in pixels, with margins; most: largest height in pixels.
+/// If both axes have the same scale, the height follows from the ranges of the axes, within limits.
 function fit(chart, outer, most = Infinity) {
   if (!chart.view || outer < 50 || outer === chart.outer) return;
   chart.outer = outer;
@@ -65,8 +65,8 @@ function fit(chart, outer, most = Infinity) {
   chart.view.width(width).height(height).run();
 }
 
-/// Position of the pointer in a plot: x, y in pixels from its upper left corner; `unit` in the
-/// units of the axes.
+/// Position of the pointer in a plot: x, y in pixels from the upper left corner of the plot, and
+/// `unit`, the same position in the units of the axes.
 function place(chart, event) {
   const box = chart.node.getBoundingClientRect();
   const [left, top] = chart.view.origin();
@@ -128,8 +128,8 @@ function whole(chart) {
   }
 }
 
-/// Shows a tooltip with the values of all series at the x of the pointer. Charts by point or with
-/// equal axes show only the point nearest to the pointer.
+/// Shows a tooltip with the values of all series at the x of the pointer. In charts with the option
+/// `byPoint` or with equal axes, the tooltip shows only the point nearest to the pointer.
 function point(chart, event) {
   const at = place(chart, event);
   const shown = chart.series.filter((s) => !s.hidden && s.kind !== "band" && s.kind !== "shade");

@@ -1,5 +1,5 @@
-// Section of the paper's claims. Each has a mark, its statement, and small bar charts of its
-// numbers by mode.
+// Section of the paper's claims. Each claim has a mark for its verdict, its statement, and small
+// bar charts of its numbers by mode.
 
 /// Reads the numbers of a claim by mode from the text that validate writes: "WHAT differential A,
 /// steering B, combined C UNIT; ...". Text of another form is shown as a sentence.
@@ -27,8 +27,8 @@ function multiple(parent, {what, values}) {
   });
 }
 
-/// Number of combinations of the settings that the paper does not give with which the claim is
-/// reproduced.
+/// The paper leaves some settings open. Adds the number of combinations of these settings with
+/// which the claim is reproduced.
 function claimCases(parent, cases) {
   if (!cases || !cases.length) return;
   const kept = cases.filter((c) => c.verdict === "reproduced").length;

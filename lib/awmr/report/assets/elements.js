@@ -23,8 +23,8 @@ function drawIn(parent, tag, attributes, text) {
 }
 
 const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
-/// Text of a number with n significant digits, or with all digits before the decimal point if these
-/// are more. A dash for a missing value.
+/// Text of a number with n significant digits, but at least with all digits before the decimal
+/// point. A dash for a missing value.
 function digits(x, n = 3) {
   if (!isNumber(x)) return "–";
   const size = Math.abs(x);
@@ -34,7 +34,7 @@ function digits(x, n = 3) {
 const interval = (pair) => (pair ? `${digits(pair[0])} to ${digits(pair[1])}` : "–");
 const percent = (x) => (isNumber(x) ? `${digits(100 * x, 2)} %` : "–");
 const plural = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
-/// Number of decimals that shows two significant digits of a standard error, at most 8.
+/// Number of decimals with which a standard error has two significant digits, at most 8.
 const decimalsOf = (error) => Math.max(0, Math.min(8, 1 - Math.floor(Math.log10(error))));
 
 /// Texts for metrics that a run lacks because it did not settle or did not reach the end of its
@@ -51,7 +51,7 @@ function metricValue(name, x) {
 const metricWords = (name) => report.metric_words[name] || name.replaceAll("_", " ");
 
 /// Readable name of a scenario. Names of tuning scenarios contain the headings, and "led" if the
-/// heading rate is limited: heading_30_-30_led.
+/// rate of the heading command is limited: heading_30_-30_led.
 function scenarioWords(name) {
   const own = (report.scenarios[name] || {}).name;
   const parts = /^heading((?:_-?\d+(?:\.\d+)?)+)(_[a-z_]+)?$/.exec(name);
@@ -63,7 +63,7 @@ function scenarioWords(name) {
 /// Sections are open at first, except on narrow screens.
 const isWide = innerWidth > 640;
 
-/// Adds an entry of the contents; a click opens the section if it is closed.
+/// Adds an entry to the table of contents. A click opens the section if it is closed.
 function contentsEntry(root, title) {
   root.id = title.toLowerCase().replace(/[^a-z]+/g, "-");
   const link = add(add(document.getElementById("contents"), "li"), "a", title,
@@ -104,8 +104,8 @@ function mark(parent, tone) {
 const lengthOf = (cell) => (cell instanceof Node ? cell.textContent : String(cell)).length;
 const isEmptyCell = (cell) => cell === "–" || cell === "" || cell === undefined;
 
-/// Adds a table. `head`: the name of each column, with a leading "#" if it has numbers. `rows`:
-/// arrays of text or nodes. `best(row, column)`: whether a cell is emphasised. Empty columns are
+/// Adds a table. `head`: the names of the columns; a leading "#" marks a column of numbers. `rows`:
+/// arrays of text or nodes. `best(row, column)`: true if the cell is emphasised. Empty columns are
 /// left out.
 function table(parent, head, rows, best) {
   const columns = head.map((name, i) =>
@@ -153,7 +153,7 @@ const modeStyle = {
 /// gains.
 const colourOf = (label) => (modeStyle[label.split(/[ ,]/)[0]] || {colour: "var(--dim)"}).colour;
 
-/// Line and mark of each set of gains, for every mode.
+/// Line and mark of each set of gains, which are the same for every mode.
 const gainsOrder = ["robust", "nominal", "baseline", "paper"];
 const gainsStyle = {
   robust: {dash: [], shape: "circle"}, tuned: {dash: [], shape: "circle"},

@@ -2,7 +2,7 @@
 
 const whereOf = (f) => (f.file ? `${f.file}${f.line ? `:${f.line}` : ""}` : "");
 
-/// The three findings with the largest effect.
+/// Adds the three findings with the largest effect on the results.
 function firstFindings(parent, findings) {
   add(parent, "h2", "Findings");
   if (!findings.length) add(parent, "p", "None.");
@@ -20,7 +20,7 @@ function firstFindings(parent, findings) {
   more.onclick = () => document.querySelector('nav a[href="#findings"]').click();
 }
 
-/// All findings, those with the largest effect first.
+/// Section with all findings. Those with the largest effect on the results come first.
 function findingsSection({findings}) {
   if (findings.length <= 3) return;
   const box = section("Findings",

@@ -1,7 +1,7 @@
 // Section of the identification: trials with the fitted curve, its band and residuals; parameter
 // values; logs and drives.
 
-/// Rows of trials are points in ink; rows with a warning are hollow diamonds.
+/// Style of measured trials: points in the text colour. Trials with a warning are hollow diamonds.
 const measuredLook = {kind: "points", colour: "var(--ink)"};
 const warnedLook = {kind: "points", colour: "var(--warn)", fill: "var(--paper)", shape: "diamond",
   size: 90};
@@ -10,7 +10,8 @@ const modelLook = {kind: "line", colour: "var(--model)"};
 const axisWords = {surge: ["speed, m/s", "thrust τ_speed"],
   turning: ["yaw rate, rad/s", "yaw moment τ_turn, m"]};
 
-/// Returns a function that gives the tooltip of a row of trials: its place and its findings.
+/// Returns a function that gives the tooltip of a trial: file and row of the trial, and the
+/// findings about it.
 function rowNote(model) {
   return (t) => [`${t.file}:${t.line}`, ...findingsOfRow(model, t).map((f) =>
     f.message)].join("\n");
@@ -90,8 +91,8 @@ function estimateRows(rows) {
   });
 }
 const estimateHead = ["quantity", "#value", "#standard error", "95 % interval", "unit", "origin"];
-/// All quantities (objects with `value`) below `entry`, with their paths: [["surge.alpha", {...}],
-/// ...].
+/// All quantities (objects with a key `value`) in `entry` and its members, with their paths:
+/// [["surge.alpha", {...}], ...].
 const leaves = (entry, path) => (entry && typeof entry === "object"
   ? ("value" in entry ? [[path, entry]]
   : Object.entries(entry).flatMap(([key, below]) => leaves(below, path ? `${path}.${key}` : key)))
@@ -127,8 +128,8 @@ function estimatorsTable(parent, estimates) {
     digits(r.aicc), digits(r.residual_std, 3), r.rows_used, r.stop_reason.split(". ")[0]]));
 }
 
-/// Table with a row for each row of the trials: the change of the main values, in percent, if it is
-/// left out.
+/// Table with one row per trial: the change of the most important values, in percent, if this trial
+/// is left out of the fit.
 function influenceTable(parent, estimates) {
   const left = estimates.filter((e) => Array.isArray(e.leave_one_out) && e.leave_one_out.length);
   if (!left.length) return;
@@ -146,8 +147,8 @@ function influenceTable(parent, estimates) {
   }
 }
 
-/// Result of the validation in a sentence. If it used only data of the fit, a note says that these
-/// do not show how well another drive is predicted.
+/// Sentence with the result of the validation. If only data of the fit were used, a note says that
+/// they do not show how well the model predicts another drive.
 function validationWords(data) {
   const {validation} = data;
   if (!validation || !validation.verdict) return;
@@ -160,7 +161,7 @@ function validationWords(data) {
 function identificationSection(data) {
   const {model, fits} = data;
   const box = section("Identification", model.trials.length
-    ? "Points are rows of the trials. Diamonds have a warning, which the pointer shows." : "",
+    ? "Each point is a row of the trials. Diamonds mark rows with a warning; point at one to read it." : "",
       "Model");
   const words = validationWords(data);
   if (words) add(box, "p", words[0].toUpperCase() + words.slice(1));
@@ -208,7 +209,7 @@ function tyresPart(parent, validation) {
       [channelWords(name), digits(error.model_rms), digits(error.four_wheel_rms)]));
 }
 
-/// Drives under the controller compared with their predictions.
+/// Drives under the controller, each compared with the simulated drives that predict it.
 function drivesPart(parent, validation) {
   for (const drive of (validation || {}).drives || []) {
     add(parent, "h3", `Drive ${drive.file}, “${scenarioWords(drive.scenario)}”, ${drive.mode}: ` +
@@ -259,8 +260,8 @@ function logsPart(parent, validation) {
   const logs = (validation || {}).logs || [];
   if (!logs.length) return;
   add(parent, "h3", "Logs, measured and predicted");
-  small(parent, "Predicted from the commands alone over windows. NRMSE is the error divided by " +
-    "the signal's standard deviation.");
+  small(parent, "Predicted from the commands alone, from the measured state at the start of each window. " +
+    "NRMSE is the RMS error divided by the signal's standard deviation.");
   table(parent, ["log", "channel", "#samples", "#R², to the next row", "#R², over a window",
     "#NRMSE, over a window"],
     logs.flatMap((log) => Object.entries(log.channels).map(([name, c]) =>

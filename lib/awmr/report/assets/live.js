@@ -17,9 +17,9 @@ const liveSliders = [
   {key: "heading_noise_deg", name: "heading noise, deg", low: 0, high: 5, log: false},
 ];
 
-/// Loads the WebAssembly module and passes the numbers of the setup. Returns a function that
-/// simulates the given slider settings and returns {columns, ended, constraints, metrics}; ended:
-/// false if it diverges.
+/// Loads the WebAssembly module and passes the numbers of the setup to it. Returns a function that
+/// simulates the given slider settings and returns {columns, ended, constraints, metrics}. `ended`
+/// is false if the simulation diverges.
 async function liveModule(packed, numbers) {
   const bytes = Uint8Array.from(atob(packed), (c) => c.charCodeAt(0));
   const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -48,8 +48,8 @@ async function liveModule(packed, numbers) {
   };
 }
 
-/// The gains as JSON for --gains. `observer`: the tuned observer, if there is one, from which the
-/// limits are taken.
+/// The gains as JSON for --gains. `observer`: the tuned observer, whose limits are kept; null
+/// without one.
 function gainsDocument(s, observer) {
   const gains = {schema: "awmr.gains/1", heading: {lambda: s.lambda, mu: s.mu, epsilon: s.epsilon},
     speed: {mu: s.speed_mu, epsilon: s.speed_epsilon}};
@@ -83,8 +83,8 @@ function liveSlider(parent, slider, settings, changed) {
 
 const degreesOf = (list) => list.map((x) => x * 180 / Math.PI);
 const pairs = (x, y) => x.map((v, i) => [v, y[i]]);
-/// Reduces a long run to about 2 `most` points: the minimum and the maximum of each of `most`
-/// intervals.
+/// Reduces a long run to about 2 `most` points: the minimum and the maximum in each of `most`
+/// intervals of time.
 function thinned(points, most = 500) {
   const stretch = Math.ceil(points.length / most);
   if (stretch < 3) return points;
@@ -96,8 +96,8 @@ function thinned(points, most = 500) {
   return kept;
 }
 
-/// Adds charts of the run with the slider values, in the hue of its mode, and of the run with the
-/// tuned gains under the same conditions, in grey. Returns a function that updates them.
+/// Adds two sets of charts under the same conditions: of the run with the slider values, in the hue
+/// of its mode, and of the run with the tuned gains, in grey. Returns a function that updates them.
 function liveCharts(parent, start) {
   const group = [];
   const line = (name, colour, width) => ({name, kind: "line", colour, width});
@@ -137,7 +137,7 @@ function liveCharts(parent, start) {
 async function liveSection(data) {
   const packed = document.getElementById("wasm").textContent;
   if (!packed && data.gains) section("Try other gains",
-    "This awmr was built without WebAssembly, so the page has no sliders. For sliders: " +
+    "This awmr was built without WebAssembly, so the page has no sliders. To get sliders, run " +
     "scripts/setup all, scripts/build release, then awmr report.", "Try gains");
   if (!packed || !data.live) return;
   const box = section("Try other gains",
@@ -175,7 +175,7 @@ async function liveSection(data) {
   const redraw = liveCharts(box, run(settings));
   const tables = add(box, "div");
   let waiting = false;
-  /// Runs the simulation at most once per frame of the screen.
+  /// Handles a change of a slider: runs the simulation at most once per frame of the screen.
   function changed() {
     if (waiting) return;
     waiting = true;
@@ -208,7 +208,7 @@ async function liveSection(data) {
     }
   };
   changed();
-  window.awmrLive = {run, tuned};  // for access to the page by script
+  window.awmrLive = {run, tuned};  // lets scripts, such as the tests, run it
 }
 
 function liveTables(parent, result, tuned) {

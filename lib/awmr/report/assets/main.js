@@ -17,7 +17,7 @@ for (const [title, part] of [["Summary", summarySection], ["Findings", findingsS
   }
 }
 
-// Marks the entry of the contents whose section is at the top of the window.
+// Marks the entry of the table of contents whose section is at the top of the window.
 const inView = new IntersectionObserver((entries) => {
   for (const {target, isIntersecting} of entries) target.isInView = isIntersecting;
   const sections = [...document.querySelectorAll("section")];

@@ -13,12 +13,12 @@ const signals = [
 const referenceLook = {name: "reference", kind: "line", colour: "var(--dim)", width: 1.2};
 const obstacleLook = {name: "obstacle", kind: "circle", colour: "var(--dim)"};
 const nameOf = (run) => run.mode + (run.gains === "paper" ? ", the paper's gains" : "");
-/// Order of the runs: by gains, the tuned ones first, then by mode.
+/// Order of the runs: first by gains, with the tuned ones first, then by mode.
 const byMode = (a, b) => (a.gains === b.gains ? modes.indexOf(a.mode) - modes.indexOf(b.mode)
   : a.gains === "tuned" ? -1 : 1);
 
-/// Series of a run's column y over its column x. The mode determines the hue, the gains the dashes.
-/// Runs with the paper's gains are hidden at first.
+/// Series of a run for a chart: its column y over its column x. The mode determines the hue, the
+/// set of gains the dashes. Runs with the paper's gains are hidden at first.
 function lineOf(run, x, y) {
   const points = run.columns[x].map((value, i) => [value, run.columns[y][i]]);
   const look = {name: nameOf(run), kind: "line", points, ...modeStyle[run.mode]};
@@ -29,15 +29,15 @@ function referenceOf(run, x, y) {
   return {...referenceLook, points: run.columns[x].map((v, i) => [v, run.columns[y][i]])};
 }
 
-/// The points of the path: waypoints, or the points of a line.
+/// The points of a scenario's path: the waypoints, or the corners of a line.
 function waypointsOf(scenario) {
   const guidance = (scenario || {}).guidance || {};
   if (Array.isArray(guidance.points_m)) return guidance.points_m;
   return guidance.from_m && guidance.to_m ? [guidance.from_m, guidance.to_m] : [];
 }
 
-/// Shade for yaw rates above the highest one at which yaw resistance was measured: a list with one
-/// series, or empty if it was not measured.
+/// Shade for yaw rates above the highest one at which yaw resistance was measured, where the model
+/// extrapolates. A list with one series, or empty if yaw resistance was not measured.
 function extrapolatedYawRates() {
   const limit = report.yaw_rate_measured_degps;
   return isNumber(limit) ? [{name: `extrapolated, beyond ±${digits(limit)} deg/s`, kind: "shade",
@@ -48,7 +48,8 @@ function scenarioPart(parent, stem, runs, scenario, open) {
   const box = folded(parent, scenarioWords(stem), open);
   const group = [];
   const first = runs[0];
-  // With guidance, each run has its own heading reference; without it, all runs have the same.
+  // With guidance, each run computes its own heading reference; without guidance, all runs have the
+  // same.
   const sameHeading = !(scenario && scenario.guidance) || scenario.guidance.type === "heading";
   const entries = runs.map((run) => lineOf(run, "t_s", "psi_deg"));
   const points = waypointsOf(scenario).filter((p) => Array.isArray(p));

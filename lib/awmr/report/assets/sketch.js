@@ -6,8 +6,8 @@ const turned = ([x, y], angle) =>
   [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle)];
 const sum = ([x, y], [dx, dy]) => [x + dx, y + dy];
 
-/// Returns functions that draw in body axes: pixels forward and to the left of the centre of
-/// gravity.
+/// Returns functions that draw in coordinates of the vehicle: pixels forward and to the left of the
+/// centre of gravity.
 function sketchPen(svg) {
   const place = (point) => {
     const [x, y] = turned(point, sketchHeading);
@@ -32,8 +32,8 @@ function sketchPen(svg) {
   return {place, path, box, arc, label};
 }
 
-/// Draws a wheel and its force. The forces on the right are larger, because the sketch shows a left
-/// turn.
+/// Draws a wheel and its force. The wheels on the right have larger forces, because the sketch
+/// shows a left turn.
 function sketchWheel({path, box, label}, wheel, {size, angle, isDriven, isNamed}) {
   box(wheel, [size, 7], angle, "wheel");
   if (!isDriven) return;

@@ -33,8 +33,8 @@ function nextSteps(data) {
   const steps = [];
   const {model, gains, validation, suggest} = data;
   if (model.findings.some((f) => f.severity === "error" || f.code === "not-identifiable")) {
-    steps.push("Record the trial that the finding “not-identifiable” names: the model is " +
-      "incomplete.");
+    steps.push("The model is incomplete: record the trial that the finding “not-identifiable” " +
+      "names.");
   }
   if (data.header) steps.push("Include awmr_params.h (next to this page) in your sketch, or use " +
     "the sketches with the controller that awmr emit writes.");
@@ -54,7 +54,8 @@ function nextSteps(data) {
 }
 
 /// Chart of the heading in every mode with the tuned gains, in the first scenario with heading
-/// steps, else in the first scenario. Without simulated runs: the trials, or a validated log.
+/// steps, else in the first scenario. If there are no simulated runs, the chart shows the trials,
+/// or a validated log.
 function responseChart(parent, data) {
   const height = 210;
   const type = (run) => (((data.scenarios[run.scenario] || {}).guidance || {}).type || "");

@@ -1,4 +1,5 @@
-// Symbols of the control laws: their letters, and their meaning, which is shown on hover and focus.
+// Symbols of the control laws: their letters, and the meaning that the page shows on hover and
+// focus.
 const symbols = new Map(Object.entries({
   lambda: ["λ", "lambda, 1/s: slope of the sliding surface. On it, the heading error decays with " +
     "T1 = 1/λ"],
@@ -26,11 +27,11 @@ const symbolParts = (text) => text.replaceAll("<=", "≤").replaceAll(">=", "≥
 const plainSymbols = (text) => symbolParts(text).map((part) =>
   (symbols.get(part) || [part])[0]).join("");
 
-/// Symbols that the page has shown before. Only the first occurrence of a symbol can get the
+/// Symbols that occurred on the page so far. Only the first occurrence of a symbol can get the
 /// keyboard focus.
 const metSymbols = new Set();
 
-/// Appends text to a node. Names of known symbols become their letter, with the meaning as a
+/// Appends text to a node. Replaces names of known symbols by their letter, with the meaning as a
 /// tooltip.
 function write(node, text) {
   for (const part of symbolParts(text)) {
@@ -45,7 +46,7 @@ function write(node, text) {
   }
 }
 
-/// Returns a span with the text, as by write().
+/// Returns a span with the text, in which known symbols are replaced as by write().
 function symbolic(text) {
   const node = document.createElement("span");
   write(node, text);

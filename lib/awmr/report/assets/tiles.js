@@ -21,9 +21,9 @@ function unseenLogs({model, validation}) {
   return (validation.logs || []).filter((log) => !names.includes(base(log.file)));
 }
 
-/// Tile of the model's largest prediction error: on logs that were not used for the fit; if there
-/// are none, on logs of the fit, else on the trials, else the result for drives compared with
-/// predicted drives.
+/// Tile of the model's largest prediction error. It uses the first of these that exists: logs that
+/// were not used for the fit, logs of the fit, the trials, the comparison of drives with predicted
+/// drives.
 function modelTile(list, data) {
   const {validation} = data;
   if (!validation) return tile(list, "doubt", "Model error", "not validated",
@@ -53,7 +53,8 @@ function modelTile(list, data) {
 }
 
 /// Tile of the settling time with the baseline and the tuned gains: medians over drawn vehicles
-/// that were not used for tuning, else the times in the first scenario of the tuning.
+/// that were not used for tuning. Without such vehicles: the times in the first scenario of the
+/// tuning.
 function settlingTile(list, gains) {
   if (!gains) return tile(list, "doubt", "Settling time", "no gains",
     "awmr tune computes gains for the model");
@@ -85,8 +86,8 @@ function settlingTile(list, gains) {
     `${met}`);
 }
 
-/// The best modes of a scenario. If compare repeated the ranking with another plant, weights and
-/// gains: the modes that are never behind in any of these rankings.
+/// The best modes of a scenario. If compare repeated the ranking with another plant, other weights
+/// and other gains: the modes that are never behind in any of these rankings.
 const firstOf = (scenario) => (scenario.decision ? scenario.decision.never_behind
   : scenario.ranking.filter((r) => r.rank === 1).map((r) => r.mode));
 

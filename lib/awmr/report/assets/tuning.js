@@ -4,15 +4,15 @@
 const gainsWords = {robust: "tuned", nominal: "nominal", baseline: "baseline",
   paper: "the paper's"};
 
-/// Name of the baseline, the gains whose objective is 1. In older files without `source` these are
-/// the paper's.
+/// Name of the baseline: the gains relative to which objectives are computed, so that theirs is 1.
+/// In older files without `source` these are the paper's gains.
 function baselineWords(gains) {
   const {source = "paper"} = gains.baseline || {};
   return {paper: "the paper's gains", "pole-placement": "pole placement"}[source] || source;
 }
 
-/// Describes the unmodelled variation (masses, wheel forces) of the drawn vehicles; empty if there
-/// is none.
+/// Describes by how much masses and wheel forces of the drawn vehicles vary in addition to the
+/// model's covariance (unmodelled variation). Empty if they do not.
 function openWords(open) {
   if (!open) return "";
   const masses = open.mass_factors ? [`m' and I'z times ${open.mass_factors.join(", ")}`] : [];
@@ -27,13 +27,13 @@ function constraintState({margin, required, limit}) {
   return [margin < 0.01 * Math.abs(limit) ? "at its limit" : "met", "good"];
 }
 
-/// Sense of a constraint, "at-most" or "at-least". Results of the interactive part lack it; it is
-/// then derived from value, limit and margin.
+/// Sense of the limit of a constraint, "at-most" or "at-least". Results of the interactive part do
+/// not contain it; it is then derived from value, limit and margin.
 const senseOf = ({sense, value, limit, margin}) => sense ||
   (Math.abs(limit - value - margin) <= Math.abs(value - limit - margin) ? "at-most" : "at-least");
 
-/// Bar chart of a constraint: a bar from 0 to the value, a line at the limit, the permitted side
-/// shaded. at(x) is the position of x in percent of the width.
+/// Bar chart of a constraint: a bar from 0 to the value, a line at the limit, and a shade on the
+/// permitted side. at(x) is the position of x in percent of the width.
 function constraintBar(constraint) {
   const {value, limit, margin} = constraint;
   const reach = 1.25 * Math.max(Math.abs(value), Math.abs(limit)) || 1;
@@ -84,7 +84,7 @@ function tradeOffChart(parent, gains) {
       points: [at(point)], colour: "var(--ink)", shape: (gainsStyle[name] || {}).shape}))];
   add(parent, "h3", "Settling time and control variation");
   small(parent, "Means over the modes, manoeuvres and plants of the search. Of all gains of the " +
-    "search that meet every constraint, none are better in both than those on the line.");
+    "search that meet every constraint, none have both shorter settling and less variation than those on the line.");
   plot(add(parent, "div", undefined, {class: "grid"}),
     {title: "trade-off", x: "settling time, s", y: "control variation, 1/s", series, height: 260,
       zero: "xy", byPoint: true});
@@ -129,7 +129,7 @@ function historyChart(parent, gains) {
     `${gainsWords[set]}: local from evaluation ${h.global_evaluations + 1} of ${h.evaluations}`);
   small(parent, `The best gains so far that meet every constraint; 1 is ${baselineWords(gains)}. ` +
     `A global search, then a local one (${phases.join("; ")}).` +
-    (nominal ? " Each is relative to the baseline under its own conditions." : ""));
+    (nominal ? " Each objective is relative to that of the baseline under the same conditions." : ""));
   plot(add(parent, "div", undefined, {class: "grid"}),
     {title: "objective, best so far", x: "evaluation", y: "objective", series, height: 260,
       zero: "xy"});
@@ -143,7 +143,7 @@ const robustFigures = [["settling_time_s", "settling time, s"],
 function goalsTable(parent, goals) {
   if (!goals || !goals.length) return;
   add(parent, "h3", "Goals");
-  small(parent, "Share of newly drawn vehicles for which every limit is met, with its 95 % interval.");
+  small(parent, "Share of the newly drawn vehicles for which every limit of the goal is met, with its 95 % interval.");
   const limits = (goal) => Object.entries(goal.at_most).map(([name, most]) =>
     `${metricWords(name)} at most ${digits(most)}`).join("; ") + (goal.soft ? " (soft)" : "");
   table(parent, ["goal", "mode", "gains", "#required", "#kept", "verdict"],
@@ -228,8 +228,8 @@ function tuningSection(data) {
   metricsTable(box, gains);
 }
 
-/// Table of the metrics in the objective, by mode and scenario: with the tuned gains and, in
-/// brackets, with the baseline.
+/// Table of the metrics in the objective, by mode and scenario. Each cell has the value with the
+/// tuned gains and, in brackets, that with the baseline.
 function metricsTable(parent, gains) {
   const base = (gains.baseline || {}).metrics || {};
   const rows = Object.entries(gains.metrics || {}).flatMap(([mode, scenarios]) =>

@@ -16,9 +16,9 @@ std::optional<double> number_in(const Json& json, const char* key) {
   return json.at(key).get<double>();
 }
 
-/// Returns the name of a scenario for file names: SCENARIO of the file scenario_SCENARIO.json that
-/// has the key `name` with this value, so that figures of runs and comparisons have the same name.
-/// Without such a file, `name` itself.
+/// Returns the name that a scenario has in file names, so that figures of runs and of comparisons
+/// have the same name: SCENARIO, if a file scenario_SCENARIO.json has this `name` in its key
+/// `name`. Without such a file, `name` itself.
 std::string stem_of(const Json& data, const std::string& name) {
   for (const auto& [stem, scenario] : data.at("scenarios").items()) {
     if (scenario.value("name", "") == name) return stem;
@@ -26,8 +26,8 @@ std::string stem_of(const Json& data, const std::string& name) {
   return name;
 }
 
-/// Difference of a metric between two modes with its 95 % interval, in percent of the larger of the
-/// two means. Metrics whose means are both 0 have no row.
+/// One row of the figure of differences: the difference of a metric between two modes with its 95 %
+/// interval, in percent of the larger of the two means. A metric whose means are both 0 has no row.
 struct DifferenceRow {
   std::string metric;
   double mean = 0.0;
@@ -99,8 +99,9 @@ void add_differences(const Json& scenario, const std::string& stem, FiguresOfRes
   }
 }
 
-/// Figure of the distribution of a metric: one row per mode, with the samples, the median and the
-/// range from the 5 to the 95 % quantile; without samples, the value of the nominal run.
+/// Figure of the distribution of a metric: one row per mode, with the value in each sample
+/// (simulated vehicle), the median and the range from the 5 to the 95 % quantile. If there are no
+/// samples, a row has the value of the nominal run.
 Figure spread_figure(const std::string& stem, const std::string& metric, const Json& scenario,
                      const Json& samples) {
   const MetricWords words = metric_words(metric);
@@ -138,7 +139,7 @@ Figure spread_figure(const std::string& stem, const std::string& metric, const J
   return figure;
 }
 
-/// True if a mode has a nominal value or a median of the metric other than 0.
+/// True if some mode has a value of the metric other than 0, as median or in the nominal run.
 bool is_reported(const Json& scenario, const std::string& metric) {
   const Json& modes = scenario.at("modes");
   return std::any_of(modes.begin(), modes.end(), [&](const Json& mode) {

@@ -26,9 +26,9 @@ enum class Role {
 enum class SeriesShape {
   kLine,
   kPoints,
-  kBand,    ///< a filled area over x, from `low` to `high`
-  kTicks,   ///< short vertical lines at x, in row y of an axis with names
-  kRanges,  ///< a bar from `low` to `high` along x with a mark at x, in row y of an axis with names
+  kBand,    ///< an area over x, filled between `low` and `high`
+  kTicks,   ///< short vertical lines at x, in row y of an axis with row names
+  kRanges,  ///< bar from `low` to `high` along x with a mark at x, in row y of such an axis
 };
 
 /// One series of a panel. It has a legend entry unless its name is empty.
@@ -46,9 +46,10 @@ struct Series {
 /// exponent.
 struct Axis {
   std::string quantity = {};
-  std::string unit = {};               ///< empty if dimensionless
-  bool zero = false;                   ///< true: the range includes 0 and has a line there
-  std::vector<std::string> rows = {};  ///< names of rows at y = 0, 1, ... from the top; else empty
+  std::string unit = {};  ///< empty if dimensionless
+  bool zero = false;      ///< true: the range includes 0 and has a line there
+  /// Row names at y = 0, 1, ... from the top. Empty for an axis with numbers.
+  std::vector<std::string> rows = {};
 };
 
 struct FigureCircle {
@@ -68,8 +69,8 @@ struct Figure {
   std::string meaning = {};  ///< one sentence for figures.json; it is not drawn
   Axis x;
   std::vector<Panel> panels = {};
-  bool equal_axes = false;                 ///< same scale on x and y; only for one panel
-  std::vector<FigureCircle> circles = {};  ///< obstacles; only with equal axes
+  bool equal_axes = false;  ///< true: x and y have the same scale; only for a figure with one panel
+  std::vector<FigureCircle> circles = {};  ///< obstacles; only for equal_axes
 };
 
 }  // namespace awmr

@@ -114,10 +114,10 @@ Result<std::string> figure_csv(const Figure& figure) {
     for (std::size_t s = 0; s < all.size(); ++s) {
       const Series& series = all[s];
       if (!are_finite(series)) {
-        return input_error(
-            ErrorCode::kOutOfRange, "figure " + figure.name,
-            fmt::format("\"{}\" has a number that is not finite; create the results again",
-                        series.name));
+        return input_error(ErrorCode::kOutOfRange, "figure " + figure.name,
+                           fmt::format("the figure's data \"{}\" have a number that is not finite; "
+                                       "create the results again",
+                                       series.name));
       }
       const std::string name = cell_of_text(series.name);
       for (std::size_t i = 0; i < series.x.size(); ++i) {

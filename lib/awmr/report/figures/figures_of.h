@@ -9,10 +9,10 @@
 
 namespace awmr {
 
-/// The figures, and texts about those that cannot be made.
+/// The figures for which there are data, and the reasons why others are missing.
 struct FiguresOfResults {
   std::vector<Figure> figures = {};       ///< names are unique
-  std::vector<std::string> lacking = {};  ///< figures without data: names and reason, one text each
+  std::vector<std::string> lacking = {};  ///< missing figures: names and reason in one text each
 };
 
 /// Makes the figures of identification, logs, tuning, runs and comparison, as far as there are
@@ -20,7 +20,8 @@ struct FiguresOfResults {
 /// format.
 Result<FiguresOfResults> figures_of(const ReportData& data);
 
-// Each of these functions adds the figures of one kind to `all` or, without data, the reason.
+// Each function below adds the figures of one kind to `all`. If there are no data for them, it adds
+// the reason to all.lacking.
 void add_identification_figures(const Model& model, FiguresOfResults& all);
 /// Throws Json::exception if validation.json does not have awmr's format.
 void add_log_figures(const Json& data, FiguresOfResults& all);

@@ -9,11 +9,11 @@
 namespace awmr {
 namespace {
 
-/// Names and axes for the figures of one kind of trial.
+/// Words and axes for the figures of one kind of trial.
 struct KindWords {
   TrialKind kind;
-  const char* name;        ///< name of the kind in file names
-  const char* resistance;  ///< name of the resistance in text
+  const char* name;        ///< kind of the trial in file names
+  const char* resistance;  ///< resistance in texts: "surge", "yaw"
   Axis rate;
   Axis input;
 };
@@ -25,8 +25,8 @@ const std::vector<KindWords>& kinds() {
   return kKinds;
 }
 
-/// Adds the measured rows as two series: rows without and with a warning. Empty series are left
-/// out.
+/// Adds the measured runs as two series: runs with and runs without a warning. Empty series are
+/// left out.
 void add_measured(const Model& model, const DrawnFit& fit, std::vector<Series>& series) {
   const std::vector<bool> doubtful = doubtful_trials(model);
   Series good{.name = "measured", .shape = SeriesShape::kPoints, .role = Role::kMeasured};

@@ -9,8 +9,8 @@
 namespace awmr {
 namespace {
 
-/// A channel of validation.json, the axis on which it is drawn, and the factor from SI units to
-/// those of the axis.
+/// A channel of validation.json, with its axis in the figure and the factor from SI units to the
+/// units of this axis.
 struct ChannelAxis {
   std::string_view channel;
   const char* quantity;
@@ -37,8 +37,8 @@ Series channel_series(const Json& series, const char* key, Role role, double per
   return one;
 }
 
-/// Figure of a log with one panel per channel. It has no panels if validation.json, written by an
-/// older version, has no time series.
+/// Figure of a log with one panel per channel. An older version of awmr wrote validation.json
+/// without time series; the figure then has no panels.
 Figure log_figure(const Json& log) {
   const std::string file = log.at("file");
   Figure figure{.name = figure_name("log", std::filesystem::path(file).stem().string()),

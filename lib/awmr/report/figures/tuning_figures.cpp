@@ -38,8 +38,8 @@ std::vector<Series> searches_of(const Json& gains) {
   return all;
 }
 
-/// Name of the baseline, the gains whose objective is 1. In older files without `source`, the
-/// baseline is the paper's gains.
+/// Name of the baseline: the gains relative to which objectives are computed, so that theirs is 1.
+/// In older files without `source`, the baseline is the paper's gains.
 std::string baseline_name(const Json& gains) {
   const bool is_named = gains.contains("baseline") && gains.at("baseline").contains("source");
   return is_named && gains.at("baseline").at("source") != "paper" ? "baseline"
@@ -67,8 +67,9 @@ void add_tuning_figures(const Json& data, FiguresOfResults& all) {
                       .y = {1.0, 1.0}});
   all.figures.push_back(
       {.name = "tuning_history",
-       .meaning = "Best objective of the search so far over the number of evaluations; that of the "
-                  "baseline is 1",
+       .meaning =
+           "Best objective found so far over the number of evaluations; the objective of the "
+           "baseline is 1",
        .x = {"evaluation"},
        .panels = {{.y = {"objective, best so far"}, .series = searches}}});
 }

@@ -29,7 +29,8 @@ std::vector<double> numbers;
 LiveSetup setup;
 std::vector<double> table;
 std::string text;
-constexpr std::size_t kColumns = 8;  ///< number of columns of `table`, which fill_table() writes
+/// Number of columns of `table`, the result of a run, which fill_table() writes.
+constexpr std::size_t kColumns = 8;
 
 Vehicle vehicle_of_setup(double sample_time_s) {
   Vehicle vehicle;
@@ -114,10 +115,11 @@ AWMR_EXPORT(live_begin) void live_begin() {
   visit_numbers(setup, [&](double& x) { x = numbers[next++]; });
 }
 
-/// Simulates one run and computes constraints and metrics. mode: a YawMode as a number. mass:
-/// factor on m' and I'z of the simulated vehicle; friction: factor on its a1 and a3. The controller
-/// keeps the model's values. observer_radps: bandwidth of the observer, rad/s; 0: no observer.
-/// Returns false if the run diverges.
+/// Simulates one run and computes constraints and metrics. The arguments are the positions of the
+/// sliders: gains; observer_radps, the bandwidth of the observer, rad/s, 0: no observer; mode, a
+/// YawMode as a number; mass, a factor on m' and I'z of the simulated vehicle; friction, a factor
+/// on its resistance coefficients a1 and a3. The controller keeps the model's values. Returns false
+/// if the run diverges.
 AWMR_EXPORT(live_run)
 bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
               double observer_radps, int mode, double sample_time_s, double mass, double friction,

@@ -1,6 +1,6 @@
 /// Input of the page's interactive part (live.cpp, WebAssembly) as a list of numbers. `awmr report`
-/// writes the list from model.json and gains.json, and the interactive part reads it; both visit
-/// the numbers in the order of visit_numbers(). Private to report/.
+/// writes the list from model.json and gains.json, and the interactive part reads it. Both use
+/// visit_numbers(), so that the numbers have the same order. Private to report/.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// Input of the interactive part: the inputs of the tuning constraints (with plant and force limits
-/// of the vehicle) and a heading scenario.
+/// Input of the interactive part: the inputs of the tuning constraints, which include the plant and
+/// the force limits of the vehicle, and a heading scenario.
 struct LiveSetup {
   /// Inputs of the tuning constraints; `plant` is the identified plant of the model.
   ConstraintContext context;
@@ -45,7 +45,7 @@ void visit_plant(Plant<double>& plant, Visit&& visit) {
   }
 }
 
-/// Visits a value that is not a double (bool, enumeration) as a double.
+/// Passes a value that is not a double (bool, enumeration) to `visit` as a double.
 template <class T, class Visit>
 void visit_as_number(T& value, Visit&& visit) {
   double number = static_cast<double>(value);
@@ -53,7 +53,7 @@ void visit_as_number(T& value, Visit&& visit) {
   value = static_cast<T>(number);
 }
 
-/// Visits the number of elements, then the elements.
+/// Passes the number of elements of a list to `visit`, then the elements.
 template <class T, class Visit, class VisitElement>
 void visit_list(std::vector<T>& list, Visit&& visit, VisitElement&& visit_element) {
   double size = static_cast<double>(list.size());

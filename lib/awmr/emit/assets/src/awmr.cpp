@@ -1,7 +1,8 @@
-// C interface to awmr/control/, the unchanged controller source of the simulations and the tuning.
+// C interface to the controller in awmr/control/, the same source as in the simulations and the
+// tuning.
 
-// Products and sums are rounded separately, whatever the compiler's default is: with fused
-// multiply-add, which rounds a b + c once, the chip's results would differ from the host's.
+// Disables fused multiply-add, which rounds a b + c once instead of twice. With it, the chip's
+// results would differ from those of the simulation.
 #if defined(__FAST_MATH__)
 #error "awmr: compile without -ffast-math; it hides infinities and NaN, and changes the results"
 #elif defined(__clang__)
@@ -16,8 +17,8 @@
 
 #include "awmr/control/autopilot.h"
 
-// 1: the direction of travel is computed if awmr_input.speed_unsigned is 1. 0: saves flash, for a
-// speed sensor with a sign; speed_unsigned 1 is then a fault.
+// 1: awmr_input.speed_unsigned may be 1; the autopilot then computes the direction of travel. 0:
+// saves flash if the speed sensor gives a sign. speed_unsigned = 1 is then a fault.
 #ifndef AWMR_WITH_DIRECTION
 #define AWMR_WITH_DIRECTION 1
 #endif
@@ -93,7 +94,8 @@ namespace {
 
 typedef awmr::LineLaws<awmr::LineLawAt<AWMR_LINE_LAW>::Of, float>::Law LineLaw;
 
-/// Constants of the position estimate, with the names of awmr::PositionFilter's members.
+/// Constants of the position estimate. awmr::Positioner needs them with these names, those of the
+/// members of awmr::PositionFilter.
 struct PositionFilter {
   static constexpr float sample_time_s = AWMR_SAMPLE_TIME_S;
   static constexpr float sample_rate_hz = AWMR_SAMPLE_RATE_HZ;
@@ -123,11 +125,12 @@ struct Parts {
 
 awmr::Autopilot<Resistance, Parts> autopilot;
 
-// The caller's C structs are read as C++ structs. The empty asm statements here and below are
-// memory barriers: without them the compiler could move the caller's writes across the call,
-// because it assumes that the two types do not alias.
+// Reads the caller's C structs as C++ structs of the same layout. The compiler assumes that the two
+// types do not alias, so it could move the caller's writes behind this call. The empty asm
+// statements here and in awmr_step() are memory barriers that prevent it.
 __attribute__((noinline)) void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
-  // With an invalid acceptance radius, each step gives AWMR_FAULT_OUTPUT until the next route.
+  // A waypoint that is not a number. It replaces the route if the acceptance radius is invalid, so
+  // that each step gives AWMR_FAULT_OUTPUT until the next route.
   static const awmr_point kNowhere = {__builtin_nanf(""), __builtin_nanf("")};
   if (!(acceptance_m >= 0.0f && acceptance_m < 1e6f)) {
     points = &kNowhere;
@@ -148,7 +151,8 @@ uint8_t awmr_init(void) {
   return good ? AWMR_FAULT_NONE : AWMR_FAULT_PARAMETERS;
 }
 
-// The C structs have the same members in the same order as the C++ structs.
+// Checks that the C structs have the same members in the same order as the C++ structs, because
+// awmr_step() reads one as the other.
 static_assert(sizeof(awmr_input) == sizeof(awmr::AutopilotInput), "");
 static_assert(offsetof(awmr_input, psi_rad) == offsetof(awmr::AutopilotInput, measured), "");
 static_assert(offsetof(awmr_input, x_m) == offsetof(awmr::AutopilotInput, position_m), "");
@@ -161,7 +165,7 @@ static_assert(sizeof(awmr_output) == sizeof(awmr::AutopilotOutput), "");
 static_assert(offsetof(awmr_output, tau_speed) == offsetof(awmr::AutopilotOutput, tau_speed), "");
 static_assert(offsetof(awmr_output, arrived) == offsetof(awmr::AutopilotOutput, arrived), "");
 
-// The C structs are read and written as the C++ structs of the same layout.
+// Reads and writes the C structs as the C++ structs of the same layout.
 __attribute__((noinline)) void awmr_step(const awmr_input* input, awmr_output* output) {
   __asm__ volatile("" ::: "memory");
   awmr::autopilot_step(autopilot, *reinterpret_cast<const awmr::AutopilotInput*>(input),

@@ -1,7 +1,7 @@
-/* awmr: the autopilot of one vehicle as a C interface. C99 and C++11.
-   Angles in rad, counter-clockwise positive, x forward, y left. Forces are divided by F_max, the
-   largest force of one motor. No memory is allocated. There is one autopilot: call all functions
-   from the same thread or interrupt.
+/* C interface of the autopilot for one vehicle. C99 and C++11. Angles are in rad, counter-clockwise
+   positive; x is forward, y left. Forces are divided by F_max, the largest force of one motor. No
+   memory is allocated. There is one autopilot: call all functions from the same thread or
+   interrupt.
 
      awmr_init();
      every AWMR_SAMPLE_TIME_S: fill an awmr_input; awmr_step(&input, &output); drive the motors. */
@@ -28,7 +28,7 @@
 #define AWMR_DIFFERENTIAL 0 /* left and right wheel forces, wheels straight */
 #define AWMR_STEERING 1     /* the front wheels, equal forces on both sides */
 #define AWMR_COMBINED 2     /* both; if one reaches its limit, the other makes the rest of the
-                               moment (not with AWMR_FIXED_HALF 1) */
+                               moment; with AWMR_FIXED_HALF 1, each makes half */
 
 /* awmr_output.fault: reasons for the safe command (forces 0, wheels straight), one bit each.
    AWMR_FAULT_PARAMETERS is set until reset; the others last as long as their cause. */
@@ -57,12 +57,13 @@ typedef struct awmr_input {
   float psi_ref_accel_radps2;
   float u_ref_mps;         /* speed to hold */
   float u_ref_accel_mps2;
-  uint32_t now_ms;         /* time now on a clock in ms, which may wrap */
+  uint32_t now_ms;         /* present time of a clock in ms, which may wrap */
   uint32_t heading_ms;     /* time on this clock at which psi_rad and r_radps were measured */
   uint32_t speed_ms;       /* time on this clock at which u_mps, x_m and y_m were measured */
   uint32_t command_ms;     /* time on this clock of the last command */
-  uint8_t speed_unsigned;  /* 1: u_mps is the magnitude of the speed, as from a GPS, and x_m, y_m
-                              are measured: the direction is computed. 0: u_mps has a sign */
+  uint8_t speed_unsigned;  /* 1: u_mps is the magnitude of the speed, as from a GPS; the
+                              autopilot computes the direction from x_m, y_m and the commands.
+                              0: u_mps has a sign */
   uint8_t position_is_fix; /* 1: x_m, y_m are the last fix of a receiver, taken at fix_ms: the
                               present position is estimated from the fix, heading and speed. 0: x_m,
                               y_m are the present position */
@@ -70,9 +71,9 @@ typedef struct awmr_input {
 } awmr_input;
 
 typedef struct awmr_output {
-  float force_left;        /* of each wheel on that side, AWMR_WHEEL_FORCE_MIN to _MAX */
+  float force_left;        /* force of each left wheel, AWMR_WHEEL_FORCE_MIN to _MAX */
   float force_right;
-  float steering_rad;      /* of the front wheels, left positive */
+  float steering_rad;      /* angle of the front wheels, left positive */
   uint8_t speed_limited;   /* 1: tau_speed was clipped */
   uint8_t steering_limited;   /* 1: the steering angle was clipped */
   uint8_t force_limited;      /* 1: a force was clipped */
@@ -80,9 +81,9 @@ typedef struct awmr_output {
                                  steering */
   float tau_speed;         /* force of all wheels that the speed law requests, before any limit */
   float tau_turn_m;        /* yaw moment that the heading law requests, m, before any limit */
-  float psi_ref_rad;       /* heading reference in use: of the input, or of the guidance */
+  float psi_ref_rad;       /* heading reference in use, from the input or the guidance */
   uint8_t arrived;         /* 1: the route is finished: set u_ref_mps to 0 to stop */
-  uint8_t fault;           /* AWMR_FAULT_...; not 0: the safe command */
+  uint8_t fault;           /* AWMR_FAULT_...; if not 0, this output is the safe command */
 } awmr_output;
 
 typedef struct awmr_point {
@@ -121,19 +122,20 @@ typedef struct awmr_path {
 typedef struct awmr_obstacle {
   float x_m;
   float y_m;
-  float radius_m;          /* > 0 */
+  float radius_m;          /* radius of the obstacle, > 0 */
 } awmr_obstacle;
-typedef struct awmr_sector { /* workspace: nothing to fill in */
+typedef struct awmr_sector { /* working memory of the avoidance: nothing to fill in */
   float bearing_rad;
   float half_rad;
   uint8_t counts;
 } awmr_sector;
 typedef struct awmr_avoidance {
-  float mmd_base_m;        /* manoeuvring distance at rest, > 0: an obstacle nearer than the
-                              manoeuvring distance is avoided. At least the turning radius */
-  float mmd_per_speed_s;   /* increase of that distance per m/s of speed, >= 0 */
-  float sigma_rad;         /* extra angle beyond the tangent next to the obstacle, [0, pi/2) */
-  float vehicle_radius_m;  /* of the circle that encloses the vehicle */
+  float mmd_base_m;        /* manoeuvring distance at rest, > 0, at least the turning radius. The
+                              vehicle avoids obstacles nearer than the manoeuvring distance */
+  float mmd_per_speed_s;   /* increase of the manoeuvring distance per m/s of speed, >= 0 */
+  float sigma_rad;         /* angle by which the blocked sector is wider than the tangents to the
+                              obstacle, in [0, pi/2) */
+  float vehicle_radius_m;  /* radius of the circle that encloses the vehicle */
   float clearance_m;       /* free distance between this circle and an obstacle, > 0 */
   float hysteresis_m;      /* avoidance ends this far beyond the manoeuvring distance, >= 0 */
   float side_hysteresis_rad; /* the side on which an obstacle is passed changes only if the turn
@@ -144,8 +146,8 @@ typedef struct awmr_avoidance {
 
 #if AWMR_WITH_SHAPING
 typedef struct awmr_shaping {
-  float omega_radps;       /* bandwidth, > 0; above 0.5/AWMR_SAMPLE_TIME_S the reference
-                              overshoots */
+  float omega_radps;       /* bandwidth of the filter of the reference, > 0; above
+                              0.5/AWMR_SAMPLE_TIME_S the reference overshoots */
   float rate_max_radps;    /* largest rate of the reference, > 0 */
   float accel_max_radps2;  /* largest acceleration of the reference, > 0 */
 } awmr_shaping;
@@ -153,9 +155,9 @@ typedef struct awmr_shaping {
 
 #if AWMR_WITH_OBSERVER
 typedef struct awmr_observer {
-  float bandwidth_radps;   /* > 0, below 1/AWMR_SAMPLE_TIME_S */
-  float yaw_max_m;         /* largest yaw moment that is compensated, over F_max */
-  float surge_max;         /* largest force that is compensated, over F_max */
+  float bandwidth_radps;   /* bandwidth of the observer, > 0, below 1/AWMR_SAMPLE_TIME_S */
+  float yaw_max_m;         /* largest yaw moment, m, that is compensated, divided by F_max */
+  float surge_max;         /* largest surge force that is compensated, divided by F_max */
   uint8_t anti_windup;     /* 1: on, the usual choice; 0: off, to see its effect in a test */
 } awmr_observer;
 #endif
@@ -168,15 +170,16 @@ extern "C" {
    they agree, else AWMR_FAULT_PARAMETERS: awmr_step then gives only the safe command. */
 uint8_t awmr_init(void);
 
-/* One control step. */
+/* Runs one control step. */
 void awmr_step(const awmr_input* input, awmr_output* output);
 
 /* Follows `count` waypoints in order from the next step on. A waypoint is reached at a distance of
-   acceptance_m. The points are not copied. count 0: ends guidance, psi_ref_rad is held again. */
+   acceptance_m. The points are not copied. count 0 ends the guidance: the vehicle holds psi_ref_rad
+   again. */
 void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
 
-/* As awmr_follow, but a waypoint that the vehicle passes without reaching it is skipped: for a
-   vehicle that cannot turn back to the waypoint. */
+/* Follows waypoints as awmr_follow, but skips a waypoint that the vehicle passes without reaching
+   it. Meant for vehicles that cannot turn back to a waypoint. */
 void awmr_follow_skipping(const awmr_point* points, int16_t count, float acceptance_m);
 
 #if AWMR_WITH_POSITION_ESTIMATE
@@ -193,20 +196,20 @@ uint8_t awmr_position_resets(void);
 void awmr_follow_line_by(const awmr_point* corners, int16_t count, const float* parameters,
                          float corner_m, uint8_t sideslip_compensation);
 #if AWMR_LINE_LAW == 0
-/* As awmr_follow_line_by, for the paper's law (los). */
+/* Follows the line as awmr_follow_line_by, with the paper's guidance law (los). */
 void awmr_follow_line(const awmr_point* corners, int16_t count, const awmr_line_law* law);
 #endif
 #endif
 
 #if AWMR_WITH_PATH
-/* Follows a timed path from the next step on: at the speed u_ref_mps or, if that is 0, at the speed
-   of the path's point. */
+/* Follows a timed path from the next step on, at the speed u_ref_mps. If u_ref_mps is 0, the speed
+   is that of the moving point of the path. */
 void awmr_follow_path(const awmr_path* path);
 #endif
 
 #if AWMR_WITH_SLOW_DOWN
-/* Within distance_m of the last waypoint or of the line's end, reduces the speed in proportion to
-   the distance, at least to a tenth. 0: off. */
+/* Slows the vehicle down near the last waypoint or the end of the line. Within distance_m of this
+   point the speed is reduced in proportion to the distance, down to a tenth. 0: off. */
 void awmr_slow_down(float distance_m);
 #endif
 
@@ -223,9 +226,9 @@ void awmr_shape(const awmr_shaping* shaping);
 #endif
 
 #if AWMR_WITH_OBSERVER
-/* Estimates a constant disturbance (slope, unequal motors) and compensates it. NULL: off. With
-   gains that were tuned with an observer (AWMR_OBSERVER_... in awmr_params.h), it is on from
-   awmr_init() on. */
+/* Estimates a constant disturbance (slope, unequal motors) and compensates it. NULL: off. If the
+   gains were tuned with an observer (AWMR_OBSERVER_... in awmr_params.h), awmr_init() switches this
+   observer on. */
 void awmr_observe(const awmr_observer* observer);
 #endif
 

@@ -100,9 +100,9 @@ bool write_header(Sink& sink) {
 
 enum Drained { kNothing, kWritten, kFailed };
 
-/* Writes the oldest block of the ring if it is complete; with `rest`, also an incomplete block,
-   before the file is closed. Rows that the sink does not accept are lost, with the result
-   kFailed. */
+/* Writes the oldest block of the ring if it is complete. With `rest`, also writes an incomplete
+   block: for the end, before the file is closed. If the sink does not accept a block, its rows are
+   lost and the result is kFailed. */
 template <uint8_t kBlocks, class Sink>
 Drained drain(awmr::LogRing<kBlocks>& ring, Sink& sink, bool rest = false) {
   const uint8_t rows = ring.ready(rest);

@@ -11,8 +11,8 @@ enum Kind { kSurge, kTurning, kCoastdown };
 
 struct Trial {
   Kind kind;
-  float force;        /* of every wheel, over F_max */
-  float steering_rad; /* of the front wheels, left positive */
+  float force;        /* force of every wheel, divided by F_max */
+  float steering_rad; /* angle of the front wheels, left positive */
 };
 
 struct Settings {
@@ -27,8 +27,8 @@ struct Settings {
 
 enum State { kWaiting, kSettling, kMeasuring, kCoasting, kDone };
 
-/* Event of a step. After kNotSteady, kLetGo, and kSensorLost while driving, the same run waits to
-   be driven again. */
+/* Event of a step. The same run must be driven again after kNotSteady, after kLetGo, and after
+   kSensorLost if the motors were on. */
 enum Event {
   kNothing,
   kRow,       /* a row of a surge or turning run, which is finished */
@@ -43,13 +43,13 @@ enum Event {
 struct Measured {
   uint32_t now_ms;
   float speed_mps;
-  uint32_t speed_ms; /* time of its measurement: each reading counts once */
+  uint32_t speed_ms; /* time of the speed's measurement: each reading counts once */
   float yaw_rate_radps;
   bool is_held; /* the dead man's switch is held: the vehicle is armed */
 };
 
-/* For kRow: force, steering_rad and value, the mean speed or yaw rate. For kCurveRow: t_s since
-   motors-off and value, the speed. */
+/* A row of a table. For kRow: force, steering_rad, and the mean speed or yaw rate as `value`. For
+   kCurveRow: time t_s since the motors were switched off, and the speed as `value`. */
 struct Row {
   float force;
   float steering_rad;
@@ -79,7 +79,7 @@ class Recorder {
     }
     if (state_ == kWaiting || state_ == kDone) return kNothing;
     if (is_doubtful) return lose();
-    if (!m.is_held && state_ != kCoasting) return give_up(kLetGo); /* coasting, motors are off */
+    if (!m.is_held && state_ != kCoasting) return give_up(kLetGo); /* coasting: motors are off */
     const float t_s = static_cast<float>(m.now_ms - since_ms_) * 1e-3f;
     const bool is_fresh = m.speed_ms != speed_ms_;
     speed_ms_ = m.speed_ms;
@@ -93,10 +93,10 @@ class Recorder {
   State state() const { return state_; }
   uint8_t number() const {
     return number_;
-  } /* of the present run, from 0; `count` when all are done */
+  } /* number of the present run, from 0; `count` when all runs are done */
   const Trial& trial() const { return runs_[number_]; }
   const Row& row() const { return row_; }
-  /* Force of every wheel to command until the next step, over F_max: 0 while waiting or
+  /* Force of every wheel to command until the next step, divided by F_max; 0 while waiting or
      coasting. */
   float force() const { return state_ == kSettling || state_ == kMeasuring ? trial().force : 0.0f; }
   float steering_rad() const {
@@ -112,7 +112,7 @@ class Recorder {
   bool is_new_ = false;
   uint32_t since_ms_ = 0; /* start of the present state */
   uint32_t speed_ms_ = 0;
-  float sum_[2] = {0.0f, 0.0f}; /* one per half of the window */
+  float sum_[2] = {0.0f, 0.0f}; /* sums of the readings in each half of the averaging time */
   uint16_t samples_[2] = {0, 0};
   uint8_t curve_rows_ = 0;
   Row row_ = {0.0f, 0.0f, 0.0f, 0.0f};

@@ -1,8 +1,8 @@
-// Guides through the bring-up list of README.md after a first flash. Wheels off the ground. Over
-// Serial (115200 baud) it announces each motion; the line "y" starts this motion, any other line is
-// a no. The first no ends the bring-up, with the motors off until a reset: fix the fault and start
-// again. Forces are at most kForce, a motion lasts two seconds, and any character during a motion
-// also ends it.
+// Guides through the first test of a vehicle after flashing ("From the first flash to a drive" in
+// README.md), with the wheels off the ground. Over Serial (115200 baud) the sketch announces each
+// motion. The line "y" starts this motion, any other line means no. The first no ends the test,
+// with the motors off until a reset: fix the fault and start again. Forces are at most kForce, a
+// motion lasts two seconds, and any character during a motion also ends the test.
 #include <Wire.h>
 #include <awmr.h>
 #include <awmr_paper_board.h>
@@ -16,16 +16,17 @@ Stream* gps_port;
 awmr::RmcReader gps_reader;
 volatile bool has_fix = false;
 
-// Commands for the step. setup() sets them with interrupts off, because the timer interrupt could
-// read a float of which only some of the four bytes are new.
+// Commands that the control step executes. setup() and want() set them with interrupts off, because
+// the timer interrupt could read a float of which only some of the four bytes are new.
 struct Wanted {
   float left, right, steering_rad;
-  bool by_autopilot; // true: instead of these, the autopilot holds the heading, with at most kForce
+  // true: the autopilot holds the heading, with at most kForce, and the commands above are unused
+  bool by_autopilot;
 };
 Wanted wanted;
 awmr_output output;
 volatile bool shall_hang = false;
-float turned_rad = 0.0f; // angle turned since it was set to 0, by the gyroscope
+float turned_rad = 0.0f; // integral of the yaw rate since a test set it to 0
 
 float cut(float force) { return constrain(force, -kForce, kForce); }
 
@@ -62,7 +63,8 @@ void step() {
     input.r_radps = imu.r_radps;
     input.heading_ms =
         awmr_board::time_or_old(imu.has_heading(), imu.time_ms, input.now_ms, AWMR_HEADING_TIMEOUT_MS);
-    // The wheels are off the ground: the speed is 0, and no fix is needed.
+    // The wheels are off the ground: the vehicle has speed 0 and needs no GPS fix. Current time
+    // stamps keep the autopilot from reporting old inputs.
     input.speed_ms = input.command_ms = input.now_ms;
     awmr_step(&input, &output);
     output.force_left = cut(output.force_left);
@@ -104,7 +106,7 @@ void prompt(const __FlashStringHelper* question) {
   if (!read_yes()) end(question);
 }
 
-// Waits for limit_ms; any character that arrives ends the bring-up.
+// Waits for limit_ms. A character that arrives meanwhile ends the test.
 void wait_ms(uint32_t limit_ms) {
   const uint32_t start_ms = millis();
   while (Serial.available() > 0) Serial.read(); // rest of the last line
@@ -113,7 +115,7 @@ void wait_ms(uint32_t limit_ms) {
   }
 }
 
-// Moves an actuator for two seconds, then asks for the observation.
+// Moves actuators for two seconds, then asks the user what was observed.
 void show(float left, float right, float steering_rad, const __FlashStringHelper* warning,
           const __FlashStringHelper* question) {
   prompt(warning);
@@ -123,8 +125,7 @@ void show(float left, float right, float steering_rad, const __FlashStringHelper
   prompt(question);
 }
 
-// Waits until the gyroscope is calibrated, which takes a second at rest; after 10 s ends the
-// bring-up.
+// Waits until the gyroscope is calibrated, which takes a second at rest. Ends the test after 10 s.
 void wait_still() {
   const uint32_t start_ms = millis();
   while (imu.fault() == awmr::kGyroNotCalibrated) {
@@ -133,7 +134,7 @@ void wait_still() {
 }
 
 void check_turn() {
-  prompt(F("2. Next: lift it and turn it by hand to the LEFT by a quarter turn, within 20 s."));
+  prompt(F("2. Next: lift the robot and turn it LEFT by a quarter turn, within 20 s."));
   wait_still();
   if (!imu.has_heading()) end(F("no heading: magnetometer or its wiring"));
   const float before = atomically(imu.psi_rad);
@@ -144,16 +145,16 @@ void check_turn() {
   while (fabs(atomically(turned_rad)) < 1.2f) {
     if (millis() - start_ms > 20000) end(F("no turn was seen: gyroscope or its wiring"));
   }
-  if (atomically(turned_rad) < 0.0f) end(F("the gyroscope turns the other way: it lies upside down"));
-  delay(6000); // three time constants of the heading's correction by the compass
+  if (atomically(turned_rad) < 0.0f) end(F("gyroscope of the wrong sign: is it upside down?"));
+  delay(6000); // three time constants with which the compass corrects the heading
   const float turned = awmr::float_math::wrapped(atomically(imu.psi_rad) - before);
   Serial.print(F("turned by the compass, deg: "));
   Serial.println(turned * 57.2957795f, 0);
-  if (turned < 0.8f) end(F("compass and gyroscope differ: axes, or calibrate it (CompassCalibration)"));
+  if (turned < 0.8f) end(F("compass and gyroscope differ: check axes, calibrate the compass"));
 }
 
 void check_autopilot() {
-  prompt(F("8. The autopilot holds the heading, wheels in the air; then turn it by hand 30 deg to the LEFT. Next?"));
+  prompt(F("8. Next: the autopilot holds the heading, wheels in the air. Turn the robot 30 deg LEFT by hand."));
   noInterrupts();
   input.mode = AWMR_COMBINED;
   input.psi_ref_rad = imu.psi_rad;
@@ -191,7 +192,7 @@ void walk() {
   if (!SD.begin(awmr_board::kSdSelectPin)) end(F("7. no SD card"));
 #endif
   check_autopilot();
-  prompt(F("9. Next: wheels turn, the step hangs. The motors must stop within a second and this sketch must restart."));
+  prompt(F("9. Next: wheels turn, the program hangs. The motors must stop within 1 s and this sketch must restart."));
   want(kForce, kForce, 0.0f);
   wait_ms(1000);
   shall_hang = true;
@@ -207,7 +208,7 @@ void setup() {
   const bool was_reset = (awmr_board::reset_cause() & awmr_board::kWatchdog) != 0;
   if (awmr_init() != AWMR_FAULT_NONE) Serial.println(F("parameters damaged: flash again"));
   awmr_board::begin_steps(receive, step);
-  if (was_reset) Serial.println(F("9. The watchdog works. Bring-up is done; to repeat it:"));
+  if (was_reset) Serial.println(F("9. The watchdog works. The test is done. Repeat it?"));
   walk();
 }
 

@@ -1,8 +1,9 @@
 // Records the magnetic field while the vehicle turns, for `awmr compass FIELD00.CSV -o
 // src/awmr_compass.h`. Use level ground away from iron, with everything mounted and switched on as
-// for driving. Turn the vehicle slowly through two whole circles, by hand or over Serial (115200
-// baud): "ARM", then "T 0.3" drives a circle to the left with 0.3 of F_max while a command, such as
-// "KEEP", arrives once per second; "STOP" stops.
+// for driving. Turn the vehicle slowly through two whole circles, by hand or by commands over
+// Serial (115200 baud): "ARM" enables the motors, "T 0.3" drives a circle to the left with 0.3 of
+// F_max, the largest wheel force. The motors stop at "STOP", or if no command arrives for a second:
+// repeat "KEEP".
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
@@ -51,8 +52,8 @@ void receive() {
 }
 
 void step() {
-  // Only STOP and a pause of the commands disarm: sensor faults do not, because the compass is not
-  // calibrated yet.
+  // Only STOP and a pause of the commands switch the motors off. Sensor faults do not, because the
+  // compass is not calibrated yet.
   if (millis() - command.heard_ms >= 1000) arming.disarm(awmr::DisarmReason::kTimeout);
   if (!arming.is_armed()) force = 0.0f;
   awmr_output output = awmr_output();

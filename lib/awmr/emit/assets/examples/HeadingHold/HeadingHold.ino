@@ -1,4 +1,4 @@
-// Heading and speed hold on the source paper's hardware. Over Serial, 115200 baud, one command per
+// Holds heading and speed on the source paper's hardware. Over Serial, 115200 baud, one command per
 // line:
 //   ARM     enables the motors, at speed 0 and on the current heading
 //   S 1.0   drive at 1 m/s        H 30   head 30 deg        M 2   combined mode

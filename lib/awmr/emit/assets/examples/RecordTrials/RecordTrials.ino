@@ -1,11 +1,13 @@
-// Runs the field sheet automatically and writes its tables: SURGE00.CSV, TURN00.CSV and COAST00.CSV
-// for `awmr identify --surge --turning --coastdown`. Use level, dry ground, and drive half of the
-// runs in each direction. A run needs the distance of settle_s + measure_s (kSettings: 6 s) at its
-// speed, a coast-down also the distance until rest. Over Serial (115200 baud), one command per
-// line: "ARM" first, and again after each stop or fault; "G" drives the announced run, "N" skips
-// it. A run needs a command, such as "KEEP", at least once per second; "STOP" or a longer pause
-// stops the run, which then waits to be driven again. In the runs with straight wheels, nothing
-// controls the heading: stop the vehicle if it leaves its lane.
+// Drives the runs of the field sheet automatically and writes its tables: SURGE00.CSV, TURN00.CSV
+// and COAST00.CSV for `awmr identify --surge --turning --coastdown`. Use level, dry ground, and
+// drive half of the runs in each direction. A run needs the distance that the vehicle drives in
+// settle_s + measure_s (kSettings: 6 s), a coast-down also the distance until rest.
+//
+// Commands over Serial (115200 baud), one per line: "ARM" enables the motors, first and again after
+// each stop or fault. "G" drives the announced run, "N" skips it. During a run a command, such as
+// "KEEP", must arrive at least once per second. "STOP" or a longer pause stops the run, which must
+// then be driven again. In runs with straight wheels nothing controls the heading: stop the vehicle
+// if it leaves its lane.
 #include <SD.h>
 #include <SPI.h>
 #include <Wire.h>
@@ -47,7 +49,7 @@ struct Pending {
   uint8_t number;
   Row row;
 };
-Pending pending;            // last event of the step, which loop() writes to the card
+Pending pending;            // last event of a control step, which loop() writes to the card
 volatile bool has_pending = false;
 uint16_t rows_lost = 0;
 

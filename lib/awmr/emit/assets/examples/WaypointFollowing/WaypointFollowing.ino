@@ -12,7 +12,8 @@
 const awmr_point kPoints[] = {{10.0f, 20.0f}, {0.0f, 40.0f}, {-10.0f, 20.0f}, {0.0f, 0.0f}};
 const float kAcceptanceM = 2.0f;
 const float kSpeedMps = AWMR_ROUTE_SPEED_MPS;
-const uint32_t kBrakingMs = 5000; // longest time to come to rest at the last point
+// Time after the arrival at the last point after which the sketch disarms even a moving vehicle.
+const uint32_t kBrakingMs = 5000;
 
 awmr_board::Imu imu;
 awmr_board::Gps gps;

@@ -10,7 +10,7 @@ namespace awmr_board {
 
 enum Answer {
   kOk,
-  kUnknown,     /* from here to kTextLocked: in the order of awmr::CommandVerdict */
+  kUnknown,     /* the answers from here to kTextLocked have the order of awmr::CommandVerdict */
   kTooLong,
   kDamaged,
   kRepeated,

@@ -32,7 +32,7 @@ class Imu {
   /* heading, counter-clockwise from true north, in (-pi, pi]; valid once has_heading() */
   float psi_rad = 0.0f;
   float r_radps = 0.0f; /* yaw rate, counter-clockwise positive */
-  uint32_t time_ms = 0; /* of the last accepted reading, valid once has_heading() */
+  uint32_t time_ms = 0; /* time of the last accepted reading, valid once has_heading() */
   float field_ahead = 0.0f; /* the last magnetic field forward, raw counts of the sensor */
   float field_left = 0.0f;  /* the last magnetic field to the left */
   uint32_t field_ms = 0;    /* time of this field; 0: none yet */
@@ -60,8 +60,8 @@ class Imu {
     check_.turn.begin(kRadpsPerWord, AWMR_SAMPLE_TIME_S);
   }
 
-  /* Call after awmr_step() with the yaw moment that is commanded until the next step, over F_max,
-     m; 0 if the motors are off. read() checks the sign of the yaw rate with it. */
+  /* Call after awmr_step() with the yaw moment, m, that is commanded until the next step, divided
+     by F_max; 0 if the motors are off. read() checks the sign of the yaw rate with it. */
   void note_moment(float tau_turn_m) { moment_m_ = tau_turn_m; }
 
   /* Call in the step: integrates the gyroscope and corrects it by the magnetometer (time constant 2

@@ -59,8 +59,8 @@ class Safety {
     input.u_ref_mps = 0.0f;
   }
 
-  /* Call after awmr_step() with its fault bits and the sensor fault (`cause`): any of them
-     disarms. */
+  /* Call after awmr_step() with its fault bits and the sensor fault (`cause`). Disarms the vehicle
+     if any of them is set. */
   void observe(uint8_t fault, uint8_t cause, Command& command) {
     fault_ = fault;
     cause_ = cause;

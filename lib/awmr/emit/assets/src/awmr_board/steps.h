@@ -33,11 +33,11 @@ static volatile bool is_busy;
 static volatile bool is_due;
 static volatile uint32_t sample_time_count; /* sample times since begin_steps() */
 static volatile uint32_t the_step_number;
-static uint16_t ticks_left; /* until the next sample time */
+static uint16_t ticks_left; /* timer ticks until the next sample time */
 static uint16_t ticks_per_step;
 
-/* Returns the shortest watchdog time that is at least 250 ms and at least four sample times (at
-   most 4 s). So a single skipped step causes no reset. */
+/* Returns the time after which the watchdog resets the chip: at least 250 ms and at least four
+   sample times, so that a single skipped step causes no reset; at most 4 s. */
 inline uint8_t watchdog_time() {
   return 4.0f * AWMR_SAMPLE_TIME_S <= 0.25f  ? WDTO_250MS
          : 4.0f * AWMR_SAMPLE_TIME_S <= 0.5f ? WDTO_500MS

@@ -1,5 +1,5 @@
-/* Arduino Uno (ATmega328P): pins, the servo's timer, the GPS's port. It writes no log, because its
-   2 KiB of RAM have no room for the log's ring buffer and the card's library. */
+/* Arduino Uno (ATmega328P): pins, the servo's timer, the GPS's port. The Uno writes no log, because
+   its 2 KiB of RAM have no room for the log's ring buffer and the card's library. */
 #ifndef AWMR_BOARD_UNO_H
 #define AWMR_BOARD_UNO_H
 
