@@ -37,10 +37,10 @@ std::string refusal_reason(double value, const NumberRule& rule) {
                      rule.min, rule.max);
 }
 
-/// Reason why the tables do not determine m': the upper end of its 95 % interval is more than
-/// 10,000 times the lower end, so that samples from the interval cannot be simulated. Empty if the
-/// tables determine m', and for other parameters. Also empty for an m' from logs: its interval can
-/// be so wide only because several logs disagree.
+/// Reason why the tables do not determine m' (mass over F_max): the upper end of its 95 % interval
+/// is more than 10,000 times the lower end. Samples from such an interval cannot be simulated.
+/// Empty if the tables determine m', for any other parameter, and for an m' from logs, whose
+/// interval can be so wide only because several logs disagree.
 std::string why_open(ParameterId id, const Estimate& estimate) {
   constexpr double kMaxOpen = 1e4;  // ratio of the interval's upper end to its lower end
   const auto& ci = estimate.ci95;
@@ -48,12 +48,14 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
   if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};
   if (ci->hi <= kMaxOpen * ci->lo) return {};
   return fmt::format(
-      "these trials give it a 95 % interval from {:.2g} to {:.2g}, whose ends differ by more than "
+      "these trials give mass_norm a 95 % interval from {:.2g} to {:.2g}, whose ends differ by "
+      "more than "
       "a factor of 10,000",
       ci->lo, ci->hi);
 }
 
-/// Removes the values of parameters that depend on a removed one, and adds the reasons.
+/// Removes the values of parameters that depend on a removed one, for example m' if a1 was removed.
+/// Adds the reasons.
 void remove_dependent_values(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;

@@ -13,11 +13,13 @@
 namespace awmr {
 namespace {
 
-/// 95 % interval of c, the lateral force of a tyre over its load, per radian of slip angle.
+/// 95 % interval of the cornering stiffness c of a tyre, 1/rad: the lateral force is c times the
+/// load of the tyre times its slip angle in rad.
 constexpr Interval kTyreStiffness{0.5, 16.0};
 /// Half of the width of a 95 % interval of the normal distribution, in standard deviations.
 constexpr double kNormal95 = 1.959964;
-/// Quantile that is used as a log's highest speed. The maximum itself could be a spike.
+/// This quantile of a log's speeds is taken as its highest speed, because the maximum itself could
+/// be a measurement error.
 constexpr double kFastestQuantile = 0.95;
 
 void take_fastest(const DrivingLog& log, double& fastest_mps) {

@@ -80,7 +80,8 @@ inline bool converged(const ceres::Solver::Summary& summary) {
 
 namespace ceres {
 
-/// Value of a Jet without its derivatives. In namespace ceres for argument-dependent lookup.
+/// Value of a Jet (a number with derivatives) without its derivatives. The function is in namespace
+/// ceres so that argument-dependent lookup finds it.
 template <class T, int N>
 T value_of(const Jet<T, N>& x) {
   return x.a;

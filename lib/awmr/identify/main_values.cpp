@@ -20,8 +20,9 @@ Estimate exponent_of_family(Family family) {
   return given(1.0, fmt::format("family {}", name_of(family)));
 }
 
-/// Estimate of factor * exp(log_value). Its uncertainty is that of ln m', the last number of
-/// `posterior`. (m': factor 1; I'z: factor Iz/m.)
+/// Estimate of a multiple of m', factor * m': m' itself with the factor 1, I'z with the factor
+/// Iz/m. `log_value`: ln m'. The uncertainty is that of the last number of `posterior`, which is ln
+/// m'.
 Estimate from_last(const Posterior& posterior, double log_value, double factor, Source source,
                    std::string method) {
   Estimate estimate{factor * std::exp(log_value), {}, {}, source, std::move(method)};
@@ -40,8 +41,8 @@ void set_beta_of_curve(const CoastFit& curve, Model& model) {
                                     "coast-down curve"};
 }
 
-/// Sets the standard errors and intervals of a resistance law's parameters from the first numbers
-/// of `posterior`. `first`: index of their block in the joint covariance.
+/// Sets the standard errors and intervals of a resistance law's parameters. They are the first
+/// numbers of `posterior`. `first`: index of their block in the joint covariance.
 void set_law_errors(const Subject& subject, const SteadyFit& law, const Posterior& posterior,
                     Eigen::Index first, MainValues& values) {
   for (std::size_t i = 0; i < law.free.size(); ++i) {
@@ -123,8 +124,8 @@ void set_given(const Vehicle& vehicle, Model& model) {
   if (vehicle.back_emf_s_per_m) {
     model[ParameterId::kBackEmf] = given(*vehicle.back_emf_s_per_m, "vehicle");
   }
-  // A vehicle without steering has no servo. Its time constant is set to an arbitrary value, so
-  // that no fit estimates it.
+  // A vehicle without steering has no servo. The servo's time constant gets an arbitrary given
+  // value, so that no fit estimates it.
   constexpr double kAny_s = 1.0;
   model[ParameterId::kSteeringTimeConstant] =
       given(vehicle.has_steering() ? vehicle.steering_time_constant_s : kAny_s, "vehicle");

@@ -63,7 +63,8 @@ struct FamilyChoice {
   /// Absent: the family with the smallest AICc (tables) or AIC (logs).
   std::optional<Family> family = Family::kPower;
   /// True if the user selected the family. If false and the logs suggest a missing term, the other
-  /// families are fitted to them too, and one that is significantly better replaces the power law.
+  /// families are fitted to the logs too, and one that is significantly better replaces the power
+  /// law.
   bool requested = false;
 };
 
@@ -73,8 +74,9 @@ inline bool can_be_requested(const ParameterInfo& parameter) {
   return !parameter.term || parameter.id == ParameterId::kBackEmf;
 }
 
-/// Names of the quantities that --fit accepts for logs in addition to parameters and biases, such as
-/// "motor.time_constant_s" or "delay.speed_mps". They are those of /estimates in model.json.
+/// Names of the quantities that --fit accepts for logs in addition to parameters and biases, such
+/// as "motor.time_constant_s" or "delay.speed_mps". The /estimates of model.json use the same
+/// names.
 std::vector<std::string> requestable_terms();
 
 /// Names in /estimates of quantities that --fit does not accept, because a fit estimates them only
@@ -82,8 +84,8 @@ std::vector<std::string> requestable_terms();
 std::vector<std::string> automatic_terms();
 
 struct IdentifyOptions {
-  /// Absent: trajectory if there are logs. Without logs: nonlinear if another family or a robust
-  /// loss is requested, else log-linear.
+  /// Estimator that sets the values in the model. If absent: trajectory if there are logs; else
+  /// nonlinear if another family or a robust loss is requested; else log-linear.
   std::optional<Method> method = {};
   /// Error model of the nonlinear table fit. If absent and `method` is nonlinear: an error of the
   /// time if every run was timed, else of the speed. If absent and `method` is not nonlinear: a
@@ -95,22 +97,25 @@ struct IdentifyOptions {
   /// Fits a1, b1 and m' together to the surge rows and the coast-down curves, so that the curves
   /// also improve a1 and b1.
   bool joint = false;
-  std::vector<ParameterId> requested = {};  ///< empty: the parameters that the given trials measure
-  /// True if the user requested all parameters. Parameters that the vehicle does not have (such as
-  /// the servo's, without steering) are then ignored. If false, requesting such a parameter is an
-  /// input error.
+  /// Parameters to identify. Empty: the parameters that the given trials measure.
+  std::vector<ParameterId> requested = {};
+  /// True if the user requested all parameters. Parameters that the vehicle lacks (the servo's time
+  /// constant without steering) are then ignored. If false, a request for a parameter that the
+  /// vehicle lacks is an input error.
   bool requested_all = false;
-  std::vector<std::string> terms = {};  ///< logs: further quantities to fit, of requestable_terms()
-  std::vector<LogChannel> biases = {};  ///< logs: channels with an unknown constant offset
+  /// Logs: names of further quantities to fit, from requestable_terms().
+  std::vector<std::string> terms = {};
+  std::vector<LogChannel> biases = {};  ///< logs: channels whose constant offset is fitted
   std::uint64_t seed = 1;               ///< seed of the multistart and of the bootstrap
   /// Logs: number of random initial guesses, >= 0, in addition to the one from the logs. Not used
   /// if tables or the vehicle file give the initial value of every fitted parameter.
   int starts = 6;
   int bootstrap = 0;  ///< logs: number of bootstrap resamples, e.g. 1000; 0: no bootstrap
   /// Logs: time limit of all searches together, s; 0: none. A fit that has not converged by then is
-  /// refused. The amount of computation is always limited.
+  /// refused. With or without this limit, the number of integration steps is limited.
   double time_limit_s = 0.0;
-  int threads = 0;  ///< 0: one per core; the result does not depend on the number of threads
+  /// Number of threads; 0: one per core. The result does not depend on it.
+  int threads = 0;
   /// Tables: if false, only the requested estimator is used, without fits for comparison and
   /// without residual tests.
   bool side_by_side = true;

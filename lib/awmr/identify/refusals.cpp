@@ -17,7 +17,8 @@ bool has_coastdown(const TrialData& data) {
 
 bool is_assumed(const Estimate& estimate) { return estimate.method == kAssumedSwayMethod; }
 
-/// Reason why the tables, or for some parameters vehicle.json, do not determine a parameter.
+/// Reason why the tables do not determine a parameter. Tables never determine the sway resistance,
+/// the servo's time constant and back-EMF. For these, the reason is that vehicle.json has no value.
 std::string table_reason(ParameterId id, const TrialData& data, const Reasons& reasons) {
   switch (id) {
     case ParameterId::kSurgeAlpha:

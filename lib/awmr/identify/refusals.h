@@ -17,16 +17,16 @@ std::vector<ParameterId> requested_parameters(const Vehicle& vehicle, const Tria
 
 /// Reasons why parameters have no value although trials that measure them were recorded.
 struct Reasons {
-  std::string surge;    ///< why no fit of the surge rows is accepted; else empty
-  std::string turning;  ///< why no fit of the turning rows is accepted; else empty
-  std::string mass;     ///< why stop times or curves give no m'
+  std::string surge;    ///< why no fit of the surge rows is accepted; empty otherwise
+  std::string turning;  ///< why no fit of the turning rows is accepted; empty otherwise
+  std::string mass;     ///< why stop times or curves give no m'; empty otherwise
   /// True if coast-down curves were fitted without a surge trial. `mass` is then also the reason
   /// why a1 has no value.
   bool curve_alone = false;
   /// For each removed parameter: why its fitted value was removed (take_out_inadmissible()).
   std::map<ParameterId, std::string> inadmissible;
-  std::map<ParameterId, std::string> logs;  ///< for each parameter that the logs do not identify:
-                                            ///< the reason
+  /// For each parameter that the logs do not identify: the reason.
+  std::map<ParameterId, std::string> logs;
 };
 
 /// Adds the finding `not-identifiable` for every parameter without a value: an error if it was

@@ -51,8 +51,8 @@ EstimatorReport report_of_alone(const CoastFit& fit) {
 }
 
 /// Fits the curves under the requested family, or under all families if none or `auto` is
-/// requested. A requested family `dead-zone` is fitted as the power law, because the motors are
-/// off.
+/// requested. The dead zone of the wheels has no effect while the motors are off, so `dead-zone` is
+/// fitted as the power law.
 std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                               const FamilyChoice& choice) {
   std::vector<CoastFit> fits;
@@ -73,7 +73,8 @@ const CoastFit& best_of(const std::vector<CoastFit>& fits) {
   });
 }
 
-/// Describes the ratios and the exponent that a fit determines, with standard errors.
+/// Text for a message: the ratios m'/a1, c1/a1 and q1/a1 with their standard errors, and the
+/// exponent b1, as far as the family has them.
 std::string ratios_in_words(const CoastFit& fit) {
   const double ratio = std::exp(fit.log_mass_norm);
   std::string words =
@@ -87,8 +88,8 @@ std::string ratios_in_words(const CoastFit& fit) {
   return words;
 }
 
-/// Adds `power-law-inadequate` if the AICc of another family is lower than that of the power law by
-/// at least kFamilyAicThreshold.
+/// Adds the finding `power-law-inadequate` if the AICc of another family is lower than that of the
+/// power law by at least kFamilyAicThreshold. Does nothing otherwise.
 void compare_with_other_families(const std::vector<CoastFit>& fits, const std::string& file,
                                  MassResult& result) {
   const CoastFit& power = fits.front();

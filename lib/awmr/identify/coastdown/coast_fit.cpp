@@ -13,11 +13,11 @@
 namespace awmr {
 namespace {
 
-/// Computes d x / d theta: how the fitted numbers x (ln m', the filter's time constant if there is
-/// a filter, and the initial states) change with the free coordinates theta of the surge law, which
-/// the fit keeps fixed. J is the Jacobian of the residuals e by x. At the optimum J^T e = 0 for
-/// every theta, so to first order d x/d theta = -J^+ d e/d theta. The dead zone has no effect,
-/// because the motors are off.
+/// Computes d x/d theta: how the fitted numbers x (ln m', the filter's time constant if there is a
+/// filter, and the initial states) change with the free coordinates theta of the surge law, which
+/// the fit keeps fixed. With the residuals e and their Jacobian J by x, J^T e = 0 at the optimum
+/// for every theta. To first order this gives d x/d theta = -J^+ d e/d theta (J^+: pseudo-inverse).
+/// The dead zone has no effect, because the motors are off.
 std::optional<Eigen::MatrixXd> by_surge_law(CoastProblem& problem, const Eigen::MatrixXd& j,
                                             const SteadyFit& surge) {
   Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(j.cols(), rows_of(surge.free));
@@ -52,7 +52,8 @@ CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   return fit;
 }
 
-/// The free parameters of the curve g1/a1: those of b1, c1/a1 and q1/a1 that the family has.
+/// Free parameters of the curve g1(u)/a1 = c1/a1 + u^b1 + (q1/a1) u^2: those of b1, c1/a1 and q1/a1
+/// that the family has.
 std::vector<TransformedParameter> shapes_of(Family family) {
   const FamilyTerms terms = terms_of(family);
   std::vector<TransformedParameter> shapes;
@@ -62,8 +63,9 @@ std::vector<TransformedParameter> shapes_of(Family family) {
   return shapes;
 }
 
-/// Initial guess of g1/a1: ln a1 = 0; b1 = 0.8, limited to its range, or 1 if the family fixes it;
-/// c1/a1 and q1/a1: 0.1 if the family has them, else 0.
+/// Initial guess of the curve g1(u)/a1 = c1/a1 + u^b1 + (q1/a1) u^2. b1 is 0.8, limited to its
+/// range, or 1 if the family fixes it. c1/a1 and q1/a1 are 0.1, or 0 if the family lacks them. ln
+/// a1 is 0.
 TransformedParameters start_of(Family family, const Interval& beta_range) {
   constexpr double kTermOverAlpha = 0.1;
   const FamilyTerms terms = terms_of(family);
@@ -81,9 +83,9 @@ bool is_inside(const Interval& range, double value) {
   return value > range.lo + kOnTheEdge && value < range.hi - kOnTheEdge;
 }
 
-/// Sets the ratios c1/a1 and q1/a1, and the variances of ln m', b1 and these ratios. The variance
-/// of a parameter at a bound is 0. The first rows of `covariance` are those of ln m' and of the
-/// parameters `inside`, which are not at a bound.
+/// Sets the ratios c1/a1 and q1/a1, and the variances of ln m', b1 and these ratios. `inside`: the
+/// parameters that are not at a bound; a parameter at a bound gets the variance 0. The first rows
+/// of `covariance` are those of ln m' and of the parameters `inside`, in this order.
 void add_shapes(CoastProblem& problem, const std::vector<TransformedParameter>& free,
                 const std::vector<TransformedParameter>& inside, const Eigen::MatrixXd& covariance,
                 CoastFit& fit) {
@@ -128,7 +130,8 @@ CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit) {
   constexpr double kStandardErrors = 3.0;
-  constexpr double kShare = 0.5;  // smallest accepted rise, as a fraction of the predicted one
+  // Smallest accepted rise of the sum of squares, as a fraction of the predicted rise.
+  constexpr double kShare = 0.5;
   const bool terms = surge.law().coulomb > 0.0 || surge.law().quadratic > 0.0;
   double best = 0.0;
   for (const std::vector<double>& run : fit.residuals) {

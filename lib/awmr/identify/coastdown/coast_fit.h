@@ -17,7 +17,8 @@ struct CoastStart {
   double lag_s = 0.0;  ///< time constant T of a filter of the speed; 0: no filter
 };
 
-/// Ratio of a resistance term to a1. Without a surge law, curves determine only such ratios.
+/// Ratio of a term of the surge resistance, c1 or q1, to the coefficient a1. Without a surge law,
+/// curves determine only such ratios.
 struct TermOverAlpha {
   TransformedParameter term{};  ///< c1 or q1
   double value = 0.0;           ///< c1/a1 in (m/s)^b1, q1/a1 in (m/s)^(b1 - 2); >= 0
@@ -28,48 +29,49 @@ struct TermOverAlpha {
 struct FittedLag {
   double value_s = 0.0;
   double variance = 0.0;     ///< variance of T, s^2, due to the noise of the curves alone
-  Eigen::VectorXd by_surge;  ///< d T / d theta, theta as in CoastFit::by_surge
+  Eigen::VectorXd by_surge;  ///< d T / d theta, theta: coordinates of the surge law
 };
 
 /// Fit of coast-down curves to
 ///   m' u_dot = -g1(u), u(0) = u0:
 ///   u(t)^(1-b) = u0^(1-b) - (1-b) (a/m') t,   u = u0 exp(-(a/m') t) for b -> 1       [paper (58)]
 /// for a power law, with a = a1, b = b1 and the time t since motors-off; other families are
-/// integrated numerically. If the speed has passed a low-pass filter, the curve is that of its
-/// output. Each run has its own u0. A run whose record begins before motors-off also has its own
-/// time of motors-off.
+/// integrated numerically. If the recorded speed has passed a low-pass filter, the filter's output
+/// is fitted to the record. Each run has its own u0. A run whose record begins before motors-off
+/// also has its own time of motors-off.
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
   double variance = 0.0;       ///< variance of log_mass_norm due to the noise of the curves alone
-  double dof = 0.0;            ///< degrees of freedom of `variance`; fewer if `autocorrelated`
+  double dof = 0.0;            ///< degrees of freedom of `variance`; fewer if residuals correlate
   /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
-  std::optional<FittedLag> lag;      ///< present if the start has a filter
+  std::optional<FittedLag> lag;      ///< filter of the speed; absent if the fit has none
   double beta = 0.0;                 ///< b1: fitted or given
-  double beta_variance = 0.0;        ///< 0 if b1 was not fitted or is at a bound
-  Family family = Family::kPower;    ///< without a surge law: the family that was fitted
-  std::vector<TermOverAlpha> terms;  ///< without a surge law: c1/a1, q1/a1
+  double beta_variance = 0.0;        ///< variance of b1; 0 if not fitted or at a bound
+  Family family = Family::kPower;    ///< family of a fit without a surge law
+  std::vector<TermOverAlpha> terms;  ///< c1/a1, q1/a1 of a fit without a surge law
   std::optional<double> aicc;        ///< AICc of a fit without a surge law
   double residual_std_mps = 0.0;
   int rows = 0;  ///< number of samples of all runs
   int rank = 0;
-  double condition_number = 0.0;               ///< of the Jacobian, columns scaled to length 1
+  double condition_number = 0.0;               ///< of the Jacobian with columns of length 1
   std::vector<std::vector<double>> residuals;  ///< by run, m/s
-  bool autocorrelated =
-      false;            ///< neighbouring residuals are correlated; `variance` allows for this
+  /// True if neighbouring residuals are correlated. `variance` allows for this.
+  bool autocorrelated = false;
   bool usable = false;  ///< true if converged, with full rank and degrees of freedom
   std::string stop_reason;
 };
 
-/// Fits m', the filter's time constant if `start` has one, and each run's initial speed (and time
-/// of motors-off) for a given surge law.
+/// Fits m' to the curves for a given surge law. Also fits the filter's time constant if `start` has
+/// one, each run's initial speed and, if the record begins earlier, its time of motors-off.
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
                    const CoastStart& start);
 
-/// Checks the standard error of ln m' of a fit with a filter. Fixes ln m' at 3 standard errors
-/// below and above the optimum and fits the other parameters. On both sides the sum of squares must
-/// rise by at least half of what its curvature at the optimum predicts. Empty if it does on both
-/// sides; otherwise ln m' and the filter on the side with the smaller rise.
+/// Tests whether the curves determine ln m' as well as its standard error says, for a fit with a
+/// filter. ln m' is fixed at 3 standard errors below and above the optimum, and the other
+/// parameters are fitted again. On both sides, the sum of squares must rise by at least half of the
+/// rise that its curvature at the optimum predicts. Empty if it does; otherwise ln m' and the
+/// filter on the side with the smaller rise.
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit);
 

@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Two models whose AICc differ by less than this describe the curves about equally well. At this
-/// difference, their likelihoods differ by a factor of 150.
+/// Two models describe the curves about equally well if their AICc differ by less than this. A
+/// difference of 10 is a likelihood ratio of 150.
 constexpr double kClose = 10.0;
 
 /// The data of all candidates.
@@ -30,7 +30,8 @@ struct CoastCandidate {
   double aicc = std::numeric_limits<double>::infinity();
 };
 
-/// Root mean square of noise_of() over all rows.
+/// Standard deviation of the speed noise, m/s: the root mean square of the curves' noise_of(), over
+/// all rows.
 double pooled_noise(const std::vector<CoastCurve>& curves) {
   double squares = 0.0;
   double rows = 0.0;
@@ -42,9 +43,10 @@ double pooled_noise(const std::vector<CoastCurve>& curves) {
   return std::sqrt(squares / rows);
 }
 
-/// Makes the coordinates of the surge law (except the dead zone, which has no effect in a
-/// coast-down) free parameters, with the covariance of the surge fit as prior. Does nothing without
-/// a covariance, or if `prior_mps` is 0 (fit_once()).
+/// Lets the fit vary the surge law: its coordinates become free parameters, with the covariance of
+/// the surge fit as prior. The dead zone stays fixed, because it has no effect in a coast-down.
+/// Does nothing if the surge fit has no covariance or `prior_mps` is 0. `prior_mps`: standard
+/// deviation of the curves' noise, m/s, which weights the prior against the curves.
 void free_within_errors(const CoastData& data, double prior_mps, CoastProblem& problem) {
   if (!data.surge.has_covariance() || !(prior_mps > 0.0)) return;
   std::vector<TransformedParameter> free;
@@ -57,7 +59,9 @@ void free_within_errors(const CoastData& data, double prior_mps, CoastProblem& p
   problem.free_law(free, data.surge.covariance(places, places), prior_mps);
 }
 
-/// Fits one model. `prior_mps`: noise that scales the prior of the surge law; 0: the law is fixed.
+/// Fits the curves once, with a filter if `start` has one. `prior_mps`: standard deviation of the
+/// curves' noise, m/s, which weights the prior of the surge law against the curves; 0: the surge
+/// law is fixed.
 CoastCandidate fit_once(const CoastData& data, const CoastStart& start, double prior_mps) {
   const Resistance<double> law = data.surge.law();
   CoastProblem problem(data.curves, data.surge.theta, start,
@@ -77,9 +81,10 @@ CoastCandidate fit_once(const CoastData& data, const CoastStart& start, double p
   return fit;
 }
 
-/// Fits one model and varies the surge law within its covariance. The weight of the curves relative
-/// to the surge rows follows from the noise of the curves: in the first round that of the readings,
-/// then that of the residuals.
+/// Fits the curves while the surge law may vary within its covariance. The noise of the curves
+/// decides how far the law moves, and is not known in advance. The first round therefore assumes
+/// the noise of the readings, each further round that of the last residuals. Returns the fit with
+/// the smallest AICc.
 CoastCandidate fit_candidate(const CoastData& data, const CoastStart& start) {
   constexpr int kRounds = 4;
   constexpr double kSame = 0.3;
@@ -95,16 +100,17 @@ CoastCandidate fit_candidate(const CoastData& data, const CoastStart& start) {
   return best;
 }
 
-constexpr double kFast = 0.2;  ///< fast filter, relative to the time constant of the motion
+constexpr double kFast = 0.2;  ///< time constant of a fast filter over that of the motion
 
-/// Start of a search for a filter, from the fit `plain` without a filter.
+/// Initial guess for a fit with a filter, from the fit `plain` without one: a fast filter, and a
+/// smaller m', because the filter explains a part of the slow decrease of the speed.
 CoastStart fast_filter(const CoastData& data, const CoastStart& plain) {
   return {plain.log_mass + std::log1p(-kFast),
           kFast * fall_time_s(data.curves, data.surge.law(), plain.log_mass)};
 }
 
-/// Fits a filter from two starts. The first start has a fast filter. The second is the optimum of
-/// the first with the time constants of filter and motion exchanged. Returns the better fit first.
+/// Fits the curves with a filter, from two initial guesses: a fast filter, and the optimum of this
+/// first fit with the time constants of filter and motion exchanged. Returns the better fit first.
 std::vector<CoastCandidate> fit_filters(const CoastData& data, const CoastStart& plain) {
   CoastCandidate fast = fit_candidate(data, fast_filter(data, plain));
   const double found_s = fall_time_s(data.curves, data.surge.law(), fast.at.log_mass);
@@ -114,21 +120,23 @@ std::vector<CoastCandidate> fit_filters(const CoastData& data, const CoastStart&
   return {fast, slow};
 }
 
-/// True if the filter is slower than the motion.
+/// True if the filter has a larger time constant than the motion.
 bool is_slow(const CoastStart& at, const CoastData& data) {
   return at.lag_s > fall_time_s(data.curves, data.surge.law(), at.log_mass);
 }
 
-/// Another m' and filter that describe the curves nearly as well as the reported fit `fixed`; empty
-/// if there is none. `fixed` started at the optimum `best` and has the given surge law. Candidates:
-///   - `other`, the optimum from the other start, if its AICc is within kClose, its m' differs, and
-///     its deceleration is possible for tyres;
-///   - `plain`, without a filter, if the filter of `best` is slower than the motion and the
-///     residuals are correlated;
-///   - `best`, if `fixed` ended at another m' with the time constants of filter and motion
-///     exchanged;
-///   - a point at which the sum of squares is lower than the standard error of ln m' predicts
-///     (flat_direction()).
+/// Another m' and filter that describe the curves nearly as well as the reported fit; empty if
+/// there are none. `plain` is the fit without a filter. `best` and `other` are the fits with a
+/// filter from two initial guesses; in these three fits, the surge law may vary. `fixed` is the
+/// reported fit: it started at `best`, with the surge law fixed. The first of these candidates that
+/// applies is returned:
+///   - `other`, if its AICc is less than kClose above that of `best`, its m' differs, and tyres can
+///     give its deceleration;
+///   - `plain`, if the filter of `best` is slower than the motion and the residuals are correlated;
+///   - `best`, if `fixed` has another m', and the filter is slower than the motion in only one of
+///     the two;
+///   - the point found by flat_direction(), where the sum of squares is lower than the standard
+///     error of ln m' predicts.
 std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCandidate& other,
                                      const CoastCandidate& best, const CoastFit& fixed,
                                      const CoastData& data) {
@@ -148,18 +156,21 @@ std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCan
   return flat_direction(data.curves, data.surge, fixed);
 }
 
-/// A drift with a longer correlation time than this is a model error. The limit is that of log
-/// fits, or the time constant of the motion if that is shorter.
+/// Limit of the correlation time of a drift, s; a slower drift is a model error. The limit is that
+/// of log fits, 0.5 s, or the time constant of the motion if that is shorter.
 double longest_drift_s(const CoastData& data, const CoastStart& at) {
   constexpr double kLongest_s = 0.5;
   return std::min(kLongest_s, fall_time_s(data.curves, data.surge.law(), at.log_mass));
 }
 
-/// Adds the filter to the model of the fit `plain` if it is significant.
+/// Fits a filter of the speed and adds it to `model`, if it is significantly better than the fit
+/// `plain` without a filter.
 void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& model) {
   constexpr double kMargin = 4.0;  // of AICc
   constexpr double kStandardErrors = 2.0;
-  constexpr double kOverLag = 3.0;  // filtered noise is correlated over the time constant T
+  // Limit of a drift's correlation time over the filter's T, because the filter also correlates
+  // noise over about T.
+  constexpr double kOverLag = 3.0;
   const std::vector<CoastCandidate> filters = fit_filters(data, plain.at);
   const CoastCandidate& best = filters[0];
   const double margin = is_slow(best.at, data) ? kClose : kMargin;
@@ -174,8 +185,8 @@ void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& 
   model.other = competitor(plain, filters[1], best, fit, data);
 }
 
-/// True if the residuals of `given`, a fit with the surge law fixed, are white, and a filter does
-/// not lower its AICc.
+/// True if the fit `given`, without a filter and with the surge law fixed, describes the curves:
+/// its residuals are white, and a filter does not lower AICc.
 bool is_described(const CoastData& data, const CoastCandidate& given) {
   return !(given.noise.drift_std > 0.0) &&
          !(fit_once(data, fast_filter(data, given.at), 0.0).aicc < given.aicc);
@@ -184,7 +195,8 @@ bool is_described(const CoastData& data, const CoastCandidate& given) {
 }  // namespace
 
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge) {
-  constexpr double kExact = 1e-4;  // of the speed: smaller errors come from the integration
+  // Share of the highest speed below which a residual is an integration error.
+  constexpr double kExact = 1e-4;
   const std::vector<CoastCurve>& curves = readings.curves;
   const double exact_mps = kExact * highest_speed_mps(curves);
   const CoastData data{curves, surge,

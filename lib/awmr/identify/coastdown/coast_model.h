@@ -15,11 +15,12 @@ namespace awmr {
 /// Model of the curves, chosen by choose_coast_model().
 struct CoastModel {
   CoastStart start;  ///< m' and, if there is a filter, its time constant
-  /// Another m' and time constant that describe the curves nearly as well. (With a resistance in
-  /// proportion to the speed, a filter and m'/a1 can be exchanged.)
+  /// Another solution that describes the curves nearly as well; absent if there is none. For
+  /// example, if the resistance is proportional to the speed, the curve does not change if the time
+  /// constants of the filter and of the motion (m'/a1) are exchanged.
   std::optional<CoastStart> other;
-  ChannelNoise noise;      ///< noise of the residuals, with the surge law varied within its
-                           ///< covariance
+  /// Noise of the residuals of a fit in which the surge law may vary within its covariance.
+  ChannelNoise noise;
   double longest_s = 0.5;  ///< drifts with a longer correlation time are model errors
 
   bool is_inadequate() const { return noise.of_the_model(longest_s); }
@@ -28,7 +29,7 @@ struct CoastModel {
 
 /// Fits the curves without and with a filter of the speed. The filter is kept if its time constant
 /// is above 2 standard errors, and if it lowers AICc by more than 4 (10 if the filter is slower
-/// than the motion). In simulated trials without a filter, it is kept in about 2 of 100. In both
+/// than the motion). Of 100 simulated trials without a filter, a filter is kept in about 2. In both
 /// fits, the noise may have a drift, and the surge law may deviate from `surge` within its
 /// covariance. Therefore neither a disturbance nor an error of the law is mistaken for a filter.
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge);

@@ -12,12 +12,13 @@
 namespace awmr {
 namespace {
 
-/// J^T R J for errors with the correlation matrix R of `noise`: white noise and a drift,
-/// independent from curve to curve. (Differenced noise counts as white, which makes intervals
-/// wider.) With the rows J_i, the share s of the drift in the variance, its transition matrix F_i
-/// (DriftStep) and the first unit vector e_0, by recursion:
+/// Returns J^T R J, with the Jacobian J of the residuals and the correlation matrix R of their
+/// errors. The errors are white noise and a drift; those of different curves are independent.
+/// (Differenced noise counts as white, which makes intervals wider.) J_i is row i of J, s the share
+/// of the drift in the variance, F_i the transition matrix of the drift from row i-1 to row i
+/// (DriftStep), and e_0 the first unit vector. The recursion is
 ///   Y_i = F_i (Y_{i-1} + e_0 J_{i-1}),
-///   sum_i J_i^T J_i + s (J_i^T (e_0^T Y_i) + (e_0^T Y_i)^T J_i)
+///   J^T R J = sum_i J_i^T J_i + s (J_i^T (e_0^T Y_i) + (e_0^T Y_i)^T J_i)
 Eigen::MatrixXd correlated_information(const Eigen::MatrixXd& j,
                                        const std::vector<CoastCurve>& curves,
                                        const ChannelNoise& noise) {
@@ -41,8 +42,8 @@ Eigen::MatrixXd correlated_information(const Eigen::MatrixXd& j,
   return sum;
 }
 
-/// Sets rank and condition number of J with its columns scaled to length 1, so that neither depends
-/// on units.
+/// Sets the rank and the condition number of the fit's Jacobian J. The columns of J are scaled to
+/// length 1, so that neither number depends on units.
 void add_rank(const Eigen::MatrixXd& j, CoastFit& fit) {
   Eigen::MatrixXd scaled = j;
   for (Eigen::Index c = 0; c < j.cols(); ++c) {

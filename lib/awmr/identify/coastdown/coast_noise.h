@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// Splits the residuals `e` of all curves by curve.
+/// Splits the residuals `e`, which are stored curve after curve, into one list per curve.
 std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e,
                                         const std::vector<CoastCurve>& curves);
 
@@ -25,9 +25,9 @@ double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& c
 
 /// Sets the residuals, their standard deviation and autocorrelation, the rank, the condition number
 /// and the degrees of freedom of `fit`, from the Jacobian `j` and the residuals `e` at the optimum.
-/// Returns the covariance of the parameters of the columns of `j`. It includes the effect of a
-/// drift of the errors (noise_of_residuals()). It is 0 x 0 if `j` is rank-deficient or there are no
-/// degrees of freedom.
+/// Returns the covariance of the parameters by which `j` is the derivative. The covariance includes
+/// the effect of a drift of the errors (noise_of_residuals()). It is 0 x 0 if `j` is rank-deficient
+/// or there are no degrees of freedom.
 Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
                                 const std::vector<CoastCurve>& curves, CoastFit& fit);
 

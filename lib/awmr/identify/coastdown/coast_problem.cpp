@@ -9,7 +9,8 @@
 namespace awmr {
 namespace {
 
-/// Speed u after the time tau_s from u0 under a power law, in closed form with k = a/m':
+/// Speed u of a coasting vehicle with the resistance a u^b, at the time tau_s after it had the
+/// speed u0. Closed form with k = a/m':
 ///   u = u0 (1 - s z)^(1/s),  s = 1 - b,  z = k tau u0^-s;  0 once s z >= 1;  u0 e^-z for s -> 0
 template <class T>
 T coasted(const T& u0, const T& beta, const T& k, const T& tau_s) {
@@ -42,11 +43,12 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   return next > T(0.0) ? next : T(0.0);
 }
 
-/// Largest number of steps between two samples: half an hour in steps of 2 ms. Points of the search
-/// that need more steps are rejected; their t0 diverges.
+/// Largest number of steps between two samples: half an hour in steps of 2 ms. A search that needs
+/// more steps has a diverging time of motors-off t0, so Ceres rejects the point.
 constexpr double kMaximumSteps = 1e6;
 
-/// Speed after the filter T y' = u - y over the time h, in which u changes linearly from u to next.
+/// Output of the filter T y' = u - y after the time h, if its output was y and its input changes
+/// linearly from u to `next`. `lag_s`: time constant T.
 template <class T>
 T filtered(const T& y, const T& u, const T& next, const T& h, const T& lag_s) {
   using std::exp;
@@ -54,7 +56,9 @@ T filtered(const T& y, const T& u, const T& next, const T& h, const T& lag_s) {
   return next - behind + (y - u + behind) * exp(-h / lag_s);
 }
 
-/// Residuals of one curve as a function of ln a, b, c, q, ln m', T and (u0, t0).
+/// Residuals of one curve: modelled minus measured speeds. Parameters: the surge law (ln a, b, c,
+/// q), ln m', the filter's time constant T, and the run's initial speed u0 and time of motors-off
+/// t0.
 struct CoastResidual {
   const CoastCurve* curve;
   double longest_step_s;
@@ -100,8 +104,9 @@ struct CoastResidual {
 
 using CoastCost = ceres::AutoDiffCostFunction<CoastResidual, ceres::DYNAMIC, 1, 1, 1, 1, 1, 1, 2>;
 
-/// Prior of the surge law. Its residuals are root (theta - given), with theta the coordinates
-/// `free`.
+/// Prior that keeps the surge law near the law `given`. Its residuals are root (theta - given), for
+/// the coordinates theta in `free`. root^T root is the inverse covariance of the prior times the
+/// noise variance of the curves.
 struct LawPrior {
   Eigen::MatrixXd root;
   std::vector<TransformedParameter> free;
@@ -156,7 +161,7 @@ CoastInitialState initial_state_of(const CoastCurve& curve) {
     }
   }
   constexpr std::size_t kShortestPlateau = 8;
-  constexpr std::size_t kFewestFalling = 3;  // as many as unknowns: u0, t0 and m'
+  constexpr std::size_t kFewestFalling = 3;  // as many rows as unknowns: u0, t0 and m'
   if (end >= kShortestPlateau && end + kShortestPlateau < u.size())
     return {{level, curve.t_s[end]}, true, {}};
   CoastInitialState state{{u[0], curve.t_s[0]}, false, {}};
@@ -233,8 +238,8 @@ void CoastProblem::fix_time(std::size_t run) {
 
 void CoastProblem::search() {
   ceres::Solve(exact_options(), &problem_, &summary_);
-  // A run whose fitted motors-off time is before its first sample has no plateau. Its t0 is fixed
-  // at the first sample, because it cannot be separated from u0.
+  // If the fitted time of motors-off t0 is before the first sample, the run has no plateau. Its t0
+  // is then fixed at the first sample, because the curve does not separate t0 from u0.
   bool again = false;
   for (std::size_t i = 0; i < initial_.size(); ++i) {
     if (!initial_[i].free_time || initial_[i].block[1] > (*curves_)[i].t_s.front()) continue;

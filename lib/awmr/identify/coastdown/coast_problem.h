@@ -14,14 +14,17 @@
 
 namespace awmr {
 
-/// Speed u0 and time t0 of motors-off of a run. If the record begins before motors-off, the speed
-/// begins with a plateau; its mean and its end are the initial guesses of u0 and t0. Without a
-/// detected plateau, u0 starts at the first sample's speed, and t0 is fixed at the first sample's
-/// time. Because a plateau may be too short to be detected, t0 is fitted if that lowers AIC.
+/// A run's time of motors-off t0 and its speed u0 at that time. If the record begins before
+/// motors-off, the speed begins with a plateau; its mean and its end are the initial guesses of u0
+/// and t0. Without a detected plateau, u0 starts at the first sample's speed, and t0 is fixed at
+/// the first sample's time. Because a plateau may be too short to be detected, t0 is fitted if that
+/// lowers AIC.
 struct CoastInitialState {
-  double block[2];                     ///< u0 in m/s, t0 in s
-  bool free_time = false;              ///< true if t0 is fitted
-  std::optional<double> short_lead_s;  ///< guess of t0 after a short plateau, if t0 may be fitted
+  double block[2];         ///< u0 in m/s, t0 in s
+  bool free_time = false;  ///< true if t0 is fitted
+  /// Initial guess of t0 if the record has at most a short, uncertain plateau; absent if t0 is
+  /// fitted anyway or cannot be fitted.
+  std::optional<double> short_lead_s;
 };
 
 /// Residuals u(t) - measured of every sample, run after run. Parameters: the surge law (ln a, b, c,
@@ -48,29 +51,33 @@ class CoastProblem {
   std::vector<double*> own_blocks();
   const TransformedParameters& theta() const { return theta_; }
 
-  /// Frees the coordinates `free` of the surge law, with a normal prior about the given law.
-  /// `covariance`: that of the prior. `noise_mps`: standard deviation of the curves' noise. The
-  /// residuals of the prior are multiplied by it, because the residuals of the curves are in m/s.
+  /// Frees the coordinates `free` of the surge law, with a normal prior around the given law.
+  /// `covariance`: covariance of this prior. `noise_mps`: standard deviation of the curves' noise.
+  /// The residuals of the prior are multiplied by `noise_mps`, because the residuals of the curves
+  /// are in m/s.
   void free_law(const std::vector<TransformedParameter>& free, const Eigen::MatrixXd& covariance,
                 double noise_mps);
-  /// Squared Mahalanobis distance of the law from the given one, by the covariance of free_law(); 0
-  /// if the law is fixed.
+  /// Squared Mahalanobis distance of the current surge law from the given one, with the covariance
+  /// passed to free_law(). 0 if the law is fixed.
   double law_distance() const;
 
   void solve();
   const ceres::Solver::Summary& summary() const { return summary_; }
 
-  /// Residuals by sample, m/s; empty if one is not finite.
+  /// Residuals of all samples, m/s; empty if one is not finite.
   std::optional<Eigen::VectorXd> residuals();
-  /// Jacobian, samples x columns. The columns are the blocks `first` in their order, then each
-  /// run's u0, and t0 if free. Empty if a derivative is not finite.
+  /// Jacobian of the residuals, samples x columns. The first columns are the parameter blocks
+  /// `first`, in their order. Then follow each run's u0 and, if it is free, t0. Empty if a
+  /// derivative is not finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<double*>& first);
 
   /// Adds the step `by` to the coordinates `free`, own_blocks() and each run's initial state, in
   /// that order.
   void step(const std::vector<TransformedParameter>& free, const Eigen::VectorXd& by);
 
-  int free_count() const;  ///< ln m', T if there is a filter, u0 and t0 of each run
+  /// Number of free parameters without those of the surge law: ln m', T if there is a filter, each
+  /// run's u0 and, if it is fitted, t0.
+  int free_count() const;
 
  private:
   void search();
@@ -82,7 +89,7 @@ class CoastProblem {
   CoastStart at_;
   std::vector<TransformedParameter> law_free_;
   TransformedParameters given_law_;
-  Eigen::MatrixXd law_root_;  ///< R; R^T R is the inverse of the covariance
+  Eigen::MatrixXd law_root_;  ///< R; R^T R is the inverse of the prior's covariance
   std::vector<CoastInitialState> initial_;
   Eigen::Index rows_ = 0;
   ceres::Problem problem_;
@@ -92,12 +99,14 @@ class CoastProblem {
 /// Highest speed of the curves, m/s.
 double highest_speed_mps(const std::vector<CoastCurve>& curves);
 
-/// Time constant m' u0/g(u0) of the deceleration at the highest speed of the curves.
+/// Time constant of the motion, m' u0/g(u0), s, at the highest speed u0 of the curves; g:
+/// resistance.
 double fall_time_s(const std::vector<CoastCurve>& curves, const Resistance<double>& law,
                    double log_mass);
 
-/// Initial guess of ln m' from the first curve that falls from 90 % to 50 % of its highest speed,
-/// du in the time dt: m' ~ g(u) dt/|du|, with u at 70 %. Without such a curve: ln 0.1.
+/// Initial guess of ln m', from the first curve whose speed falls from 90 % to 50 % of its highest
+/// value. If this decrease du takes the time dt, m' is about g dt/du, with the resistance g at 70 %
+/// of the highest speed. Without such a curve: ln 0.1.
 double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law);
 
 }  // namespace awmr

@@ -39,7 +39,8 @@ double derivative(const SteadyFit& surge, TransformedParameter c, double speed_m
 }
 
 /// Derivative of ln m' (for a given stop time) by one coordinate of the surge law. For a power law
-/// in closed form, with u_max = speed_mps: 1 by ln a1, -1/(1 - b1) + ln u_max by b1.
+/// the derivative is 1 by ln a1, and -1/(1 - b1) + ln u_max by b1, with the initial speed u_max =
+/// speed_mps. For other laws it is derivative().
 double by_coordinate(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
   const Resistance<double> law = surge.law();
   if (law.coulomb > 0.0 || law.quadratic > 0.0) return derivative(surge, c, speed_mps);

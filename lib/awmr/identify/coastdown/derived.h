@@ -15,16 +15,18 @@ namespace awmr {
 struct MassFromStopTime {
   double log_mass_norm = 0.0;  ///< ln m'
   /// d ln m' / d theta for the free coordinates theta of the surge fit (SteadyFit::free). For a
-  /// power law d/d ln a1 = 1 and d/d b1 = -1/(1 - b1) + mean ln u_max.
+  /// power law d/d ln a1 = 1 and d/d b1 = -1/(1 - b1) + mean ln u_max, u_max: initial speed.
   Eigen::VectorXd by_surge;
   /// Variance of ln m' due to the times: from the scatter of the runs or, for a single run, from
   /// the timing error.
   double timing_variance = 0.0;
 };
 
-/// Computes m' from the stop time t_a from the speed u_max: t_a = m' int_0^u_max dw/g1(w). For a
-/// power law m' = (1 - b1) a1 t_a / u_max^(1 - b1). [paper (60)] ln m' is averaged over the runs.
-/// Empty if the vehicle never stops under this law. Precondition: at least one run.
+/// Computes m' from the time t_a in which a vehicle with the motors off stops from the speed u_max.
+/// The surge resistance g1 gives t_a = m' int_0^u_max dw/g1(w).
+/// For a power law m' = (1 - b1) a1 t_a / u_max^(1 - b1). [paper (60)]
+/// ln m' is averaged over the runs. Empty if the vehicle never stops under this law. Precondition:
+/// at least one run.
 std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
                                                     const std::vector<StopTimeRow>& runs);
 

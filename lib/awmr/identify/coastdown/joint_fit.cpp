@@ -24,9 +24,9 @@ struct BySet {
   double coast = 0.0;
 };
 
-/// Columns of the curves' Jacobian: first those of the parameters that the surge rows share (the
-/// surge law without the dead zone, which has no effect in a coast-down), then those of
-/// CoastProblem::own_blocks().
+/// Columns of the Jacobian of the curves. First come the parameters that the surge rows determine
+/// as well: the surge law without the dead zone, which has no effect in a coast-down. Then follow
+/// ln m' and the filter's time constant (CoastProblem::own_blocks()).
 struct SharedColumns {
   std::vector<double*> blocks;         ///< parameter blocks of CoastProblem
   std::vector<Eigen::Index> of_surge;  ///< column of each block of the law in the surge Jacobian
@@ -36,7 +36,7 @@ struct SharedColumns {
 struct Rows {
   SteadyRows surge;
   Eigen::VectorXd coast_residuals;
-  Eigen::MatrixXd coast_jacobian;  ///< over SharedColumns, then the initial states
+  Eigen::MatrixXd coast_jacobian;  ///< columns: SharedColumns, then the initial states
 };
 
 /// Jacobians of the surge rows and of the curves with respect to the same parameters (surge law,
@@ -119,12 +119,12 @@ Eigen::VectorXd satterthwaite(const Stacked& s, const BySet& variance, const ByS
   return combined;
 }
 
-/// Larger one of the relative changes of the two noise variances.
+/// Larger of the relative changes of the two noise variances, from one round to the next.
 double change(const BySet& from, const BySet& to) {
   return std::max(std::abs(to.surge / from.surge - 1.0), std::abs(to.coast / from.coast - 1.0));
 }
 
-/// Largest element of a step, in standard errors.
+/// Largest element of a step of the parameters, each divided by its standard error.
 double length(const Eigen::VectorXd& step, const Stacked& s) {
   return (step.array() / s.covariance.diagonal().array().sqrt()).abs().maxCoeff();
 }
@@ -133,7 +133,8 @@ double mean_square(const Eigen::VectorXd& e) {
   return e.squaredNorm() / static_cast<double>(e.size());
 }
 
-/// Stores the fit at the current point, converged or not.
+/// Copies the current parameters, covariance and residuals of the search into `joint`, also before
+/// the search has converged.
 void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet& variance,
           const BySet& dof, const std::vector<CoastCurve>& curves, JointFit& joint) {
   const Eigen::Index count = rows_of(joint.surge.free) + 1;
@@ -149,7 +150,8 @@ void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet
   joint.surge.covariance = joint.covariance.topLeftCorner(count - 1, count - 1);
 }
 
-/// Residuals and Jacobians at the current point. Empty if one of them is not finite.
+/// Residuals and Jacobians of the surge rows and of the curves, at the current parameters. Empty if
+/// one of them is not finite.
 std::optional<Rows> rows_at(const SteadyProblem& surge, const TransformedParameters& theta,
                             const std::vector<TransformedParameter>& free,
                             const SharedColumns& shared, CoastProblem& problem) {
@@ -177,7 +179,7 @@ JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
   joint.surge = alone;
   const FamilyTerms terms = terms_of(surge.family);
   CoastProblem problem(curves, alone.theta, start, terms.coulomb || terms.quadratic);
-  problem.solve();  // ln m' and each run's initial state, under the given surge law
+  problem.solve();  // fits ln m' and the initial states; the surge law is fixed
   const SharedColumns shared = shared_columns(problem, alone.free);
   const std::optional<Eigen::VectorXd> initial = problem.residuals();
   BySet variance{alone.residual_std * alone.residual_std, initial ? mean_square(*initial) : 0.0};

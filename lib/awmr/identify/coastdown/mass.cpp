@@ -18,8 +18,8 @@
 namespace awmr {
 namespace {
 
-/// Smallest decrease of the mean speed that counts as a deceleration, in standard deviations of
-/// such a mean.
+/// Smallest decrease of the speed that counts as a deceleration, from the mean of the first fifth
+/// of a curve to that of its last fifth, in standard deviations of such a mean.
 constexpr double kMinimumFall = 5.0;
 
 /// True if the speed falls significantly: the mean of the curve's last fifth is below the mean of
@@ -211,8 +211,8 @@ Posterior::Alternative with_mass(const NoiseAlternative& law, const MassEstimate
   return joint;
 }
 
-/// Estimates m' under each alternative surge law, and sets `result.posterior`. `result` already
-/// contains the estimate under the chosen law.
+/// Estimates m' again under each alternative surge law, one for each other error model, and sets
+/// `result.posterior`. `result` already contains the estimate under the chosen law.
 void add_alternatives(const std::vector<NoiseAlternative>& laws,
                       const std::optional<TrialSet<StopTimeRow>>& stops,
                       const std::vector<CoastCurve>& curves, const std::optional<CoastModel>& model,
@@ -239,8 +239,8 @@ void add_alternatives(const std::vector<NoiseAlternative>& laws,
   for (std::size_t r = own_report; r < result.reports.size(); ++r) *result.reports[r].weight /= sum;
 }
 
-/// Adds `noise-model` if the median of m' over all surge laws differs from the reported m' by more
-/// than the standard error of the reported m'.
+/// Adds the finding `noise-model` if m' depends on the error model: its median over all surge laws
+/// differs from the reported m' by more than the standard error.
 void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& file,
                  MassResult& result) {
   if (result.posterior.alternatives.size() < 2) return;
@@ -316,7 +316,8 @@ Finding assumed_back_emf(const std::string& file) {
       "constant force), or identify it from a log with driven and coasting sections"};
 }
 
-/// Adds the findings about m'. `fragile-mass` applies only without curves.
+/// Adds the findings about m'. The finding `fragile-mass` is possible only if m' comes from stop
+/// times alone.
 void check(const SteadyFit& surge, const std::optional<TrialSet<StopTimeRow>>& stops,
            const std::vector<CoastCurve>& curves, const Vehicle& vehicle, MassResult& result) {
   if (!result.estimate) return;

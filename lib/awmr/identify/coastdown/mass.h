@@ -15,28 +15,30 @@ namespace awmr {
 struct MassResult {
   std::optional<MassEstimate> estimate;  ///< reported m', under the chosen surge law
   /// Joint distribution of the surge law's free coordinates (SteadyFit::free) and ln m': a mixture
-  /// over the alternative surge laws that give an m'. Empty if the surge fit has no covariance.
+  /// over the surge laws of all error models that give an m'. Empty if the surge fit has no
+  /// covariance.
   Posterior posterior;
   /// m' at the limit of the tyres' grip (mass_norm_by_grip()), if a coast-down begins with an
   /// implausible deceleration.
   std::optional<double> by_grip;
-  std::optional<JointFit> joint;  ///< present if requested and usable
+  std::optional<JointFit> joint;  ///< joint fit, if requested and converged
   std::optional<CoastFit> alone;  ///< fit of the curves, if there is no surge law
-  /// Reason why stop times or curves give no estimate. It can be set even if the other kind of
-  /// trial gives an estimate.
+  /// Reason why stop times or curves give no m'. The reason can be set although m' was estimated,
+  /// if the other kind of trial determines it.
   std::string reason;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
 };
 
-/// Estimates m' by stop times, curves or both. `surge` is null if the surge law is not identified.
-/// Then `family` is fitted to the curves alone, and compared with the other families unless the
-/// user requested it (`power-law-inadequate`). Excludes rows and curves that do not measure a
-/// deceleration (measured_rows(), `no-deceleration`). If the model of the curves is inadequate or
-/// not unique (CoastModel::withdraws_intervals()), m' has no posterior, and there is no joint fit.
-/// Further findings: `sensor-lag`, `model-inadequate`, `estimates-disagree`, `noise-model`,
-/// `coloured-residuals`, `not-converged`, `back-emf-assumed`, those of check_mass(). Precondition:
-/// at least one stop time or curve.
+/// Estimates m' from stop times, curves or both. `surge` is null if the surge law is not
+/// identified. Then `family` is fitted to the curves alone, and compared with the other families
+/// unless the user requested it (`power-law-inadequate`). Excludes rows and curves that do not
+/// measure a deceleration (measured_rows(), `no-deceleration`). If the model error is
+/// large or another solution fits nearly as well (CoastModel::withdraws_intervals()), m' has no
+/// posterior, and there is no joint fit. Further findings: `sensor-lag`, `model-inadequate`,
+/// `estimates-disagree`, `noise-model`, `coloured-residuals`, `not-converged`, `back-emf-assumed`,
+/// those of check_mass().
+/// Precondition: at least one stop time or curve.
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,
                          const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, bool joint);

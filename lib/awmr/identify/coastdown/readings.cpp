@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Index of the first row with speed 0 such that at least half of the rows from it on have speed 0;
-/// the number of rows if there is none.
+/// Index of the first row at which the speed is 0 and from which on at least half of the rows have
+/// the speed 0. The number of rows if there is no such row.
 std::size_t first_zero(const std::vector<double>& speed_mps) {
   std::size_t first = speed_mps.size();
   std::size_t zeros = 0;
@@ -24,9 +24,9 @@ std::size_t first_zero(const std::vector<double>& speed_mps) {
   return first;
 }
 
-/// Speed at row `end` by the least-squares line through the five rows before it, or 0 if the curve
-/// has no five rows before. A coast-down flattens at low speed, so the true speed at row `end` is
-/// higher.
+/// Speed at row `end`, extrapolated by the least-squares line through the five rows before it. 0 if
+/// there are fewer than five rows before. A coast-down flattens at low speed, so the true speed at
+/// row `end` is higher.
 double extrapolated_mps(const CoastCurve& curve, std::size_t end) {
   constexpr std::size_t kRows = 5;
   if (end < kRows) return 0.0;
@@ -72,7 +72,9 @@ void report_cut_off(const std::vector<CoastCurve>& curves, const std::vector<dou
            lost_mps.size(), curves.size(), std::ranges::max(lost_mps))});
 }
 
-/// Removes the rows of `curve` that are not `fresh`; `first`: index of its first row in `fresh`.
+/// Removes the rows of `curve` that repeat an old value of the sensor. `fresh`: for each row of all
+/// curves, true if its value is new; `first`: index of the curve's first row in `fresh`. Returns
+/// the curve unchanged if fewer than kFewestRows rows would remain.
 CoastCurve thinned(const CoastCurve& curve, const std::vector<bool>& fresh, std::size_t first) {
   CoastCurve thin = curve;
   thin.t_s.clear();

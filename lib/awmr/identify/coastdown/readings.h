@@ -1,4 +1,5 @@
-/// Rows of coast-down curves that are measurements. Private to identify/.
+/// Selects the rows of coast-down curves that are new measurements of the speed. Private to
+/// identify/.
 #pragma once
 
 #include <vector>
@@ -10,7 +11,7 @@ namespace awmr {
 
 inline constexpr std::size_t kFewestRows = 3;  ///< smallest number of rows of a curve that is used
 
-/// Curves reduced to the rows that are measurements.
+/// Coast-down curves after measured_rows() has removed the rows that are not measurements.
 struct CoastReadings {
   std::vector<CoastCurve> curves;
   double quantum_mps = 0.0;  ///< resolution of a coarse sensor; 0: not detected

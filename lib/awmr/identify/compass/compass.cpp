@@ -23,9 +23,10 @@ using compass::Parameters;
 using compass::Points;
 using Covariance = Eigen::Matrix<double, 5, 5>;
 
-/// Number of equal sectors of the circle. Residuals within a sector may be correlated.
+/// Number of equal sectors of the circle for the jackknife. Residuals within a sector may be
+/// correlated.
 constexpr int kSectors = 36;
-/// Largest gap of headings that is accepted in a calibration turn.
+/// Largest accepted gap between neighbouring headings of the readings of a calibration turn.
 constexpr double kLargestGapDeg = 30.0;
 /// Residual standard deviation, as a share of the field, above which `compass-residual` is
 /// reported. Tilt, moving iron or noise cause such residuals; hard and soft iron cause none.
@@ -54,8 +55,8 @@ std::vector<double> headings_of(const Ellipse& ellipse, const Points& points) {
   return headings;
 }
 
-/// Largest gap in the circle without a heading: its beginning (the heading from which it extends
-/// counter-clockwise) and its size, rad.
+/// Largest part of the circle without a reading: the heading at which it begins and its size, rad.
+/// The gap extends counter-clockwise from this heading.
 std::pair<double, double> largest_gap_rad(std::vector<double> headings) {
   std::sort(headings.begin(), headings.end());
   std::pair<double, double> largest{headings.back(),
@@ -80,10 +81,10 @@ struct Known {
   double residual = 0.0;  ///< standard deviation of the residuals, as a share of the field
 };
 
-/// Computes the covariance of the ellipse by the jackknife: one of the n sectors is left out at a
-/// time, because the residuals within a sector may be correlated. With the Jacobian J_s and the
-/// residuals r_s of sector s, and the Jacobian J of all rows,
-///     D_s = (J'J - J_s'J_s)^-1 J_s' r_s,   (n - 1)/n sum over s of D_s D_s'    [Efron 1982, 3.1]
+/// Computes the covariance C of the parameters of the ellipse by the jackknife: each of the n
+/// sectors is left out once, because the residuals within a sector may be correlated. J_s and r_s
+/// are the Jacobian and the residuals of sector s, J is the Jacobian of all rows:
+///     D_s = (J'J - J_s'J_s)^-1 J_s' r_s,   C = (n - 1)/n sum_s D_s D_s'    [Efron 1982, 3.1]
 Known known(const Ellipse& ellipse, const Points& points, const std::vector<double>& headings) {
   Known known{.ellipse = ellipse};
   std::array<Covariance, kSectors> information;
@@ -114,7 +115,8 @@ Known known(const Ellipse& ellipse, const Points& points, const std::vector<doub
   return known;
 }
 
-/// 95 % bound of the heading error due to the covariance, rad, at the worst heading:
+/// 95 % bound of the heading error at the worst heading, rad, due to the covariance of the ellipse.
+/// The heading is computed from the field c = S (f - o) (Ellipse), so its error is
 ///     d heading = (c_left d c_ahead - c_ahead d c_left)/|c|^2
 double heading_error_rad(const Known& known) {
   const Ellipse& ellipse = known.ellipse;
@@ -130,8 +132,8 @@ double heading_error_rad(const Known& known) {
   return known.half * std::sqrt(worst);
 }
 
-/// Value of `function` at the fitted ellipse, with its 95 % interval. Its derivatives with respect
-/// to the parameters of the ellipse are central differences.
+/// Value of `function` at the fitted ellipse, with its 95 % interval. The derivatives of `function`
+/// by the parameters of the ellipse are computed by central differences.
 template <class Function>
 WithInterval with_interval(const Known& known, const Function& function) {
   Parameters gradient;
@@ -169,9 +171,9 @@ double turned_by_gyro_rad(const FieldRecord& record) {
   return turned;
 }
 
-/// Compares the angle `turned` by the compass with that of the gyroscope. Adds the note
-/// `turn-not-checked` if there is no yaw rate. Errors (refused): opposite signs, or a difference
-/// above kTurnTolerance times |turned|.
+/// Compares the angle `turned`, rad, by the compass with the integral of the gyroscope's yaw rate.
+/// Adds the note `turn-not-checked` if there is no yaw rate. Errors (refused): opposite signs, or a
+/// difference above kTurnTolerance times |turned|.
 Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>& findings) {
   if (record.yaw_rate_radps.empty()) {
     findings.push_back({record.file, 0, Severity::kNote, "turn-not-checked",
@@ -216,7 +218,8 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
                     "move the magnet away",
                     file, centre, field));
   }
-  // The ratio of the axes a and b is that of the eigenvalues of S, which are 1/a and 1/b.
+  // The ellipse with the half axes a and b has a gain matrix S with the eigenvalues 1/a and 1/b, so
+  // the ratio of the axes is that of the eigenvalues.
   const double mean = 0.5 * (c.gain_ahead.value + c.gain_left.value);
   const double apart =
       std::hypot(0.5 * (c.gain_ahead.value - c.gain_left.value), c.gain_cross.value);
@@ -230,8 +233,8 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
           file, ratio));
 }
 
-/// Converts the ellipse to the calibration in the model. S is scaled to det S = 1, so that |c| is
-/// the field in the unit of the readings f.
+/// Converts the ellipse to the calibration in the model. The gain S is scaled to det S = 1, so that
+/// the length of S (f - o) is the strength of the field, in the unit of the readings f.
 CompassCalibration calibration_of(const Known& known) {
   const auto root = [](const Ellipse& e) { return std::sqrt(e.gain().determinant()); };
   const auto gain = [&](int k) {
@@ -247,7 +250,8 @@ CompassCalibration calibration_of(const Known& known) {
           .heading_error_deg = degrees(heading_error_rad(known))};
 }
 
-/// Errors (refused): a gap without headings is too large, or the readings are not on an ellipse.
+/// Checks the fitted ellipse. Errors (refused): the gap without readings is too large, or the
+/// readings are too far from the ellipse.
 Status check_ellipse(const std::string& file, const Known& fit,
                      const std::pair<double, double>& gap_rad) {
   const double gap_deg = degrees(gap_rad.second);

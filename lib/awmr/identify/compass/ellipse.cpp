@@ -16,8 +16,8 @@ Ellipse ellipse_of(const Eigen::Vector2d& centre, const Eigen::Matrix2d& gain) {
   return ellipse;
 }
 
-/// Initial guess: fits the conic A x^2 + B x y + C y^2 + D x + E y = 1 by linear least squares. In
-/// matrix form this is
+/// Initial guess of the ellipse: fits the conic A x^2 + B x y + C y^2 + D x + E y = 1 to the points
+/// f = (x, y) by linear least squares. In matrix form this is
 ///     (f - o)' M (f - o) = k,  M = (A, B/2; B/2, C),  o = -M^-1 (D, E)/2,  k = 1 + o' M o,
 /// which equals |S (f - o)| = 1 with S = (M/k)^(1/2). Empty if M/k is not positive definite.
 std::optional<Ellipse> conic(const Points& points) {
@@ -87,7 +87,7 @@ Eigen::Matrix<double, 1, 5> residual_gradient(const Ellipse& ellipse, const Eige
 }
 
 std::optional<Ellipse> fit_ellipse(const Points& points) {
-  // Centred and scaled points give all terms of the conic the same magnitude.
+  // The points are centred and scaled, so that all terms of the conic have similar magnitudes.
   const Eigen::RowVector2d mean = points.colwise().mean();
   const double size =
       std::sqrt((points.rowwise() - mean).squaredNorm() / static_cast<double>(points.rows()));

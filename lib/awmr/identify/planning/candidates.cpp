@@ -15,13 +15,13 @@
 namespace awmr {
 namespace {
 
-/// Rate of the rows of logs and coast-downs.
+/// Assumed sample rate of logs and coast-down curves.
 constexpr double kRate_hz = 100.0;
-/// Speed (m/s) or yaw rate (rad/s) that replaces 0, whose logarithm does not exist.
+/// Replaces a predicted speed (m/s) or yaw rate (rad/s) of 0, because 0 has no logarithm.
 constexpr double kAtRest = 1e-6;
 
-/// Relative standard deviation of the measured rows of this kind of trial from the model's
-/// predictions; 5 % for fewer than three rows.
+/// Scatter of the model's trials of one kind: relative standard deviation of the predicted from the
+/// measured values. 5 % if there are fewer than three rows.
 double relative_scatter(const Model& model, TrialKind kind) {
   double squares = 0.0;
   int count = 0;
@@ -35,8 +35,8 @@ double relative_scatter(const Model& model, TrialKind kind) {
   return count > 2 && squares > 0.0 ? std::sqrt(squares / (count - 2)) : kOtherwise;
 }
 
-/// Surge runs: measure ln u of the steady speed u under tau_speed. The standard error of the mean
-/// is the relative scatter over sqrt(runs).
+/// Candidate surge runs. They measure ln u, with the steady speed u under tau_speed. The standard
+/// error of the mean of the runs is the relative scatter over sqrt(runs).
 CandidateTrial surge_candidate(double tau, double wheel_force, double scatter, double runs) {
   return {
       .trial = {.kind = TrialKind::kSurge,
@@ -51,7 +51,9 @@ CandidateTrial surge_candidate(double tau, double wheel_force, double scatter, d
       }};
 }
 
-/// Steered turns: measure ln r of the steady yaw rate r under tau_turn = 2 l_f F' sin d_r.
+/// Candidate steered turns. They measure ln r, with the steady yaw rate r under the yaw moment
+/// tau_turn = 2 l_f F' sin d_r (F': wheel force, d_r: steering angle, l_f: distance of the front
+/// axle).
 CandidateTrial turning_candidate(double steering_rad, double wheel_force, double scatter,
                                  double runs) {
   return {.trial = {.kind = TrialKind::kTurning,
@@ -68,7 +70,8 @@ CandidateTrial turning_candidate(double steering_rad, double wheel_force, double
           }};
 }
 
-/// Differential turns of a vehicle without steering: ln r under tau_turn = 2 d (F'R - F'L).
+/// Candidate differential turns of a vehicle without steering. They measure ln r, with the steady
+/// yaw rate r under the yaw moment tau_turn = 2 d (F'R - F'L) (d: half of the track width).
 CandidateTrial sides_candidate(SideForces<double> force, double scatter, double runs) {
   return {.trial = {.kind = TrialKind::kTurning,
                     .settings = fmt::format("F'L = {:.3g}, F'R = {:.3g}, {:g} full turns",
@@ -85,7 +88,7 @@ CandidateTrial sides_candidate(SideForces<double> force, double scatter, double 
           }};
 }
 
-/// Coast-down curve: measures the speed from motors off to rest.
+/// Candidate coast-down curve. It measures the speed from motors-off to rest.
 CandidateTrial coastdown_candidate(double from_mps, double duration_s, double noise_mps,
                                    double runs) {
   return {.trial = {.kind = TrialKind::kCoastdown,
@@ -105,7 +108,7 @@ CandidateTrial coastdown_candidate(double from_mps, double duration_s, double no
           }};
 }
 
-/// Driving log: measures speed, yaw rate and heading. The position is not used.
+/// Candidate driving log. It measures speed, yaw rate and heading; the position is not used.
 CandidateTrial log_candidate(const std::string& what, const Vehicle& vehicle, const DrivePlan& plan,
                              const SensorNoise& sensors) {
   return {.trial = {.kind = TrialKind::kLog,
@@ -150,8 +153,8 @@ void add_coastdowns(const Vehicle& vehicle, const Plant<double>& plant,
 void add_logs(const Vehicle& vehicle, Motion motion, const SensorNoise& sensors,
               std::vector<CandidateTrial>& candidates) {
   const char* steps = vehicle.has_steering()
-                          ? "steps of thrust and steering, sometimes with unequal left and right"
-                          : "steps of thrust, sometimes with unequal left and right";
+                          ? "steps of thrust and steering, some with unequal forces left and right"
+                          : "steps of thrust, some with unequal forces left and right";
   candidates.push_back(log_candidate("straight starts and stops", vehicle,
                                      {.duration_s = 30.0, .straight = true}, sensors));
   if (motion != Motion::kPlanar) return;
@@ -194,8 +197,8 @@ void add_turning_runs(const Model& model, const SuggestOptions& options,
 
 std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptions& options) {
   std::vector<CandidateTrial> candidates;
-  // With back-EMF, table rows are no candidates: steady runs determine only the sum of back-EMF and
-  // resistance.
+  // A model with back-EMF gets no table rows as candidates: steady runs determine only the sum of
+  // back-EMF and resistance.
   const bool tables = !(model[ParameterId::kBackEmf].value.value_or(0.0) > 0.0);
   if (tables && model.plant(Motion::kSteadySurge)) add_surge_runs(model, options, candidates);
   if (tables && model.plant(Motion::kSteadyTurn)) add_turning_runs(model, options, candidates);
@@ -208,9 +211,9 @@ std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptio
 
 namespace {
 
-/// Range of the scrub moment, m: its 95 % interval, cut at 0. If the scrub was not measured: from
-/// the largest moment at which the vehicle did not turn (0 if none is known) to the moment of
-/// sliding tyres.
+/// Range in which the scrub moment may be, m. If the scrub was measured: its 95 % interval without
+/// negative values. Otherwise: from the largest moment at which the vehicle did not turn (0 if none
+/// is known) to the moment of sliding tyres.
 Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   const double held_m = model.yaw_held_m.value_or(0.0);
   if (const auto& scrub = model.yaw_scrub) {
@@ -220,9 +223,10 @@ Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   return {held_m, std::max(held_m, sliding_moment_m(plant))};
 }
 
-/// Left and right wheel forces with the mean `straight` and a given yaw moment:
+/// Left and right wheel forces F'L and F'R with the mean `straight` and a given yaw moment (d: half
+/// of the track width):
 ///   2 d (F'R - F'L) = moment                                                        [paper (41)]
-/// Empty if a force is outside `range`, the limits of the wheels.
+/// Empty if a force is outside `range`, the limits of the wheel forces.
 std::optional<SideForces<double>> forces_for(double moment_m, double straight,
                                              const Plant<double>& plant, const Interval& range) {
   const double half = moment_m / (4.0 * plant.half_track_m);
@@ -275,9 +279,9 @@ ScrubPlan scrub_plan(const Model& model) {
   const std::optional<double> fastest_degps = measured_yaw_rate_degps(model);
   if (!yaw || !surge || !fastest_degps) {
     return {{},
-            "the forces of differential turns can be suggested only with the surge resistance "
-            "(record surge trials or a log), the yaw resistance (turning trials or a log) and the "
-            "highest yaw rate (of these, or yaw_rate_max_degps in the vehicle file)"};
+            "to suggest forces of differential turns, the model needs the surge resistance (record "
+            "surge trials or a log), the yaw resistance (record turning trials or a log) and the "
+            "highest yaw rate (from these trials, or yaw_rate_max_degps in the vehicle file)"};
   }
   const std::optional<double> fastest_mps = fastest_surge_mps(model);
   const double straight = fastest_mps ? surge->surge(0.5 * *fastest_mps) / vehicle.driven_wheels()
@@ -303,8 +307,10 @@ ScrubPlan scrub_plan(const Model& model) {
   return plan;
 }
 
-/// Assumes that the vehicle rolls without slip about a centre on the line of the rear axle, with a
-/// wheelbase of 2 l_f (tyres.h):
+/// Plans the turn with the motors off, at the speed u and the steering angle d_r. The yaw rate r is
+/// that of a vehicle with the wheelbase 2 l_f that rolls without slip about a centre on the line of
+/// the rear axle (tyres.h). The angle is limited so that the lateral acceleration u r is at most
+/// 0.2 g:
 ///   r = u tan(d_r)/(2 l_f),   u r <= 0.2 g
 std::optional<CoastingTurn> coasting_turn(const Model& model) {
   const Vehicle& vehicle = model.vehicle;

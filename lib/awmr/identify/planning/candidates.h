@@ -12,9 +12,10 @@ namespace awmr {
 
 /// A trial that could be recorded next.
 struct CandidateTrial {
-  SuggestedTrial trial;  ///< kind, settings and numbers; its standard errors are not set
-  /// Predicts the measurements of the trial on a plant, each divided by the standard deviation of
-  /// its error. Their number is the same for every plant.
+  /// Kind and settings of the trial. Its standard errors are not set yet.
+  SuggestedTrial trial;
+  /// Predicts the measurements of the trial on a plant. Each measurement is divided by the standard
+  /// deviation of its error. Every plant gives the same number of measurements.
   std::function<std::vector<double>(const Plant<double>&)> standardised;
 };
 

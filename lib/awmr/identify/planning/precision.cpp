@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Computes Precision::half_width of the interval [lo, hi]: (hi - lo)/2, divided by the value
-/// unless the parameter is an exponent or a term of a family.
+/// Computes Precision::half_width from the interval [lo, hi]: (hi - lo)/2, divided by the value.
+/// For an exponent or a term of a family, it is not divided by the value.
 std::optional<double> half_width_of(const Model& model, ParameterId id) {
   const Estimate& estimate = model[id];
   if (!estimate.value || !estimate.ci95 || estimate.source == Source::kGiven) return std::nullopt;

@@ -18,8 +18,8 @@ struct Precision {
   std::optional<double> half_width;
 };
 
-/// Precision of the parameters in `requested`. If `requested` is empty: of every parameter of the
-/// vehicle that was not given and is not a term of only some families.
+/// Precision of the parameters in `requested`. If `requested` is empty: of every parameter that the
+/// vehicle has, except given ones and terms that only some families have.
 std::vector<Precision> precision_of(const Model& model, std::span<const ParameterId> requested);
 
 /// True if every half width is present and at most `limit`. False for an empty list.

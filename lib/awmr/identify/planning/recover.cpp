@@ -20,9 +20,9 @@
 namespace awmr {
 namespace {
 
-/// Quantity that has the error according to the estimator under test. Log-linear estimator: the
-/// logarithm of the force. Nonlinear estimator (used for every family other than the power law):
-/// the requested quantity.
+/// Quantity that has the measurement error according to the estimator under test. Log-linear
+/// estimator: the logarithm of the force. Nonlinear estimator (used for every family other than the
+/// power law): the requested quantity.
 ErrorModel error_of(const IdentifyOptions& options, Family family) {
   if (options.method != Method::kNonlinear && family == Family::kPower) {
     return ErrorModel::kLogForce;
@@ -38,10 +38,10 @@ std::optional<ErrorModel> error_model_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// Error of the simulated rows: residual standard deviation of a fit of the surge or yaw resistance
-/// in the model. The fit is that with the requested error model. Without a request: the fit with
-/// the error model of the estimator under test, else the first fit of the model's family. Errors
-/// (input): the model has no such fit.
+/// Error to simulate in the rows of a table: the residual standard deviation of one of the model's
+/// fits of the surge or yaw resistance. If the user requested an error model, the fit with this
+/// error model is used. Otherwise it is the fit with the error model of the estimator under test,
+/// or else the first fit of the model's family. Errors (input): the model has no such fit.
 Result<RowError> row_error(const Model& model, FitSubject subject, const RecoverOptions& options) {
   const bool is_surge = subject == FitSubject::kSurge;
   const Family family = is_surge ? model.surge_family : model.yaw_family;
@@ -108,7 +108,8 @@ TablePlan plan_of(const Model& model) {
     return plan;
   }
   // tau_turn = 2 l_f F' sin d_r                                                        [paper (62)]
-  // All turns have the same F', with which the largest moment needs the largest steering angle.
+  // All simulated turns have the same wheel force F'. It is chosen so that the largest yaw moment
+  // tau_turn needs the largest steering angle d_r.
   const double stop_rad = radians(model.vehicle.steering_max_deg);
   plan.turning_wheel_force =
       most_tau_turn_m / (2.0 * model.vehicle.front_axle_m * std::sin(stop_rad));
@@ -120,8 +121,8 @@ TablePlan plan_of(const Model& model) {
   return plan;
 }
 
-/// Initial speed of a coast-down, m/s: the highest speed measured in the model's surge trials, but at
-/// least 0.5.
+/// Initial speed of a coast-down, m/s: the highest speed of the model's surge trials, but at least
+/// 0.5.
 double top_speed_mps(const Model& model) {
   double top = 0.5;
   for (const TrialPoint& trial : model.record.trials) {
@@ -216,14 +217,14 @@ OneRun identified_again(const Vehicle& vehicle, const TrialData& data, IdentifyO
   }
   for (std::size_t i = 0; i < truths.size(); ++i) {
     const Estimate& estimate = identified->model[truths[i].id];
-    // Skips an assumed sway resistance, which is not an estimate from the trials.
+    // An assumed sway resistance is skipped, because it is not an estimate from the trials.
     if (estimate.method != kAssumedSwayMethod) run.found.estimates[i] = interval_of(estimate);
   }
   return run;
 }
 
-/// Executes the runs of the part `shard`, in order: simulates the trials and identifies them.
-/// `progress` is called on this thread; its last call has the number of all runs of the part.
+/// Executes the runs of the part `shard`, in order: simulates the trials of a run and identifies
+/// them. `progress` is called on this thread with the number of completed runs.
 std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOptions& options,
                                    const Shard& shard, const std::vector<RecoverTruth>& truths,
                                    const std::function<void(int)>& progress) {
@@ -248,8 +249,8 @@ std::vector<OneRun> simulated_runs(const Experiment& experiment, const RecoverOp
   return runs;
 }
 
-/// Parameters to evaluate, with their true values: those of the requested parameters (of all, if
-/// none is requested) that have a value in the model.
+/// Parameters whose estimates are evaluated, with their true values: the requested parameters that
+/// have a value in the model. If none is requested, all parameters that have a value.
 std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<ParameterId>& requested) {
   std::vector<RecoverTruth> truths;
   for (const ParameterInfo& parameter : parameter_table()) {
@@ -260,8 +261,8 @@ std::vector<RecoverTruth> truths_of(const Model& model, const std::vector<Parame
   return truths;
 }
 
-/// Stores the runs in the part, with the first refusal and its reason, and with the first run's
-/// error if every run failed.
+/// Stores the runs in the part. Also stores the first run with a refused parameter, with the
+/// reason, and, if every run failed, the error of the first run.
 void put_runs(std::vector<OneRun> runs, RecoverPart& part) {
   if (std::ranges::all_of(runs, [](const OneRun& run) { return run.error.has_value(); })) {
     part.error = runs.front().error;
@@ -299,9 +300,10 @@ Status check_drive(const DrivePlan& drive) {
                   drive.duration_s, drive.rate_hz, rows, kMin, kMax));
 }
 
-/// Adapts the options of a log to the model, unless the user requested parameters. If the model has
-/// only parameters of straight motion, the log drives straight and a1, b1 and m' are requested. If
-/// its back-EMF was fitted, all fitted parameters are requested.
+/// Adapts the options to the model. If the model has only parameters of straight motion, a
+/// simulated log drives straight and is fitted for a1, b1 and m'. If the model's back-EMF was
+/// fitted, a simulated log is fitted for all fitted parameters. If the user requested parameters,
+/// these are fitted instead.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
   const bool log = options.plan == RecoverPlan::kLog;
   if (log && options.identify.requested.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&

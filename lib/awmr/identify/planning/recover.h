@@ -13,9 +13,11 @@ namespace awmr {
 
 /// Trials to simulate.
 enum class RecoverPlan {
-  kTables,  ///< tables with the settings of the model's own trials
-  kCurve,   ///< these tables with a coast-down curve in place of the stop times
-  kLog,     ///< a driving log instead of tables
+  /// Trial tables with the settings of the model's own trials.
+  kTables,
+  /// The same tables, but with a coast-down curve in place of the stop times.
+  kCurve,
+  kLog,  ///< a driving log instead of tables
 };
 
 /// Values of `--error`.
@@ -26,8 +28,8 @@ inline constexpr NameTable<ErrorModel, 4> kRecoverErrorNames{{{"log-force", Erro
 
 struct RecoverOptions {
   RecoverPlan plan = RecoverPlan::kTables;
-  /// Number of simulated sets, >= 2. The standard error of the coverage is 0.22/sqrt(runs): 1.5 %
-  /// for 200 runs.
+  /// Number of runs, >= 2. Each run simulates and identifies one set of trials. The standard error
+  /// of the coverage is 0.22/sqrt(runs): 1.5 % for 200 runs.
   int runs = 200;
   std::uint64_t seed = 1;
   /// Number of threads, >= 0; 0: one per core. The result does not depend on it.

@@ -1,5 +1,5 @@
-/// The two steps of recover(): the runs of a part, and the statistics of all runs. With them,
-/// several machines can share the runs.
+/// The two steps of recover(): recover_part() executes a part of the runs, and recovery_of()
+/// computes the statistics of all runs. Parts can be executed on different machines.
 #pragma once
 
 #include <functional>
@@ -31,10 +31,11 @@ struct RecoverEstimate {
 
 /// Result of one run: the estimates from one simulated data set.
 struct RecoverRun {
-  int index = 0;         ///< number of the run, from 0; it and the seed determine the simulated
-                         ///< errors
+  /// Number of the run, from 0. The seed and this number determine the simulated errors.
+  int index = 0;
   bool refused = false;  ///< true: a requested parameter was refused
-  /// In the order of RecoverPart::truths; absent for a parameter without an interval.
+  /// Estimates of the parameters in RecoverPart::truths, in this order. Absent for a parameter
+  /// without an interval.
   std::vector<std::optional<RecoverEstimate>> estimates;
 };
 
@@ -46,9 +47,9 @@ struct RecoverRefusal {
 
 /// Some or all of the runs of a recovery.
 struct RecoverPart {
-  int all_runs = 0;                    ///< number of runs in all parts together
+  int all_runs = 0;                    ///< number of runs of all parts together
   std::string noise_text;              ///< description of the simulated noise
-  std::vector<ParameterId> requested;  ///< empty: all parameters that the trials identify
+  std::vector<ParameterId> requested;  ///< empty: every parameter that the trials identify
   std::vector<RecoverTruth> truths;    ///< true values of the evaluated parameters
   std::vector<RecoverRun> runs;        ///< in the order of their index
   std::optional<RecoverRefusal> refusal;

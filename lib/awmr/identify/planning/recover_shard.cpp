@@ -14,7 +14,8 @@
 namespace awmr {
 namespace {
 
-/// Limits of numbers in a part's files: number of runs, magnitude of a true value other than 0.
+/// Limits of the numbers that are accepted in a part's files: number of runs, magnitude of a true
+/// value other than 0.
 constexpr long kMaxRecoverRuns = std::numeric_limits<int>::max();
 constexpr double kLargestTruth = 1e100;
 constexpr double kSmallestTruth = 1e-100;

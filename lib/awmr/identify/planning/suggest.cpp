@@ -15,9 +15,9 @@
 namespace awmr {
 namespace {
 
-/// Assumed standard error of the coordinate of a parameter without a standard error. For a
-/// logarithm it means a factor of e^2. It is large, so that trials that measure the parameter rank
-/// high.
+/// Assumed standard error for a parameter without one, in its coordinate of model/transform.h. If
+/// the coordinate is a logarithm, 2 means a factor of e^2. The value is large, so that trials that
+/// measure the parameter rank high.
 constexpr double kUnknownStd = 2.0;
 
 /// Covariance of the n uncertain parameters, in the coordinates z of model/transform.h. With the
@@ -28,8 +28,8 @@ struct Uncertainty {
   Eigen::MatrixXd covariance;  ///< n x n, positive definite
 };
 
-/// The model's covariance, extended by the estimated parameters without a covariance (except terms
-/// of a family).
+/// The covariance in the model, extended by rows for the estimated parameters that it does not
+/// contain (except terms of a family).
 Uncertainty uncertainty_of(const Model& model) {
   const std::vector<ParameterId>& known = model.covariance.parameters;
   std::vector<ParameterId> ids = known;
@@ -75,9 +75,9 @@ Plant<double> moved(Model model, ParameterId id, double step) {
   return model.plant_as_known();
 }
 
-/// Derivatives of values by the parameters' coordinates, by central differences: one row per value,
-/// one column per parameter. The backward step is limited so that no term of a resistance becomes
-/// negative.
+/// Derivatives of values by the coordinates of the parameters (model/transform.h), by central
+/// differences: one row per value, one column per parameter. The backward step is limited so that
+/// no term of a resistance becomes negative.
 template <class Values>
 Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& ids,
                             const Values& values_at) {
@@ -95,8 +95,8 @@ Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& 
   return result;
 }
 
-/// Target of the ranking: m linear combinations of the n coordinates. Its standard error is the
-/// root of the sum of their variances, times `scale`.
+/// Target of the ranking: m linear combinations of the n parameter coordinates. The standard error
+/// of the target is the root of the sum of the variances of these combinations, times `scale`.
 struct Target {
   Eigen::MatrixXd gradient;  ///< m x n, a combination in each row
   double scale = 1.0;        ///< converts the standard error to the unit of the target
@@ -108,9 +108,9 @@ struct Target {
   }
 };
 
-/// Scale of the error of a resistance term: the resistance with all its terms at 1 m/s or 1 rad/s.
-/// (The term itself may be 0.) For a term of a single wheel (dead zone, back-EMF), this resistance
-/// is divided by the number of driven wheels.
+/// Reference for the error of a resistance term, which may itself be 0: the whole resistance, with
+/// all its terms, at 1 m/s or 1 rad/s. For a term of a single wheel (dead zone, back-EMF), this
+/// resistance is divided by the number of driven wheels.
 double whole_of(ParameterId id, const Plant<double>& plant) {
   if (id == ParameterId::kYawCoulomb || id == ParameterId::kYawQuadratic) return plant.yaw(1.0);
   const bool of_a_wheel = id == ParameterId::kWheelDeadZone || id == ParameterId::kBackEmf;
@@ -174,8 +174,9 @@ double log_determinant(const Eigen::MatrixXd& covariance) {
   return symmetric_eigen(covariance).values.array().max(1e-300).log().sum();
 }
 
-/// Computes the effect of a candidate: C_after = (C^-1 + J^T J)^-1. J has the derivatives, with
-/// respect to the coordinates, of the measurements divided by their standard deviations.
+/// Computes how a candidate trial changes the covariance C of the parameter coordinates: C_after =
+/// (C^-1 + J^T J)^-1. J has the derivatives of the trial's measurements, each divided by its
+/// standard deviation, by the coordinates.
 SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
                         const Uncertainty& uncertainty, const Target& target) {
   const Eigen::MatrixXd j = jacobian_of(model, uncertainty.parameters, candidate.standardised);
@@ -191,8 +192,8 @@ SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
   return trial;
 }
 
-/// Sorts the trials by the standard error of the target, smallest first; then by d_gain, largest
-/// first.
+/// Sorts the trials by the standard error of the target, smallest first. Trials with equal standard
+/// errors are sorted by the decrease of ln det C (d_gain), largest first.
 void sort_by_promise(std::vector<SuggestedTrial>& trials) {
   std::stable_sort(trials.begin(), trials.end(),
                    [](const SuggestedTrial& a, const SuggestedTrial& b) {

@@ -14,8 +14,8 @@ namespace awmr {
 /// A closed-loop metric whose uncertainty is to be reduced.
 struct SuggestTarget {
   std::string name;  ///< name of the metric
-  /// Value of the metric for a plant. The variance of the metric is grad^T C grad, with the
-  /// covariance C of the parameters' coordinates and the gradient by finite differences.
+  /// Computes the metric for a plant. The variance of the metric is grad^T C grad, with the
+  /// covariance C of the parameters' coordinates and the gradient `grad` by finite differences.
   std::function<double(const Plant<double>&)> value;
 };
 
@@ -38,7 +38,7 @@ struct SuggestOptions {
 struct SuggestedTrial {
   TrialKind kind = TrialKind::kSurge;
   std::string settings;                                 ///< text for the field sheet
-  std::vector<std::pair<std::string, double>> numbers;  ///< settings as numbers, unit in the name
+  std::vector<std::pair<std::string, double>> numbers;  ///< settings: name with unit, and value
   std::string parameter = {};                           ///< name of the target
   double std_error_before = 0.0;  ///< standard error of the target now, in its unit, >= 0
   double std_error_after = 0.0;   ///< standard error of the target with this trial, >= 0
@@ -50,7 +50,7 @@ struct SuggestedTrial {
 /// A parameter without a value.
 struct MissingParameter {
   ParameterId id{};
-  std::string trial;  ///< description of the trial that measures it
+  std::string trial;  ///< description of the trial that measures the parameter
 };
 
 /// A differential turn with straight wheels, to measure the tyre scrub. The choice between the
@@ -80,21 +80,21 @@ struct Suggestion {
   std::string criterion;                  ///< description of the ranking's target
   std::vector<MissingParameter> missing;  ///< parameters without a value, whose trials come first
   std::vector<SuggestedTrial> trials;     ///< best first
-  std::vector<ScrubTurn> scrub_turns;     ///< if empty, `about_scrub` has the reason
+  std::vector<ScrubTurn> scrub_turns;     ///< empty: `about_scrub` has the reason
   /// Purpose of the scrub turns, or why there are none. Empty for a vehicle without steering.
   std::string about_scrub;
   std::vector<std::string> assumptions;       ///< assumed measurement errors, as text
   std::optional<CoastingTurn> coasting = {};  ///< absent without steering or surge resistance
 };
 
-/// Ranks the candidate trials by the standard error of the target. A trial changes the covariance C
-/// of the parameters' coordinates (model/transform.h) to
+/// Ranks the candidate trials by the standard error that the target would have after the trial. A
+/// trial changes the covariance C of the parameters' coordinates (model/transform.h) to
 ///   C_after = (C^-1 + J^T W J)^-1
-/// with the derivatives J of its measurements by the coordinates, and the inverse variances W of
-/// its errors. A parameter without a value is reported as missing, and trials that measure it are
-/// not ranked. Errors (input): every parameter of the model was given, so that no trial can improve
-/// it; the target is unknown or has no value; the effect of a trial is not finite; a time constant
-/// that is too short for check_replay().
+/// with the derivatives J of the trial's measurements by the coordinates, and the inverse variances
+/// W of their errors. A parameter without a value is reported as missing, and trials that measure
+/// it are not ranked. Errors (input): every parameter of the model was given, so that no trial can
+/// improve it; the target is unknown or has no value; the effect of a trial is not finite; a time
+/// constant that is too short for check_replay().
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// Content of suggest.json.

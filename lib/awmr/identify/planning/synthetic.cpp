@@ -35,8 +35,9 @@ class NoiseSource {
   bool first_ = true;
 };
 
-/// Force, rate (speed or yaw rate) and time of a simulated row, with its measurement error. The
-/// time is that in which the run covers its given distance or angle at this rate.
+/// A simulated row of a table: force, rate (speed or yaw rate) and time. One of these has the
+/// measurement error. The time is that in which the run covers its given distance or angle at this
+/// rate.
 struct NoisyRow {
   double force;
   double rate;
@@ -65,7 +66,8 @@ NoisyRow noisy(double force, double rate, double travel, const RowError& error, 
   return row;
 }
 
-/// Simulates surge runs: solves g1(u) = tau_speed for u, after subtracting the wheels' dead zones.
+/// Simulates surge runs: solves g1(u) = tau_speed for the steady speed u, with the surge resistance
+/// g1. The wheels' dead zones are subtracted from tau_speed first.
 TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
                               const RowNoise& noise, Random& random) {
   TrialSet<SurgeRow> set{"simulated surge", {}, 0};
@@ -79,8 +81,9 @@ TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
   return set;
 }
 
-/// Simulates steered turns: solves g3(r) = 2 l_f F' sin d_r for r, with F' reduced by the dead
-/// zone.
+/// Simulates steered turns: solves g3(r) = 2 l_f F' sin d_r for the steady yaw rate r, with the yaw
+/// resistance g3 and the steering angle d_r. The dead zone is subtracted from the wheel force F'
+/// first.
 TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& plan,
                                   const RowNoise& noise, Random& random) {
   TrialSet<TurningRow> set{"simulated turning", {}, 0};
@@ -102,8 +105,8 @@ TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& p
   return set;
 }
 
-/// Simulates differential turns: solves g3(r) = 2 d (F'R - F'L) for r, with F' reduced by the dead
-/// zone.
+/// Simulates differential turns: solves g3(r) = 2 d (F'R - F'L) for the steady yaw rate r, with the
+/// yaw resistance g3. The dead zone is subtracted from the wheel forces F'R and F'L first.
 TrialSet<TurningRow> sides_turning_rows(const Plant<double>& plant, const TablePlan& plan,
                                         const RowNoise& noise, Random& random) {
   TrialSet<TurningRow> set{"simulated turning", {}, 0};
@@ -220,7 +223,8 @@ double std_of(const SensorNoise& noise, LogChannel channel) {
     case LogChannel::kSteering:
       break;
   }
-  return 0.002;  // rad, noise of a measured steering angle
+  // Standard deviation of the noise of a measured steering angle, rad.
+  return 0.002;
 }
 
 /// Measurements of a channel: true values with noise, sampled every `stride` rows and held in

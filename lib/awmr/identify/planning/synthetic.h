@@ -14,13 +14,14 @@ struct SensorNoise {
   double speed_mps = 0.02;          ///< of wheel encoders
   double yaw_rate_radps = 0.00873;  ///< 0.5 deg/s, of a gyroscope
   double heading_rad = 0.01745;     ///< 1 deg, of a compass
-  double position_m = 0.05;         ///< of x and of y, of a GNSS receiver with corrections
-  double position_rate_hz = 10.0;   ///< update rate of the position, > 0
-  double correlation_s = 0.0;       ///< correlation time of every sensor's error; 0: white
+  /// Standard deviation of x and of y. The default is that of a GNSS receiver with corrections.
+  double position_m = 0.05;
+  double position_rate_hz = 10.0;  ///< update rate of the position, > 0
+  double correlation_s = 0.0;      ///< correlation time of each sensor's error; 0: white noise
 };
 
-/// Settings of the runs of all tables, in the order of the rows. If a list is empty, its table is
-/// not simulated.
+/// Settings of the trials to simulate, one list for each table, with one entry for each row. If a
+/// list is empty, its table is not simulated.
 struct TablePlan {
   std::vector<double> surge_tau_speed;       ///< dimensionless, > 0
   std::vector<double> turning_steering_rad;  ///< d_r, > 0: to the left
@@ -34,8 +35,9 @@ struct TablePlan {
 /// Error of one kind of rows.
 struct RowError {
   ErrorModel model = ErrorModel::kLogForce;  ///< quantity that has the error
-  double deviation = 0.0;  ///< standard deviation, >= 0, in the unit of the quantity: 1 (force of
-                           ///< surge rows), m (moment of turning rows), m/s, rad/s or s
+  /// Standard deviation, >= 0, in the unit of the quantity: 1 (force of surge rows; logarithms), m
+  /// (moment of turning rows), m/s, rad/s or s.
+  double deviation = 0.0;
 };
 /// Errors of the rows of tables.
 struct RowNoise {
@@ -58,12 +60,13 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
 /// random values within the vehicle's limits, with different left and right forces. One change in
 /// four switches the motors off, so that the vehicle coasts.
 struct DrivePlan {
-  double duration_s = 60.0;     ///< duration of the log, > 0
-  double rate_hz = 100.0;       ///< rate of the log's rows, > 0
-  double hold_s = 1.5;          ///< time between changes of the commands, > 0
-  bool straight = false;        ///< no steering, equal left and right forces: only surge is
-                                ///< identifiable
-  bool servo_measured = false;  ///< the steering angle is logged in addition to its command
+  double duration_s = 60.0;  ///< duration of the log, > 0
+  double rate_hz = 100.0;    ///< rate of the log's rows, > 0
+  double hold_s = 1.5;       ///< time between changes of the commands, > 0
+  /// True: no steering, and equal left and right forces. Only parameters of surge are then
+  /// identifiable.
+  bool straight = false;
+  bool servo_measured = false;  ///< true: the measured steering angle is logged too
   std::uint64_t drive = 1;      ///< seed of the random commands
 };
 /// Simulates a log of a drive from rest at the origin. Channels: x, y, heading, speed and yaw rate,

@@ -14,8 +14,9 @@
 namespace awmr {
 namespace {
 
-/// Root mean square of ln(g(w) + z) - ln f over the runs, with the curve g, the rate w, the dead
-/// zone z and the force f. Infinite if the curve is not finite.
+/// Misfit of a resistance curve to all runs: root mean square of ln(g(w) + z) - ln f, with the
+/// curve g, the rate w, the dead zone z and the force f of a run. Infinite if the curve is not
+/// finite.
 double log_misfit(const FamilyCandidate& candidate) {
   SteadyProblem problem = candidate.problem;
   problem.noise = ErrorModel::kLogForce;
@@ -25,8 +26,7 @@ double log_misfit(const FamilyCandidate& candidate) {
 }
 
 /// Deviation of a run's time from a fit to the times of the other runs, in standard deviations.
-/// Infinite if the runs were not timed or the fit fails, so that the test of the force decides
-/// alone.
+/// Infinite if the runs were not timed or the fit fails. The run is then tested by its force alone.
 double deviations_in_time(const Subject& subject, std::size_t point, const SteadyFit& of_others) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   auto all = by_time({.points = subject.points, .beta_range = subject.beta_range});

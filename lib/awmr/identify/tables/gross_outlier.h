@@ -19,11 +19,12 @@ struct GrossOutlier {
 ///   1. The logarithm of its force deviates by more than ten standard deviations, with p < 0.001 by
 ///      Student's t for the whole table (Bonferroni). If the runs were timed, its time also
 ///      deviates by more than ten standard deviations from a fit of the other times. (A timing
-///      error of a given size is a larger share of a shorter time. A fast run is not excluded for
-///      this reason alone.)
-///   2. For every resistance family fitted to all runs including this one, the root mean square
-///      residual of ln f is at least three times that of the power law of the other runs. (A slow
-///      run can deviate from a power law because of Coulomb friction.)
+///      error of a given size is a larger share of a short time, so the force alone would exclude
+///      some correct fast runs.)
+///   2. The deviation is not due to the power law: for every resistance family fitted to all runs,
+///      including this one, the root mean square residual of ln f is at least three times that of
+///      the power law of the other runs. (A slow run can deviate from a power law because of
+///      Coulomb friction.)
 /// Empty if there is no such run or the runs are too few for the test.
 std::optional<GrossOutlier> gross_outlier(const Subject& subject, const SubjectOptions& options);
 

@@ -12,7 +12,8 @@
 namespace awmr {
 namespace {
 
-/// A row is influential if leaving it out changes a parameter by this many standard errors.
+/// A run is influential if a parameter changes by more than this number of standard errors when the
+/// fit is repeated without the run.
 constexpr double kInfluential = 1.0;
 
 /// Fitted coordinates without the run `row`; empty if the other runs do not determine a curve.
@@ -34,15 +35,17 @@ std::optional<TransformedParameters> refit_without(std::size_t row, const Subjec
   return without.theta;
 }
 
-/// Coordinates theta without run i, by one Gauss-Newton step from the fit of all runs:
+/// Approximates the fit without run i by one Gauss-Newton step from the fit of all runs, whose
+/// coordinates are theta:
 ///   theta_(i) = theta + (J^T J)^-1 j_i e_i/(1 - h_i),   e = curve - measured      [Cook 1977]
-/// with row j_i of the Jacobian J and the leverage h_i. The step is exact for a log-linear fit.
+/// with row j_i of the Jacobian J, the residual e_i and the leverage h_i. The step is exact for a
+/// log-linear fit.
 class OneStep {
  public:
   OneStep(const SteadyProblem& problem, bool log_linear, const SteadyFit& fit)
       : problem_(problem), fit_(fit) {
     const double variance = fit.residual_std * fit.residual_std;
-    // Not available with a robust loss, whose weights of the rows this step does not include.
+    // Not available with a robust loss, because the step does not include its weights of the rows.
     if (!fit.has_covariance() || !(variance > 0.0) || problem.loss != Loss::kSquared) return;
     inverse_ = fit.covariance / variance;
     if (log_linear) {
@@ -75,8 +78,9 @@ class OneStep {
  private:
   const SteadyProblem& problem_;
   const SteadyFit& fit_;
-  Eigen::MatrixXd inverse_;   ///< (J^T J)^-1, free x free
-  Eigen::MatrixXd jacobian_;  ///< runs x free; empty if not available
+  Eigen::MatrixXd inverse_;  ///< (J^T J)^-1, free x free
+  /// Jacobian J, runs x free coordinates. Empty if the step is not available.
+  Eigen::MatrixXd jacobian_;
 };
 
 /// Describes the parameters that change by more than kInfluential standard errors without a run:

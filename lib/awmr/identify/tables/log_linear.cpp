@@ -7,8 +7,9 @@
 namespace awmr {
 namespace {
 
-/// Covariance s^2 (P^T P)^-1 = s^2 Pi R^-1 R^-T Pi^T of the line's coefficients. P is the matrix
-/// of the rows (1, ln w), Pi the column permutation of its factors P Pi = Q R, s^2 the variance.
+/// Covariance of the coefficients of the fitted line ln f = ln alpha + beta ln w, s^2 (P^T P)^-1 =
+/// s^2 Pi R^-1 R^-T Pi^T. P is the matrix of the rows (1, ln w), Pi the column permutation of its
+/// factors P Pi = Q R, s^2 the variance of the residuals.
 Eigen::Matrix2d covariance_of(const PivotedQr& qr, double variance) {
   const Eigen::Matrix2d r = qr.r();
   const Eigen::Matrix2d r_inverse =

@@ -10,7 +10,8 @@
 namespace awmr {
 namespace {
 
-/// |d e/d ln w| of a run, with its residual e in the unit of the error and its rate w.
+/// Magnitude of the derivative of a run's residual e by ln w, with the run's rate w. The unit of e
+/// is that of the quantity that has the error.
 double residual_by_log_rate(ErrorModel noise, const SteadyFit& fit, const SteadyPoint& point) {
   const Resistance<double> law = fit.law();
   const double w = point.rate;
@@ -29,7 +30,7 @@ double residual_by_log_rate(ErrorModel noise, const SteadyFit& fit, const Steady
   return w;
 }
 
-/// ln w_k of one error model, up to a constant (noise_average.h).
+/// Logarithm of the probability of one error model, up to a constant: ln p_k in noise_average.h.
 double log_evidence(const std::vector<SteadyPoint>& points, ErrorModel noise,
                     const SteadyFit& fit) {
   double sum = -static_cast<double>(points.size()) * std::log(fit.residual_std) +

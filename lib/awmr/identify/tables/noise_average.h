@@ -3,16 +3,17 @@
 /// A table does not show which quantity has the error: the force (absolute or relative), the rate
 /// or the time. A wrong distance acts like a relative error of the force. Fits under these error
 /// models can differ by more than their intervals. The reported interval therefore averages over
-/// all error models k, each weighted by its posterior probability:
+/// all error models k, each weighted by its posterior probability p_k:
 ///
-///     ln w_k = -n ln s_k + 1/2 ln det C_k + sum_i ln |d e_ki/d ln w_i| + constant
+///     ln p_k = -n ln s_k + 1/2 ln det C_k + sum_i ln |d e_ki/d ln w_i| + constant
 ///
 /// for n runs with the rates w_i, residuals e_ki of standard deviation s_k in the unit of the
 /// error, and the covariance C_k of the fit. This is the likelihood, with the parameters and s_k
-/// integrated out; their priors are flat in the parameters and in ln s_k. It is expressed as a
-/// density of ln w_i for every error model, so that error models with different units can be
-/// compared. |d e/d ln w| is w g'/(g + z) for a relative error of the force, w g' for an absolute
-/// one, w for the rate and t for the time; z: dead zone, t: time.
+/// integrated out; their priors are flat in the parameters and in ln s_k. The likelihood is a
+/// density of ln w_i under every error model, so that error models with different units can be
+/// compared. With the resistance curve g and its derivative g', |d e/d ln w| is w g'/(g + z) for a
+/// relative error of the force, w g' for an absolute one, w for the rate and t for the time; z:
+/// dead zone, t: time.
 #pragma once
 
 #include <vector>
@@ -26,7 +27,7 @@ namespace awmr {
 struct NoiseAlternative {
   ErrorModel noise = ErrorModel::kLogForce;
   SteadyFit fit;
-  double weight = 1.0;  ///< in (0, 1]; all weights add up to 1
+  double weight = 1.0;  ///< probability of the error model, in (0, 1]; all add up to 1
 };
 
 /// Smallest weight of the chosen fit, whose value is reported. Half of this fit's distribution lies
@@ -36,8 +37,8 @@ inline constexpr double kMinOwnWeight = 0.05;
 
 /// Returns the chosen fit, then the usable fits of the same family with the same free parameters
 /// under the other error models. Returns only the chosen fit if the user selected the error model
-/// or a robust loss, or if the chosen fit has no degrees of freedom. `candidates`: fits already
-/// made, which are reused.
+/// or a robust loss, or if the chosen fit has no degrees of freedom. `candidates`: fits that were
+/// already made, and are reused.
 std::vector<NoiseAlternative> noise_alternatives(const Subject& subject,
                                                  const SubjectOptions& options,
                                                  const SteadyProblem& problem,

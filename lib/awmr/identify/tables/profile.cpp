@@ -24,7 +24,7 @@ double profile_cost(const SteadyProblem& problem, const TransformedParameters& i
   return e ? e->squaredNorm() : std::numeric_limits<double>::infinity();
 }
 
-/// A value x of the coordinate, and zeta(x) as defined at Profile.
+/// A point of a profile: a value x of the coordinate, with zeta(x) (see Profile below).
 struct Place {
   double x = 0.0;
   double zeta = 0.0;
@@ -45,10 +45,11 @@ struct Profile {
   }
 };
 
-/// Solves zeta(x) = t between `near`, where zeta < t, and `far`, where zeta > t.
+/// Finds x with zeta(x) = t, between the points `near`, where zeta < t, and `far`, where zeta > t.
 double crossing(const Profile& profile, Place near, Place far, double t, double std_error) {
   for (int i = 0; i < 60 && std::abs(far.x - near.x) > 1e-9 * std_error; ++i) {
-    // Regula falsi, at least 2 % of the bracket away from its ends, so that the bracket shrinks.
+    // Regula falsi. The next point keeps a distance of at least 2 % of the bracket from its ends,
+    // so that the bracket shrinks in every step.
     const double share = std::isfinite(far.zeta) ? (t - near.zeta) / (far.zeta - near.zeta) : 0.5;
     const double x = near.x + std::clamp(share, 0.02, 0.98) * (far.x - near.x);
     const Place middle = profile.at(x);

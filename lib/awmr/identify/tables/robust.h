@@ -15,7 +15,7 @@ namespace awmr {
 /// deviations. Null for Loss::kSquared.
 std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale);
 
-/// 1.4826 median |e|: robust estimate of the standard deviation of normal residuals.
+/// Robust estimate of the standard deviation of normal residuals e: 1.4826 median |e|.
 double median_scale(const Eigen::VectorXd& residuals);
 
 /// Variance that multiplies (J^T J)^-1 in the covariance of an M-estimate [Huber 1981, 7.6]:

@@ -72,8 +72,9 @@ StraightLine line_through(const std::vector<double>& x, const std::vector<double
   return line;
 }
 
-/// True if the moments y_i change with x_i (t test of the slope at 95 %). The variance of the slope
-/// includes the variance of the fitted g3(r_i), which is subtracted in every moment y_i:
+/// True if the scrub moments y_i change with x_i (t test of the slope at 95 %). Every moment y_i is
+/// the applied moment minus the fitted yaw resistance g3(r_i), so the variance of the slope
+/// includes that of g3:
 ///   slope = sum_i w_i y_i,  w_i = (x_i - mean x)/sum (x - mean x)^2
 bool is_sloped(const std::vector<double>& x, const std::vector<double>& y,
                const std::vector<double>& rates_radps, const Model& model) {
@@ -124,10 +125,10 @@ std::optional<YawScrub> mean_scrub(const ScrubMoments& met, double of_law, doubl
                   .yaw_rate_radps = range_of(met.rates_radps)};
 }
 
-/// Range of the scrub moment, if it changes with the yaw rate. It spans the 95 % intervals of a
-/// fitted line at the slowest and at the fastest turn. The moments c_i must change significantly
-/// with both r and tau, because noise of r alone makes c fall with r, and noise of tau alone makes
-/// c rise with tau.
+/// Range of the scrub moment; absent unless the scrub changes with the yaw rate r. The range spans
+/// the 95 % intervals of a fitted line at the slowest and at the fastest turn. The moments c_i must
+/// change significantly both with r and with the applied moment tau, because noise of r alone makes
+/// c fall with r, and noise of tau alone makes c rise with tau.
 std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& model) {
   for (const auto* over : {&met.rates_radps, &met.applied_m}) {
     if (!is_sloped(*over, met.moments_m, met.rates_radps, model)) return std::nullopt;

@@ -20,9 +20,9 @@ namespace awmr {
 /// One steady run. All values are magnitudes, because the resistance is odd: turns to the left and
 /// to the right are equivalent.
 struct SteadyPoint {
-  double force = 0.0;               ///< f: tau_speed, 1, or tau_turn, m; > 0
-  double rate = 0.0;                ///< w: speed, m/s, or yaw rate, rad/s; > 0
-  std::optional<double> travel;     ///< distance, m, or angle, rad, of a timed run; > 0
+  double force = 0.0;               ///< f: tau_speed (no unit) or tau_turn (m), > 0
+  double rate = 0.0;                ///< w: speed (m/s) or yaw rate (rad/s), > 0
+  std::optional<double> travel;     ///< distance (m) or angle (rad) of a timed run, > 0
   std::optional<double> elapsed_s;  ///< time for `travel`, s; > 0
   int line = 0;                     ///< line number in the file
 };
@@ -45,18 +45,19 @@ struct SteadyProblem {
 /// rate or time; 1 for the logarithm of the force).
 struct SteadyFit {
   TransformedParameters theta{};  ///< fitted coordinates; 0 (beta: 1) for terms outside the family
-  /// Free coordinates of the family. A term that ended at 0, its lower bound, is included, so that
-  /// it contributes to the uncertainty of the others. An exponent at a bound is excluded.
+  /// Free coordinates of the family. A term whose search ended at its lower bound 0 is included, so
+  /// that it contributes to the uncertainty of the others. An exponent at a bound is excluded.
   std::vector<TransformedParameter> free;
   std::vector<TransformedParameter> at_bound;  ///< coordinates whose search ended at a bound
-  Eigen::MatrixXd covariance;  ///< free x free, positive definite; 0 x 0 without degrees of freedom
+  /// Covariance of the coordinates in `free`, positive definite; 0 x 0 without degrees of freedom.
+  Eigen::MatrixXd covariance;
   Eigen::VectorXd residuals;   ///< one per point: curve - measured, in the unit of the noise
-  Eigen::VectorXd leverages;   ///< one per point, in [0, 1]; empty without full rank
+  Eigen::VectorXd leverages;   ///< one per point, in [0, 1]; empty if rank deficient
   double residual_std = 0.0;   ///< in the unit of the noise; 0 without degrees of freedom
-  int degrees_of_freedom = 0;  ///< points - free; may be negative
+  int degrees_of_freedom = 0;  ///< number of points minus free; may be negative
   int rank = 0;                ///< rank of the Jacobian by the coordinates in `free`
-  double condition_number = 0.0;  ///< of the Jacobian with all coordinates; infinite below full
-                                  ///< rank
+  /// Condition number of the Jacobian with all coordinates; infinite if it is rank deficient.
+  double condition_number = 0.0;
   std::string stop_reason;
   bool usable = false;  ///< the search converged, and the Jacobian has full rank
 
@@ -67,7 +68,8 @@ struct SteadyFit {
   /// Standard error of a coordinate; empty without degrees of freedom or for an exponent at a
   /// bound.
   std::optional<double> std_error(TransformedParameter c) const;
-  /// The fitted curve g(w). Excludes the dead zone, which acts on the command.
+  /// The fitted resistance curve g(w). The dead zone is not part of the curve, because it reduces
+  /// the commanded force.
   Resistance<double> law() const;
 };
 
@@ -83,13 +85,13 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points);
 /// beta stays in its range; c, q and z stay >= 0. The scale of a robust loss is computed from the
 /// median absolute residual. Precondition: with kTime, every point was timed.
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess);
-/// Like fit_steady() above, but computes the initial guesses: one from the points, and the optimum
-/// of each family that is a special case of this one. Therefore a family never fits worse than its
-/// special cases. `known`: optima of the same points, noise and loss, by family; the function adds
-/// those that it computes.
+/// Like fit_steady() above, but computes the initial guesses itself. They are one from the points,
+/// and the optimum of each family that is a special case of this one. Therefore a family never fits
+/// worse than its special cases. `known`: optima of the same points, noise and loss, by family; the
+/// function adds those that it computes.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
-/// Returns the problem with the error model kTime and each run's time set to travel/w, with its
+/// Converts a problem to the error model kTime: the time of each run becomes travel/w, with the
 /// measured rate w. Empty if a run was not timed.
 std::optional<SteadyProblem> by_time(SteadyProblem problem);
 

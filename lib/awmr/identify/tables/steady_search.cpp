@@ -19,9 +19,9 @@ namespace {
 /// curve.
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
-/// g^-1(force), the steady rate at a force, with its derivatives; 0 if the force is below Coulomb
-/// friction. The root is found in double precision. One Newton step from the root in T, a type with
-/// derivatives, gives the derivatives of the implicit function.
+/// Steady rate g^-1(force) at a force, with its derivatives; 0 if the force is below Coulomb
+/// friction. The root is found in double precision. One Newton step from the root in the type T,
+/// which has derivatives, gives the derivatives of the implicit function.
 template <class T>
 T inverse(const Resistance<T>& law, const T& force) {
   const Resistance<double> plain = value_of(law);
@@ -58,7 +58,7 @@ struct SteadyResidual {
       residual[0] = rate - point.rate;
       return true;
     }
-    if (!(rate > T(0.0))) return false;  // no motion, infinite time: Ceres rejects this point
+    if (!(rate > T(0.0))) return false;  // no motion has infinite time: Ceres rejects the point
     residual[0] = *point.travel / rate - *point.elapsed_s;
     return true;
   }
@@ -158,7 +158,7 @@ std::vector<TransformedParameter> SteadySearch::search_until_at_bound() {
   return stop.held();
 }
 
-/// True if the cost of a coordinate at a bound decreases away from the bound.
+/// True if the cost decreases when the coordinate `c` moves away from the bound that it is at.
 bool SteadySearch::falls_inwards(TransformedParameter c) {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = {block(c)};
@@ -167,8 +167,8 @@ bool SteadySearch::falls_inwards(TransformedParameter c) {
   return theta_[at(c)] <= bounds_of(problem_, c).lo ? gradient[0] < 0.0 : gradient[0] > 0.0;
 }
 
-// Coordinates at a bound are fixed for the search of the others. If a step crosses a bound, Ceres
-// shortens it in all coordinates, and convergence becomes slow.
+// A coordinate at a bound is fixed while the others are searched. The reason: if a step crosses a
+// bound, Ceres shortens the step in all coordinates, and convergence becomes slow.
 void SteadySearch::solve() {
   const std::vector<TransformedParameter> held = search_until_at_bound();
   if (held.empty()) return;
@@ -185,7 +185,9 @@ void SteadySearch::solve_robustly() {
     const std::optional<Eigen::VectorXd> e = residuals();
     if (!e) return;  // the search failed; the summary has the reason
     const double scale = median_scale(*e);
-    if (!(scale > 0.0)) return;  // more than half of the points fit exactly: the loss has no scale
+    // If more than half of the points fit exactly, the scale is 0, and the robust loss is not
+    // defined.
+    if (!(scale > 0.0)) return;
     loss_.Reset(make_loss(problem_.loss, scale).release(), ceres::TAKE_OWNERSHIP);
     const TransformedParameters before = theta_;
     solve();

@@ -16,8 +16,8 @@
 namespace awmr {
 namespace {
 
-/// Decrease of AICc from which on another family is significantly better than the power law (a
-/// likelihood ratio of e^5).
+/// Smallest decrease of AICc by which another family is significantly better than the power law. 10
+/// is a likelihood ratio of e^5.
 constexpr double kTablesPlainlyBetter = 10.0;
 
 /// Smallest number n of runs for which AICc exists: its denominator n - p - 2 must be positive, and
@@ -51,8 +51,8 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
           {}};
 }
 
-/// `families-not-compared`: the power law is used without a comparison, because there are too few
-/// rows.
+/// The finding `families-not-compared`: the power law is used without a comparison, because there
+/// are too few rows.
 Finding not_compared(const Subject& subject) {
   return about(
       subject, Severity::kWarning, "families-not-compared",
@@ -115,8 +115,8 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   return choice;
 }
 
-/// `power-law-inadequate` if the AICc of another family is lower than that of the power law by at
-/// least kTablesPlainlyBetter.
+/// The finding `power-law-inadequate`, if the AICc of another family is lower than that of the
+/// power law by at least kTablesPlainlyBetter.
 std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wanted,
                                         const std::vector<FamilyCandidate>& candidates,
                                         Family used) {

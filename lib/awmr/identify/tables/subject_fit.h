@@ -11,16 +11,16 @@ namespace awmr {
 
 /// Result of fit_subject().
 struct SubjectFit {
-  /// Absent if the rows cannot determine the resistance law (they need two different forces with
-  /// different rates) or no fit is accepted.
+  /// The chosen fit. Absent if no fit is accepted, or if the rows cannot determine the resistance
+  /// law, which needs two different forces with different rates.
   std::optional<SteadyFit> chosen;
   /// Why no fit is accepted. Empty if a fit was chosen or the rows cannot determine the law.
   std::string refusal_reason;
   SteadyProblem problem;    ///< input of the chosen fit
   bool log_linear = false;  ///< the chosen fit is log-linear
   std::string method;       ///< description of the method
-  /// The chosen fit, then the fits under the other error models (noise_average.h). Empty without a
-  /// chosen fit.
+  /// The chosen fit, followed by the fits under the other error models (noise_average.h). Empty
+  /// without a chosen fit.
   std::vector<NoiseAlternative> alternatives;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
@@ -28,8 +28,8 @@ struct SubjectFit {
 
 /// Fits the table by all estimators and chooses one. Checks the chosen fit for outliers
 /// (`outlier`), influential rows (`influential-row`) and a better family (`power-law-inadequate`).
-/// With squared loss and unless options.keeps_outliers, excludes gross outliers before the fit: at
-/// most a tenth of the runs, or one run if there are fewer than 20.
+/// Gross outliers are excluded before the fit, except with a robust loss or options.keeps_outliers:
+/// at most a tenth of the runs, or one run if there are fewer than 20.
 SubjectFit fit_subject(Subject subject, const SubjectOptions& options);
 
 }  // namespace awmr

@@ -12,14 +12,16 @@ namespace awmr {
 /// Options of the fit of a surge or turning table.
 struct SubjectOptions {
   Method method = Method::kLogLinear;
-  /// Quantity with the error in nonlinear fits. Absent: time if every run was timed, else speed.
+  /// Quantity that has the measurement error in nonlinear fits. Absent: the time if every run was
+  /// timed, else the speed.
   std::optional<ErrorModel> noise;
   /// True if the user requested a nonlinear fit with `noise`. If false, intervals average over all
   /// error models (noise_average.h).
   bool knows_noise = false;
   FamilyChoice family;
   Loss loss = Loss::kSquared;
-  bool side_by_side = true;     ///< false: only the requested fit, without fits for comparison
+  /// If false, only the requested fit is made, without fits for comparison.
+  bool side_by_side = true;
   bool keeps_outliers = false;  ///< true keeps gross outliers in the fit
 };
 
@@ -36,10 +38,10 @@ bool all_timed(const std::vector<SteadyPoint>& points);
 /// The requested error model; if none was requested, time if all runs were timed, else speed.
 ErrorModel wanted_noise(const Subject& subject, const SubjectOptions& options);
 
-/// With `options.side_by_side`, fits the power law under the error models force, speed, time (if
-/// all runs were timed) and `wanted`, and the other families under `wanted`. Otherwise fits only
-/// the families that can be selected, under `wanted`. Skips families with more parameters than
-/// runs. `line`: log-linear fit of the power law, used as initial guess.
+/// Makes the nonlinear fits of a table. With `options.side_by_side`: the power law under the error
+/// models force, speed, time (if all runs were timed) and `wanted`, and the other families under
+/// `wanted`. Without: only the families that can be selected, under `wanted`. Skips families with
+/// more parameters than runs. `line`: log-linear fit of the power law, used as initial guess.
 std::vector<FamilyCandidate> fit_candidates(const Subject& subject, const SubjectOptions& options,
                                             ErrorModel wanted, const SteadyFit& line);
 

@@ -13,7 +13,7 @@ namespace awmr {
 /// the rate w. alpha is positive with a relative error, so its coordinate is ln alpha.
 enum class TransformedParameter {
   kLogAlpha,   ///< ln alpha, unbounded
-  kBeta,       ///< beta, 1, within the accepted range
+  kBeta,       ///< beta (no unit), within the accepted range
   kCoulomb,    ///< c, >= 0
   kQuadratic,  ///< q, >= 0
   kDeadZone,   ///< z = 4 F'0: part of tau_speed lost in the dead zones F'0 of four wheels, >= 0

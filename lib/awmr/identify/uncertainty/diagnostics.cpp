@@ -21,7 +21,8 @@ double mean_of(std::span<const double> x) {
   return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
 }
 
-/// p of the modified Anderson-Darling statistic A* = A^2 (1 + 0.75/n + 2.25/n^2).
+/// p value of the Anderson-Darling statistic A^2 of n residuals. `a`: the modified statistic A* =
+/// A^2 (1 + 0.75/n + 2.25/n^2).
 double anderson_darling_p(double a) {
   if (a >= 0.6) return std::exp(1.2937 - 5.709 * a + 0.0186 * a * a);
   if (a >= 0.34) return std::exp(0.9177 - 4.279 * a - 1.38 * a * a);
@@ -48,7 +49,8 @@ std::optional<Diagnostic> normality(std::span<const double> residuals) {
   const double size = static_cast<double>(n);
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    // Far in a tail, a probability rounds to 0. The lower limit keeps its logarithm finite.
+    // Far in a tail, a probability rounds to 0, which has no logarithm. This lower limit prevents
+    // it.
     const double tiny = 1e-300;
     const double below = std::max(tiny, normal_cdf((x[i] - mean) / sd));
     const double above = std::max(tiny, normal_tail((x[n - 1 - i] - mean) / sd));
@@ -105,7 +107,8 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
   }
   if (!(squares > 0.0) || !std::isfinite(squares) || !std::isfinite(steps)) return std::nullopt;
   const double size = static_cast<double>(n);
-  const double ratio = steps / squares;  // expected value for white noise: 2
+  // Von Neumann's ratio; its expected value is 2 for white noise.
+  const double ratio = steps / squares;
   const double deviation = std::sqrt(4.0 * (size - 2.0) / (size * size - 1.0));
   const double p = normal_cdf((ratio - 2.0) / deviation);
   return Diagnostic{"curvature", ratio, p,
@@ -148,7 +151,8 @@ Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::Vecto
     const double free = 1.0 - leverages(i);
     const double e = residuals(i);
     const double without = (sse - e * e / free) / (degrees_of_freedom - 1.0);
-    // A row with leverage 1 determines a parameter alone and has no residual to test.
+    // A row with leverage 1 is the only one that determines some parameter. Its residual is always
+    // 0 and cannot be tested.
     const double evaluated = free > 1e-12 && without > 0.0 ? e / std::sqrt(without * free) : 0.0;
     t(i) = std::isfinite(evaluated) ? evaluated : 0.0;
   }

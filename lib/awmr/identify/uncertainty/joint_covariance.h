@@ -15,8 +15,8 @@ namespace awmr {
 /// gradient of each parameter in a row of G.
 class JointCovariance {
  public:
-  /// Derivatives of one parameter by the numbers of the blocks. Key: index of the number, counted
-  /// over all blocks. Absent derivatives are 0.
+  /// Derivatives of one parameter by the estimated numbers. Key: index of a number, counted over
+  /// all blocks. Derivatives that are not listed are 0.
   using Gradient = std::map<Eigen::Index, double>;
 
   /// Appends a block and returns the index of its first number.

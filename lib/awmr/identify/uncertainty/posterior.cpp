@@ -86,8 +86,8 @@ void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
   for (std::size_t q = 0; q < kQuantiles.size(); ++q) {
     quantiles[q] = to_value(posterior.quantile(i, kQuantiles[q].probability));
   }
-  // The value is between these quantiles, because the alternative that it comes from has at least
-  // the weight kMinOwnWeight. min() and max() only correct rounding errors.
+  // The reported value is between these quantiles, because the alternative that it comes from has
+  // at least the weight kMinOwnWeight. min() and max() only correct rounding errors.
   estimate.ci95 = Interval{std::min(quantiles.front(), *estimate.value),
                            std::max(quantiles.back(), *estimate.value)};
   estimate.quantiles = quantiles;

@@ -15,7 +15,7 @@ namespace awmr {
 /// unknown.
 struct Posterior {
   struct Alternative {
-    double weight = 1.0;         ///< w_k in (0, 1]; all weights add up to 1
+    double weight = 1.0;         ///< probability w_k in (0, 1]; all add up to 1
     Eigen::VectorXd centre;      ///< m_k
     Eigen::MatrixXd covariance;  ///< C_k, positive semi-definite
     Eigen::VectorXd dof;         ///< degrees of freedom of each number's variance, > 0
