@@ -14,8 +14,8 @@ constexpr double kAutomaticTiming_s = 1e-3;
 constexpr double kCourseError = 0.005;
 constexpr double kLargestRoundingShare = 0.05;
 
-/// Decimal places of a number: 79.16 has 2, 1e-05 has 5. Only 12 significant digits count, because
-/// rounding in the scale and offset of a mapping changes the digits after them.
+/// Decimal places of a number: 79.16 has 2, 1e-05 has 5. Only 12 significant digits count: if a
+/// mapping scales a column, rounding errors change the digits after them.
 int decimal_places(double value) {
   const std::string text = fmt::format("{:.11e}", value);  // d.ddddddddddde[+-]dd
   const std::size_t exponent_mark = text.find('e');
@@ -51,7 +51,8 @@ double rounding_error(double printed, double last_place) {
 namespace {
 
 bool is_automatic(double elapsed_last_place) {
-  // The tolerance of 1e-9 is needed because pow() may return 1.0000000000000002e-3 for 1e-3.
+  // The factor 1 + 1e-9 is needed because last_place() computes the place with pow(), which may
+  // return 1.0000000000000002e-3 for 1e-3.
   return elapsed_last_place <= kAutomaticTiming_s * (1.0 + 1e-9);
 }
 

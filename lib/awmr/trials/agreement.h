@@ -24,8 +24,8 @@
 namespace awmr {
 
 /// Returns the value of one unit in the last decimal place of a column, in awmr's unit of the
-/// column: 0.01 for speeds such as 1.25 m/s. For a column computed by a formula, the last place of
-/// its computed values. `mappings`: column mappings used to read the table.
+/// column: 0.01 for speeds such as 1.25 m/s. If a formula computes the column, the last place of
+/// the computed values is used. `mappings`: column mappings used to read the table.
 double last_place(const CsvTable& table, std::string_view column,
                   std::span<const ColumnMapping> mappings);
 
@@ -38,8 +38,9 @@ double rounding_error(double printed, double last_place);
 double timing_error(double timed, double elapsed_s, double elapsed_last_place);
 
 /// Standard deviation of the error of a time, s. `elapsed_last_place`: last_place() of the times,
-/// s. Above 1 ms, the times are from a stop watch: 0.1 s, from two presses of 0.1/sqrt(2) s each.
-/// Otherwise they were taken automatically: only rounding, elapsed_last_place/sqrt(12).
+/// s. If this place is above 1 ms, the times are from a stop watch: the error is 0.1 s, from two
+/// presses of 0.1/sqrt(2) s each. Otherwise the times were taken automatically: the error is that
+/// of rounding, elapsed_last_place/sqrt(12).
 double timing_std_s(double elapsed_last_place);
 
 }  // namespace awmr

@@ -26,11 +26,12 @@ using awl::Scan;
 /// measurement or the reference is not finite.
 constexpr unsigned kNotMeasured = kFaultHeadingStale | kFaultSpeedStale | kFaultNotFinite;
 
-/// Bits of `reset_cause`, as in the chip's MCUSR. [ATmega2560 data sheet, 12.5.1]
+/// Bits of the column `reset_cause`, which stores the chip's register MCUSR: the cause of the last
+/// reset. [ATmega2560 data sheet, 12.5.1]
 constexpr unsigned kBrownOut = 4;
 constexpr unsigned kWatchdog = 8;
 
-/// Lists the first few items, each formatted by `text_of`.
+/// Returns a text that lists the first few items. `text_of` formats one item.
 template <class Items, class TextOf>
 std::string list_of(const Items& items, const TextOf& text_of) {
   constexpr std::size_t kMax = 4;
@@ -71,7 +72,7 @@ void report_scan(const Scan& scan, const std::string& file, AwlLog& log) {
 }
 
 /// Returns the rows with up-to-date measurements and finite values. Adds the finding
-/// `rows-not-measured` if other rows exist.
+/// `rows-not-measured` if any other row was left out.
 std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const std::string& file,
                                AwlLog& log) {
   const Layout& layout = scan.layout;
@@ -99,7 +100,8 @@ std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const s
   return measured;
 }
 
-/// Removes runs of fewer than kShortestLog rows, with a finding, and renumbers the others from 1.
+/// Removes runs of fewer than kShortestLog rows, and reports them in a finding. Renumbers the
+/// remaining runs from 1.
 std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std::string& file,
                                       AwlLog& log) {
   std::vector<Place> kept;

@@ -15,24 +15,28 @@ namespace awmr {
 
 /// Rows of an `.awl` file, and how many rows and bytes were lost.
 struct AwlLog {
-  std::vector<std::string> header = {};           ///< column names: `t_s` first, `run` last
-  std::vector<std::vector<double>> columns = {};  ///< values by column, then by row; all finite
+  std::vector<std::string> header = {};  ///< column names: `t_s` first, `run` last
+  /// One vector per column, with one finite value per row.
+  std::vector<std::vector<double>> columns = {};
   std::string parameters_sha256 = {};  ///< hash of the model and gains, as in awmr_params.h
-  /// Number of runs (starts of the chip), without those of fewer than ten usable rows.
+  /// Number of runs. Each start of the chip begins a run. Runs of fewer than ten usable rows are
+  /// not counted.
   std::size_t runs = 0;
   std::size_t lost = 0;  ///< rows numbered by the chip but missing from the file
-  /// Number of bytes that are neither header nor row, without a truncated last row.
+  /// Number of bytes that belong neither to a header nor to a row. The bytes of an incomplete last
+  /// row are not counted.
   std::size_t damaged_bytes = 0;
   std::vector<Finding> findings = {};
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
-/// True if the first bytes of a header occur within the first 8 KiB.
+/// True if the bytes are probably an `.awl` file: the first bytes of a header occur within the
+/// first 8 KiB.
 bool is_awl(std::string_view bytes);
 
 /// Reads all complete rows of a file. Each row has its own checksum, so rows after damaged bytes
-/// are found, too. Findings, each with the places in the file:
+/// are found, too. Adds these findings, each with the places in the file:
 ///   `rows-lost`          missing row numbers
 ///   `log-damaged`        bytes that are not a row
 ///   `log-truncated`      the file ends inside a row

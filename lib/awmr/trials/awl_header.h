@@ -21,7 +21,7 @@ inline constexpr NameTable<Kind, 3> kKindNames{
 struct Column {
   std::string name;
   Kind kind = Kind::kFloat;
-  double scale = 1.0;      ///< value = stored number times this
+  double scale = 1.0;      ///< physical value of the column = stored number times this
   std::size_t offset = 0;  ///< byte offset in the row
 
   bool operator==(const Column&) const = default;
@@ -41,8 +41,8 @@ struct Layout {
 /// Returns the scaled value of a column. Precondition: `row` has Layout::row_bytes bytes.
 double value_in(std::string_view row, const Column& column);
 
-/// Returns the value of the one-byte column `name`, such as the bits of `fault`, without applying
-/// its scale. 0 if the layout has no such column.
+/// Returns the stored byte of the one-byte column `name`, without applying the scale. Used for
+/// columns of bits, such as `fault`. 0 if the layout has no such column.
 unsigned bits_in(std::string_view row, const Layout& layout, std::string_view name);
 
 /// Returns the JSON text of the header that begins at the offset `at`; empty if no header begins

@@ -33,8 +33,8 @@ std::uint32_t sequence_of(std::string_view bytes, std::size_t offset) {
   return number_in<std::uint32_t>(bytes.substr(offset + kLogRowCovered));
 }
 
-/// Adds the complete row at the offset `at`, and the gap in the row numbers before it, if any.
-/// `after_header`: true if a header precedes the row, which then begins a run.
+/// Adds the complete row at the offset `at` to `scan`. If row numbers are missing before it, adds
+/// this gap, too. `after_header`: true if a header precedes the row, which then begins a run.
 void add_row(std::string_view bytes, std::size_t at, bool after_header, Scan& scan) {
   const std::uint32_t sequence = sequence_of(bytes, at);
   const double t_s = time_of(bytes, at, scan.layout);
@@ -57,8 +57,8 @@ void add_row(std::string_view bytes, std::size_t at, bool after_header, Scan& sc
   scan.rows.push_back({at, run});
 }
 
-/// Adds the bytes up to the next possible start of a row or header as damage. Returns the offset of
-/// that start.
+/// Counts the bytes from `at` to the next possible start of a row or header as damaged. Returns the
+/// offset of that start.
 std::size_t pass_over(std::string_view bytes, std::size_t at, Scan& scan) {
   const char starts[] = {kMagic[0], kSync[0]};
   const std::size_t found = bytes.find_first_of(std::string_view(starts, sizeof starts), at + 1);
@@ -71,8 +71,8 @@ std::size_t pass_over(std::string_view bytes, std::size_t at, Scan& scan) {
   return next;
 }
 
-/// Adds the header at this offset. Errors (input): its layout differs from that of an earlier
-/// header.
+/// Adds the header at the offset `at` to `scan`. Errors (input): its layout differs from that of an
+/// earlier header.
 Status add_header(std::string_view json, std::size_t at, const std::string& file, Scan& scan) {
   AWMR_ASSIGN_OR_RETURN(Layout layout, layout_of(json, file));
   if (scan.layout.row_bytes > 0 && scan.layout != layout) {
@@ -85,8 +85,8 @@ Status add_header(std::string_view json, std::size_t at, const std::string& file
   return {};
 }
 
-/// If the file ends with damaged bytes, but fewer than a row has, counts them as a truncated row
-/// instead of damage.
+/// If damaged bytes at the end of the file are fewer than the bytes of a row, counts them as an
+/// incomplete row. They are then not reported as damage.
 void note_end(std::string_view bytes, Scan& scan) {
   if (scan.damaged.empty() || scan.damaged.back().end != bytes.size()) return;
   const std::size_t size = bytes.size() - scan.damaged.back().begin;

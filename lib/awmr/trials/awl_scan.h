@@ -39,7 +39,8 @@ struct Scan {
   std::size_t truncated = 0;  ///< length of an incomplete row at the end, bytes
 };
 
-/// True if the first bytes of a header occur within the first 8 KiB.
+/// True if the bytes are probably an `.awl` file: the first bytes of a header occur within the
+/// first 8 KiB.
 bool begins_log(std::string_view bytes);
 
 /// Finds all rows by their checksums. Errors (input): no complete header; a header that layout_of()

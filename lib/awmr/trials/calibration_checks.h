@@ -17,7 +17,8 @@
 /// heading, psi is the integral of the yaw rate. Its unknown initial value does not change the
 /// length of a displacement, so only lengths are compared. Here the factors of c and d are i k_c
 /// and k_d, with k_c and k_d real: sideslip acts across the heading, latency of the speed along it.
-/// Their squares are neglected. The constant n is due to noise of the positions:
+/// Their squares are neglected. The constant n is due to noise of the positions, * marks the
+/// complex conjugate:
 ///
 ///     |p(t1) - p(t0)|^2 = s^2 |a|^2 + 2 s Re(k_b* a b*) + |k_b|^2 |b|^2 + 2 s k_c Im(a c*)
 ///                         + 2 s k_d Re(a d*) + n

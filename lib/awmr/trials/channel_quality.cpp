@@ -11,11 +11,11 @@
 namespace awmr {
 namespace {
 
-/// Fraction of repeated values in a moving signal above which the sensor may be slower than the
-/// log.
+/// If more than this fraction of the values of a moving signal repeat the value before, the sensor
+/// may be slower than the log.
 constexpr double kRepeatedShare = 0.5;
-/// Fraction of repeated values above which the resolution is coarse. Below it, the steps between
-/// values are only due to the decimal places in the file.
+/// If more than this fraction of the values repeat the value before, the sensor has a coarse
+/// resolution. If fewer do, the steps between values come only from the decimal places in the file.
 constexpr double kSomeRepeats = 0.2;
 
 /// Rows at which the value changes, and the magnitude of each change.
@@ -34,8 +34,8 @@ Changes changes_of(std::span<const double> value) {
   return changes;
 }
 
-/// Returns the resolution: the smallest change, if nearly all changes are multiples of it and most
-/// are one or two times it. Else 0.
+/// Returns the resolution of the sensor. It is the smallest change, if nearly all changes are
+/// multiples of this change and most are one or two times as large. Otherwise returns 0.
 double quantum_of(const Changes& changes) {
   const double smallest = *std::min_element(changes.step.begin(), changes.step.end());
   std::size_t on_grid = 0;
@@ -43,7 +43,7 @@ double quantum_of(const Changes& changes) {
   for (const double step : changes.step) {
     const double times = step / smallest;
     steps.push_back(times);
-    // The tolerance allows for values that the file gives with few digits.
+    // The tolerance is needed because the file may give the values with few digits.
     if (std::abs(times - std::round(times)) < 0.05 + 1e-6 * times) ++on_grid;
   }
   const bool grid = static_cast<double>(on_grid) > 0.98 * static_cast<double>(steps.size());
@@ -66,7 +66,9 @@ std::vector<double> gaps_of(const Changes& changes) {
 bool changes_step_by_step(const Changes& changes, double quantum) {
   constexpr double kNearlyAll = 0.95;
   constexpr double kRegular = 0.8;
-  constexpr double kOffMultiple = 0.15;  // tolerance for a multiple, as a fraction of the interval
+  // A gap counts as a multiple of the interval if it differs by at most this fraction of the
+  // interval.
+  constexpr double kOffMultiple = 0.15;
   if (!(quantum > 0.0)) return false;
   const auto single =
       std::ranges::count_if(changes.step, [&](double step) { return step < 1.5 * quantum; });
@@ -98,9 +100,9 @@ std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   return fresh;
 }
 
-/// Each reading minus the median of itself and its two neighbours on either side. The result is
-/// large for a jump away and back within two readings, and small for a step. 0 for the first and
-/// last two readings.
+/// Deviation of each reading from the median of five: the reading and two neighbours on either
+/// side. It is large for a jump away and back within two readings, and small for a step. 0 for the
+/// first and last two readings.
 std::vector<double> off_median(std::span<const double> value) {
   std::vector<double> off(value.size(), 0.0);
   for (std::size_t k = 2; k + 2 < value.size(); ++k) {
@@ -116,12 +118,13 @@ bool all_equal(std::span<const double> values) {
   return std::ranges::all_of(values, [&](double v) { return v == values.front(); });
 }
 
-/// Limit of |off| (off_median()) above which a reading is a spike: the largest of
-///   - 7 standard deviations of the noise. The standard deviation is estimated as the 75 % quantile
-///     of |off| over 1.04, without readings in a row of five equal ones (an encoder at rest). For
-///     the error of this estimate from n readings, a fraction 5/sqrt(n) is added;
+/// Returns the limit of the deviation |off| (off_median()) above which a reading is a spike. It is
+/// the largest of
+///   - 7 standard deviations of the noise, times 1 + 5/sqrt(n). The standard deviation is the 75 %
+///     quantile of |off|, divided by 1.04. It is estimated from the n readings that are not the
+///     middle of five equal ones (an encoder at rest). 5/sqrt(n) allows for the estimation error;
 ///   - three times the 80 % quantile of the change between readings, for sharp changes of motion;
-///   - a tenth of the range of the values;
+///   - a tenth of the range between the 2 % and the 98 % quantile of the values;
 ///   - three times the resolution.
 double spike_limit(std::span<const double> value, std::span<const double> off, double quantum) {
   constexpr double kQuantileOverStd = 1.04;
@@ -206,10 +209,10 @@ std::vector<RowSpan> equal_runs(std::span<const double> value) {
   return runs;
 }
 
-/// Returns the time, s, for which the command differs during `run` by more than `notable` from its
-/// value at the start of `run`. Means of the command over 0.3 s are compared, because a speed
-/// controller changes its command in every row, but hardly on average. The last 0.3 s of the run do
-/// not count.
+/// Returns the time, s, during which the command in `run` differs by more than `notable` from its
+/// value at the start of `run`. Means over 0.3 s are compared: a speed controller changes its
+/// command in every row, although the mean stays about the same. The last 0.3 s of the run do not
+/// count.
 double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,
                  double notable) {
   constexpr double kMean_s = 0.3;
@@ -229,10 +232,13 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
   return changed;
 }
 
-/// Finds stuck values: constant for a second or more, and for eight times as many rows as the 90 %
-/// quantile of constant spans, while the command changed for 0.3 s or more. A value near 0 is not
-/// stuck, because the vehicle rests. A value that is constant for so long more than once is not
-/// stuck, because it is a set-point.
+/// Finds stuck values. A value is stuck if
+///   - it is constant for a second or more;
+///   - it is constant for at least eight times as many rows as the 90 % quantile of all constant
+///     spans;
+///   - the command changed for 0.3 s or more in this time.
+/// Exceptions: near 0 the vehicle rests, and a value that stays constant so long more than once is
+/// a set-point.
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {
   const std::vector<RowSpan> runs = equal_runs(value);
@@ -266,9 +272,9 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
   }
 }
 
-/// Finds saturation: the largest or smallest value occurs at least four times as often as any value
-/// between these two. Rows without a command do not count, because a vehicle at rest also repeats
-/// a value.
+/// Finds saturation of the sensor: the largest or the smallest value of the channel occurs at least
+/// four times as often as any value between these two, in at least 8 rows and 0.5 % of the rows.
+/// Rows without a command do not count, because a vehicle at rest also repeats a value.
 void find_saturation(std::span<const double> all, std::span<const double> activity,
                      ChannelQuality& quality) {
   const double idle = 0.02 * largest_size(activity);
@@ -292,7 +298,8 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
     }
     i = end;
   }
-  // A signal with few distinct values repeats all of them, so its ends do not show saturation.
+  // A signal with few distinct values repeats each of them often, so that a repeated largest value
+  // does not show saturation.
   constexpr std::size_t kMinLevels = 20;
   if (levels < kMinLevels) return;
   for (const double bound : {*high, *low}) {

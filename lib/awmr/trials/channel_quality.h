@@ -25,10 +25,12 @@ struct ChannelQuality {
   Repeats repeats = Repeats::kNone;
   std::vector<bool> fresh;          ///< by row: true if the value is a measurement
   double quantum = 0.0;             ///< resolution, in the unit of the values; 0: not detected
-  std::vector<std::size_t> spikes;  ///< rows whose value jumps away and back
+  std::vector<std::size_t> spikes;  ///< rows with a spike: the value jumps away and back
   std::vector<RowSpan> stuck;       ///< rows with one repeated value while the command changed
-  std::size_t saturated = 0;        ///< number of rows at the end of the sensor's range
-  double saturated_at = 0.0;        ///< value at that end of the range
+  /// Number of rows in which the value is at the end of the sensor's range.
+  std::size_t saturated = 0;
+  /// Value at the end of the sensor's range where it is saturated.
+  double saturated_at = 0.0;
 };
 
 /// Determines why `value` contains repeated readings: sets only `repeats`, `fresh` and `quantum`,
@@ -39,8 +41,8 @@ ChannelQuality find_repeats(std::span<const double> value);
 /// Returns the resolution of readings that were written only when they had changed; 0 for other
 /// readings. The criterion: no reading equals the one before it, and most readings differ from it
 /// by one step of the resolution. (Readings at regular times that change so little would sometimes
-/// stay the same.) Needs at least 30 changes. Zeros may repeat, because 0 and -0 are written
-/// differently.
+/// stay the same.) Needs at least 30 changes. Consecutive zeros are permitted: a logger may write
+/// -0 after 0 as a changed value.
 double resolution_of_changes(std::span<const double> readings);
 
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the

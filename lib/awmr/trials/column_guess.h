@@ -15,8 +15,10 @@ namespace awmr {
 /// First rows of a file in any supported format.
 struct FileSample {
   std::vector<std::string> names;
-  std::vector<std::vector<double>> values;  ///< by column: its first numbers, at most kSampleRows
-  std::vector<std::string> texts;  ///< by column: its first non-empty cell; empty for binary files
+  /// The first numbers of each column, at most kSampleRows.
+  std::vector<std::vector<double>> values;
+  /// The first non-empty cell of each column; empty for binary files.
+  std::vector<std::string> texts;
 };
 inline constexpr std::size_t kSampleRows = 1000;
 
@@ -41,7 +43,7 @@ struct ColumnGuess {
   std::string expression;
   Confidence confidence = Confidence::kUnsure;
   std::string why;                   ///< reason of the guess, as text for the user
-  std::vector<double> samples = {};  ///< first few values of the source column
+  std::vector<double> samples = {};  ///< first few values of the file's column that the guess uses
 };
 
 /// Returns the guesses for each column that this kind of trial can have, in the order of

@@ -52,7 +52,8 @@ std::vector<Rule> log_rules() {
       {"yaw_rate_radps", {{"gyr", "gyro"}}, {"x", "y", "z", "temp"}, Dimension::kAngularRate},
       {"steering_deg", {kSteerWords}, kCommand, Dimension::kAngle},
       {"steering_cmd_deg", {kSteerWords, kCommand}, {}, Dimension::kAngle},
-      // A column "servo" without one of these words is the servo's command.
+      // A column named "servo" is the command of the steering servo, unless its name also has one
+      // of the words feedback, measured, actual.
       {"steering_cmd_deg", {{"servo"}}, {"feedback", "measured", "actual"}, Dimension::kAngle},
       {"latitude_deg", {{"lat", "latitude"}}, {}, Dimension::kGeographic},
       {"longitude_deg", {{"lon", "lng", "long", "longitude"}}, {}, Dimension::kGeographic}};
@@ -128,7 +129,8 @@ const std::vector<Unit>& units() {
   return kUnits;
 }
 
-/// True if the name is only a unit that belongs to a single quantity: `kmh`, `km/h`, `dps`.
+/// True if the name consists only of a unit, and this unit identifies the quantity: `kmh` and
+/// `km/h` are speeds, `dps` is a yaw rate.
 bool is_unit_alone(const Rule& rule, const Words& words) {
   static const std::set<std::string> kOnlyOne{"speed_mps", "yaw_rate_radps", "elapsed_s", "t_s"};
   if (kOnlyOne.count(rule.column) == 0 || words.size() > 2) return false;

@@ -30,8 +30,10 @@ std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
 
 /// Unit in the name of a column.
 struct NamedUnit {
-  std::string_view spelling;  ///< "kmh"; a space between two words: "m s" for m/s
-  double factor;              ///< value in awmr's unit = value in the file times this
+  /// Words of the unit, with a space between two: "kmh", "m s" for m/s.
+  std::string_view spelling;
+  /// Factor by which a value in the file is multiplied to obtain awmr's unit.
+  double factor;
 };
 /// Returns the unit of this dimension that the last word or the last two words name (`m/s` has the
 /// words m, s). Empty if they name none. Precondition: `words` is not empty.

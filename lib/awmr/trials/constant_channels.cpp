@@ -9,8 +9,9 @@ namespace {
 
 struct MotionLimit {
   std::string_view column;
-  double least;      ///< smallest value that counts as motion, in the column's unit
-  bool is_position;  ///< true: compare the range of the values; false: their largest magnitude
+  double least;  ///< smallest value that counts as motion, in the column's unit
+  /// True: `least` is compared with the range of the values; false: with their largest magnitude.
+  bool is_position;
 };
 constexpr std::array<MotionLimit, 8> kMotionLimits{{{"x_m", 0.2, true},
                                                     {"y_m", 0.2, true},

@@ -13,7 +13,8 @@ namespace {
 /// The vehicle counts as at rest below this speed, or below a tenth of its highest speed if that is
 /// smaller.
 constexpr double kRest_mps = 0.1;
-/// A larger change from one reading to the next is a jump, not noise or a turn on the spot.
+/// If the heading changes by more than this from one reading to the next, it is a jump of a GPS
+/// course. Noise and turns on the spot are smaller.
 constexpr double kFar_rad = 20.0 * pi<double>() / 180.0;
 
 double difference(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }
@@ -39,8 +40,8 @@ CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const d
     if (i > 0) before = heading_rad[present[i - 1]];
     if (end < present.size()) after = heading_rad[present[end]];
     const bool was_turned = before && after && difference(*before, *after) > kFar_rad;
-    // Largest change between neighbouring readings, from the last one before the rest to the first
-    // one after it.
+    // Searches for the largest change between neighbouring headings, from the last heading before
+    // the rest to the first one after the rest.
     for (std::size_t next = std::max<std::size_t>(i, 1); !was_turned && next <= end; ++next) {
       if (next == present.size()) break;
       const double change = difference(heading_rad[present[next - 1]], heading_rad[present[next]]);

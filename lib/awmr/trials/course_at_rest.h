@@ -11,7 +11,7 @@ namespace awmr {
 /// the vehicle rests, the GPS repeats the last course or writes 0 or noise, so its heading jumps
 /// when the vehicle starts to move. The heading of a compass does not jump.
 struct CourseAtRest {
-  double rest_mps = 0.0;          ///< below this speed, the vehicle counts as at rest
+  double rest_mps = 0.0;          ///< the vehicle counts as at rest below this speed
   std::vector<std::size_t> rows;  ///< rows with an invalid heading; empty: all headings are valid
   double jump_rad = 0.0;          ///< largest change between headings at rest, [0, pi]
 };

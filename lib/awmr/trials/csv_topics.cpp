@@ -25,7 +25,7 @@ struct File {
 /// The column mappings that define t_s.
 struct TimeMappings {
   std::vector<ColumnMapping> mappings = {};
-  /// Index of each of `mappings` in the list of all mappings.
+  /// For each element of `mappings`: its index in the list of all mappings.
   std::vector<std::size_t> places = {};
 };
 

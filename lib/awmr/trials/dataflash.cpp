@@ -18,8 +18,8 @@ constexpr std::string_view kRecordSync("\xA3\x95", 2);
 constexpr std::uint8_t kFormatType = 128;
 constexpr std::size_t kFormatBytes = 89;
 
-/// Evaluates an FMTU record (TimeUS, type, units, multipliers): sets Format::instance of that type
-/// to the field with the unit '#', the number of the sensor.
+/// Finds the field that numbers the sensors of a record type. An FMTU record (TimeUS, type, units,
+/// multipliers) marks this field with the unit '#'. Stores it as Format::instance of the type.
 void mark_instance(std::string_view record, const dataflash::Format& fmtu,
                    dataflash::Formats& formats) {
   std::optional<std::uint8_t> type;
@@ -70,10 +70,10 @@ std::uint8_t instance_in(const dataflash::Format& format, std::string_view recor
   return static_cast<std::uint8_t>(record[format.fields[*format.instance].offset]);
 }
 
-/// Key of a topic: record type, and number of the sensor.
+/// Identifies a topic (one signal source): record type, and number of the sensor.
 using TopicKey = std::pair<std::uint8_t, std::uint8_t>;
 
-/// Result of the first passes over the file.
+/// Formats and topics of the file, which must be known before its values are read.
 struct Contents {
   dataflash::Formats formats = {};
   std::map<TopicKey, std::size_t> topics = {};  ///< number of records by topic

@@ -14,14 +14,14 @@
 
 namespace awmr::dataflash {
 
-/// Two bytes for synchronisation, one for the type.
+/// Each record begins with two bytes for synchronisation and one for its type.
 inline constexpr std::size_t kRecordHeaderBytes = 3;
 
 /// Number type of a field, which the format names by one character.
 struct FieldKind {
   char character;
   std::size_t bytes;
-  double scale;  ///< value = stored number times this; 0: the field is not read
+  double scale;  ///< value = stored number times `scale`; 0: the field is not read
 };
 /// A named field of a record.
 struct Field {
@@ -36,12 +36,13 @@ struct Format {
   std::string name;
   std::size_t bytes = 0;  ///< size of a record, with its header
   std::vector<Field> fields = {};
-  std::optional<std::size_t> time = {};  ///< index in `fields` of the time (TimeUS or TimeMS)
+  /// Index in `fields` of the field with the time (TimeUS or TimeMS).
+  std::optional<std::size_t> time = {};
   /// Index in `fields` of the instance number of the sensor.
   std::optional<std::size_t> instance = {};
 };
 
-/// Formats by the type in the record header.
+/// Formats, by the record type (third byte of the record header).
 using Formats = std::map<std::uint8_t, Format>;
 
 /// Returns the scaled number of this kind at the beginning of the bytes.

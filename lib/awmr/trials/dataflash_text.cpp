@@ -63,7 +63,8 @@ std::string padded(std::string_view text, std::size_t bytes) {
   return padded;
 }
 
-/// Converts an FMT line to its binary record: type, length, name[4], format[16], labels[64].
+/// Converts an FMT line to the bytes of an FMT record in the binary format: type, length, name[4],
+/// format[16], labels[64].
 std::optional<std::string> binary_format(const Cells& cells) {
   constexpr std::size_t kLabels = 5;
   constexpr std::size_t kNameBytes = 4, kKindBytes = 16, kLabelBytes = 64;
@@ -86,8 +87,8 @@ std::optional<std::string> binary_format(const Cells& cells) {
 /// Formats by the name at the beginning of a line.
 using NamedFormats = std::map<std::string, dataflash::Format, std::less<>>;
 
-/// Evaluates an FMTU line (TimeUS, type, units, multipliers): sets Format::instance of that type to
-/// the field with the unit '#', the number of the sensor.
+/// Finds the field that numbers the sensors of a record type. An FMTU line (TimeUS, type, units,
+/// multipliers) marks this field with the unit '#'. Stores it as Format::instance of the type.
 void mark_instance_by_units(const Cells& cells, NamedFormats& formats) {
   constexpr std::size_t kType = 2, kUnits = 3;
   const auto type = cells.size() > kUnits ? number_of<std::uint8_t>(cells[kType]) : std::nullopt;
@@ -133,10 +134,10 @@ Status define(const Cells& cells, const std::string& file, int line, NamedFormat
                   fmt::format("a second, different format of {}", printable(known->second.name)));
 }
 
-/// Key of a topic: name, and number of the sensor.
+/// Identifies a topic (one signal source): name of the record type, and number of the sensor.
 using TextTopic = std::pair<std::string, std::uint8_t>;
 
-/// The topic of a line; empty if its sensor number is not a number.
+/// The topic of a line. Empty if the field with the sensor number does not contain a number.
 std::optional<TextTopic> topic_of_line(const Cells& cells, const dataflash::Format& format) {
   if (!format.instance) return TextTopic{format.name, std::uint8_t{0}};
   const auto instance = number_of<std::uint8_t>(cells[1 + *format.instance]);
@@ -144,7 +145,7 @@ std::optional<TextTopic> topic_of_line(const Cells& cells, const dataflash::Form
   return TextTopic{format.name, *instance};
 }
 
-/// Result of the first passes over the file.
+/// Formats and topics of the file, which must be known before its values are read.
 struct TextContents {
   NamedFormats formats = {};
   std::map<TextTopic, std::size_t> topics = {};  ///< number of records by topic
@@ -176,7 +177,7 @@ Result<TextContents> text_contents(std::string_view bytes, const std::string& fi
 /// A topic and its requested fields.
 struct ListedText {
   std::size_t topic = 0;  ///< index in Signals::topics
-  /// Requested: indices in Format::fields, ordered as Topic::columns.
+  /// Requested fields, as indices in Format::fields, in the order of Topic::columns.
   std::vector<std::size_t> fields;
 };
 
@@ -246,7 +247,7 @@ bool is_dataflash_text(std::string_view bytes) {
 
 Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& file,
                                     const Wanted& wanted) {
-  // A last line without a line end may be incomplete.
+  // A last line without a line end may be incomplete, so it is not read.
   const std::string_view whole = bytes.substr(0, bytes.rfind('\n') + 1);
   AWMR_ASSIGN_OR_RETURN(TextContents contents, text_contents(whole, file));
   if (whole.size() < bytes.size()) {

@@ -21,10 +21,12 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
                                                 {1000.0, "per mille"},
                                                 {1023.0, "10-bit PWM counts"},
                                                 {4095.0, "12-bit PWM counts"}}};
-constexpr double kEndOfScale = 0.005;  // relative tolerance of "the largest force is full power"
-// Assumption: the trials of every vehicle reach this fraction of full power.
+// A force counts as full power if it differs from full power by at most this fraction.
+constexpr double kEndOfScale = 0.005;
+// Assumption: the largest force in the trials of a vehicle is at least this fraction of full power.
 constexpr double kMinShare = 0.2;
-// Forces of up to this times F'max may have been divided by a force below F_max.
+// Forces that exceed F'max by at most this factor are taken as forces that were divided by too
+// small a force instead of F_max.
 constexpr double kPlainlyBeyond = 1.05;
 
 constexpr ForceUnit kMicroseconds{
@@ -51,8 +53,8 @@ bool may_be_newtons(double largest, const Vehicle& vehicle) {
   return implausible_values(vehicle).empty() && kAcceleration_mps2.contains(pushed_mps2);
 }
 
-/// Returns the scales for which the largest force is 20 to 100 % of full power. If it is 100 % of
-/// one scale, returns only that scale.
+/// Returns the scales (percent, per mille, PWM counts) on which the largest force would be 20 to
+/// 100 % of full power. If it is full power on one scale, within 0.5 %, returns only this scale.
 std::vector<ForceUnit> scales_of(double largest) {
   std::vector<ForceUnit> found;
   for (const FullScale& scale : kFullScales) {
@@ -130,7 +132,8 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
                          const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
   const ForceSpan of_one{thrust.least / n, thrust.largest / n};
-  // Values up to n can be the sum n F' of n wheels: the unit is right, but the sum exceeds n F'max.
+  // tau_speed is n F', the sum over n driven wheels. F' is at most 1, so a tau_speed of up to n has
+  // the right unit, even if it exceeds the vehicle's limit n F'max.
   const bool is_sum = is_share_of_f_max(of_one);
   ForceUnits units;
   if (wheels && !is_sum) {

@@ -26,8 +26,8 @@
 
 namespace awmr {
 
-/// A force up to this factor times the limit counts as within the limit, because the excess may be
-/// due to rounding.
+/// A force that exceeds the limit F'max by at most this factor counts as within the limit, because
+/// the excess may be due to rounding.
 inline constexpr double kForceRounding = 1.01;
 
 /// Range of the pulse lengths of a servo or a motor driver, us.
@@ -48,14 +48,17 @@ ForceSpan joined(const ForceSpan& a, const ForceSpan& b);
 /// A possible unit. F' = factor times the value in the file, plus offset.
 struct ForceUnit {
   std::string_view words;  ///< name of the unit: "8-bit PWM counts"
-  double factor = 0.0;     ///< 0: unknown, such as for newtons; `words` then describes the divisor
+  /// 0: unknown, as for newtons; `words` then names the force to divide by.
+  double factor = 0.0;
   double offset = 0.0;
 };
 
 /// Possible units of forces beyond F'max.
 struct ForceUnits {
-  std::vector<ForceUnit> units;  ///< the most likely first; never empty; only one if it is certain
-  std::string remedy = {};       ///< alternative: a change of vehicle.json, as text; may be empty
+  /// At least one, most likely first; exactly one if the unit is certain.
+  std::vector<ForceUnit> units;
+  /// Advice to change vehicle.json instead of the unit; may be empty.
+  std::string remedy = {};
 
   bool is_clear() const { return units.size() == 1; }
 };

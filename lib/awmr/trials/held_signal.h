@@ -1,4 +1,5 @@
-/// The commands of a log as functions of time. A command stays constant until the next row.
+/// The commands of a log as functions of time. A command is held: it stays constant until the next
+/// row.
 #pragma once
 
 #include <algorithm>
@@ -34,10 +35,12 @@ struct LogSignals {
   const DrivingLog* log;
   HeldSignal left;
   HeldSignal right;
-  HeldSignal steering;  ///< rad: the command, or the angle if the log has no steering command
+  /// Steering command, rad; the steering angle if the log has no steering command.
+  HeldSignal steering;
 
-  /// The logged angle, rad, interpolated between `row` and the next one. `share`: fraction of the
-  /// time between these rows that has passed, 0 to 1. Precondition: the log has steering angles.
+  /// The logged steering angle, rad, interpolated between `row` and the next one. `share`: fraction
+  /// of the time between these rows that has passed, 0 to 1. Precondition: the log has steering
+  /// angles.
   double angle_after(std::size_t row, double share) const {
     const std::vector<double>& angle = (*log)[LogChannel::kSteering]->value;
     return angle[row] + share * (angle[std::min(row + 1, angle.size() - 1)] - angle[row]);
@@ -59,8 +62,8 @@ inline constexpr double kSameTime_s = 1e-9;
 /// Steps through the rows of a log from one change of the commands to the next.
 class ActingRow {
  public:
-  /// Begins at the last row before the time `t_s`, so that next_change_s() also finds a change of
-  /// the commands at `t_s`.
+  /// Begins at the last row before the time `t_s`. Thus next_change_s() also finds commands that
+  /// change exactly at `t_s`.
   ActingRow(const std::vector<double>& row_times_s, double t_s)
       : t_s_(&row_times_s),
         row_(static_cast<std::size_t>(std::ranges::lower_bound(row_times_s, t_s - kSameTime_s) -

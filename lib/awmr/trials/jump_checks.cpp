@@ -28,7 +28,7 @@ struct Move {
   double size = 0.0;     ///< magnitude of the change, m or rad
 };
 
-/// `size(a, b)`: distance between the readings of two rows.
+/// Function `size(a, b)` that returns the distance between the readings in the rows a and b.
 using Size = std::function<double(std::size_t, std::size_t)>;
 
 std::vector<Move> moves_between(const DrivingLog& log, const std::vector<std::size_t>& rows,
@@ -41,16 +41,16 @@ std::vector<Move> moves_between(const DrivingLog& log, const std::vector<std::si
   return moves;
 }
 
-/// Usual change per second: the 95 % quantile over all moves.
+/// Usual change per second: the 95 % quantile of the changes between successive readings.
 double common_rate(const std::vector<Move>& moves) {
   std::vector<double> rates;
   for (const Move& move : moves) rates.push_back(move.size / move.span_s);
   return quantile(std::move(rates), kQuantile);
 }
 
-/// The first jump: a single change of more than kTimes times the usual change, after which the
-/// signal does not return. `least`: smallest change that counts as a jump. Empty if there is none,
-/// or with fewer than kMin changes.
+/// Returns the first jump: a change of more than kTimes times the usual change, after which the
+/// signal does not return. The changes before and after it are not that large. `least`: smallest
+/// change that counts as a jump. Empty without a jump, or with fewer than kMin changes.
 std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
   if (moves.size() < kMin) return std::nullopt;
   const double rate = common_rate(moves);

@@ -8,9 +8,11 @@ namespace {
 
 /// Largest magnitude of the delay of the commands, positive or negative.
 constexpr double kLongestDelay_s = 1.0;
-constexpr double kForgotten = 40.0;  // time constants; after them, exp(-40) = 4e-18 remains
+// After this many time constants, the effect of a command is exp(-40) = 4e-18.
+constexpr double kForgotten = 40.0;
 
-/// Decay of the difference between force and command over a time h, with the time constant T.
+/// Decay of the difference between motor force and command in a time h. T is the time constant of
+/// the motor.
 struct Decay {
   double left_over;  ///< remaining fraction of the difference, exp(-h/T)
   double by_lag;     ///< derivative of left_over with respect to T, 1/s
@@ -53,8 +55,8 @@ LaggedForces::Side LaggedForces::side(const std::vector<double>& command, std::s
 
 LaggedForces::Value LaggedForces::at(const Side& side, const std::vector<double>& command,
                                      double t_s) const {
-  // The end of an integration step can differ from the time of its row by rounding. Times that
-  // differ by less than this count as equal.
+  // The time at the end of an integration step can differ by rounding from the time of the row
+  // there. Times that differ by less than this count as equal.
   constexpr double kRounding_s = 1e-9;
   const auto first = log_->t_s.begin() + static_cast<std::ptrdiff_t>(first_row_);
   const auto last = first + static_cast<std::ptrdiff_t>(side.force.size());

@@ -15,7 +15,8 @@
 namespace awmr {
 namespace {
 
-/// Returns the value of `read`. If it failed, adds its faults to `faults` and returns empty.
+/// Returns the value of the result `read`. If reading failed, adds the errors of `read` to `faults`
+/// and returns empty.
 template <class Read>
 std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
   if (read) return std::move(*read);

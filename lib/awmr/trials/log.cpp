@@ -101,8 +101,9 @@ std::vector<RowSpan> runs_of(const TrialReader& reader) {
   return runs;
 }
 
-/// In a log with steering_deg but no steering_cmd_deg, the angle is the steering input of the
-/// model. Returns the rows of `run` from the first one with an angle on.
+/// Returns the rows of `run`, from the first row with a steering angle on, if the log has
+/// steering_deg but no steering_cmd_deg. The angle is then the steering input of the model, so rows
+/// before its first value cannot be used.
 RowSpan from_known_steering(TrialReader& reader, RowSpan run) {
   if (reader.has("steering_cmd_deg") || !reader.has("steering_deg")) return run;
   const std::vector<std::size_t> known = rows_present(reader, run, "steering_deg");
@@ -118,8 +119,8 @@ RowSpan from_known_steering(TrialReader& reader, RowSpan run) {
   return run;
 }
 
-/// The contiguous parts of a run whose times are in options.used_s and in none of
-/// options.excluded_s.
+/// Returns the contiguous parts of a run whose times lie in options.used_s and outside all
+/// intervals of options.excluded_s.
 std::vector<RowSpan> used_parts(const TrialReader& reader, RowSpan run,
                                 const TrialOptions& options) {
   const std::span<const double> t_s = reader.table().column("t_s");
@@ -139,7 +140,8 @@ std::vector<RowSpan> used_parts(const TrialReader& reader, RowSpan run,
   return parts;
 }
 
-/// Replaces the runs by their used_parts(). Adds a fault if none is left.
+/// Replaces each run by its parts that the options select (used_parts()). Adds a fault if no part
+/// is left.
 void keep_used(TrialReader& reader, const TrialOptions& options, std::vector<RowSpan>& runs) {
   std::vector<RowSpan> parts;
   for (const RowSpan run : runs) {
@@ -233,8 +235,8 @@ double DrivingLog::median_step_s() const {
   std::vector<double> steps;
   for (std::size_t i = 1; i < t_s.size(); ++i) steps.push_back(t_s[i] - t_s[i - 1]);
   if (!joined) return median(std::move(steps));
-  // Rows of two signals may come in close pairs. The short steps within pairs count little, because
-  // each step is weighted with its length.
+  // The rows of two signals with about the same rate come in close pairs. The short steps within
+  // the pairs hardly change this median, because each step is weighted with its length.
   std::sort(steps.begin(), steps.end());
   double left_s = 0.5 * (t_s.back() - t_s.front());
   for (const double step_s : steps) {
@@ -245,7 +247,7 @@ double DrivingLog::median_step_s() const {
 }
 
 bool has_force_difference(const DrivingLog& log) {
-  constexpr double kMuch = 0.01;  // difference of the forces F' that counts, as a fraction of F_max
+  constexpr double kMuch = 0.01;  // smallest difference of F' that counts
   for (std::size_t i = 0; i < log.rows(); ++i) {
     if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
   }
@@ -271,7 +273,7 @@ bool is_joined(const CsvTable& table) {
   return false;
 }
 
-/// Returns the time and commands of one run.
+/// Returns a log of one run that has only its times and commands.
 DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
   const CsvTable& table = reader.table();
   DrivingLog log;
@@ -314,8 +316,8 @@ std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<F
   return unmeasured;
 }
 
-/// Last measured speed by row, m/s; in the rows before the first measurement, the first measured
-/// speed. Empty if the log has no speed.
+/// Speed of each row, m/s: the last measured speed. Rows before the first measurement have the
+/// first measured speed. Empty if the log has no speed.
 std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   if (!reader.has("speed_mps")) return {};
   const std::vector<std::size_t> present = rows_present(reader, rows, "speed_mps");
@@ -330,9 +332,9 @@ std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   return speeds;
 }
 
-/// Removes rows with an invalid heading at rest (course_at_rest.h) from `present`, the rows with a
-/// heading, and replaces the headings there by the next valid one. Adds the finding
-/// `course-at-rest`.
+/// Removes from `present`, the rows with a heading, those whose heading is invalid because the
+/// vehicle rests (course_at_rest.h). In these rows, replaces the heading by the next valid one.
+/// Adds the finding `course-at-rest`.
 void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> speed_mps,
                               std::vector<double>& heading_rad, std::vector<std::size_t>& present,
                               std::vector<Finding>& findings) {
@@ -356,7 +358,7 @@ void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> spe
 DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,
                   std::vector<Finding>& findings) {
   DrivingLog log = commands_of(reader, rows);
-  // The rows of a joined log are not evenly spaced.
+  // The times of a joined log are not evenly spaced, so they are not checked for rounding.
   if (!log.joined) replace_rounded_times(log.t_s, log.file, log.line.front(), findings);
   if (reader.has("latitude_deg")) add_geographic(reader, rows, log, findings);
   if (!reader.faults().empty()) return log;

@@ -24,7 +24,7 @@ struct ChannelInfo {
   std::string_view column;  ///< name of the column in CSV files: "heading_deg"
   std::string_view name;    ///< name with the SI unit: "heading_rad"
   std::string_view unit;    ///< unit of the SI value: "rad"
-  double to_si = 1.0;       ///< SI value = column value times this
+  double to_si = 1.0;       ///< SI value = value in the column times `to_si`
 };
 const ChannelInfo& info(LogChannel channel);
 
@@ -35,8 +35,9 @@ struct Measured {
   std::vector<double> value;  ///< values by row, SI; the heading has no jumps by full turns
   std::vector<bool> fresh;    ///< by row: true if the value is a measurement
   int fresh_count = 0;        ///< number of fresh rows
-  bool held = false;          ///< true: the sensor is slower than the log
-  double quantum = 0.0;       ///< resolution of a coarse sensor, SI; 0: not detected
+  /// True: the sensor is slower than the log, which repeats its last value.
+  bool held = false;
+  double quantum = 0.0;  ///< resolution of a coarse sensor, SI; 0: not detected
 };
 
 /// One run of a driving log. Every vector has one entry per row.
@@ -44,14 +45,16 @@ struct DrivingLog {
   std::string file;
   std::vector<int> line;            ///< by row: line in the file
   std::vector<std::size_t> mapped;  ///< mappings that were used: indices in TrialOptions::columns
-  bool joined = false;              ///< joined from signals of different rates: unequal time steps
-  /// True: between the rows of the file, rows with interpolated commands and without measurements
-  /// were inserted.
+  /// True: joined from signals of different rates; time steps are unequal.
+  bool joined = false;
+  /// True: rows were inserted between the rows of the file. Their commands are interpolated, and
+  /// they have no measurements.
   bool has_interpolated_commands = false;
-  /// True: commands that the logger had interpolated, if any, were replaced by the set-points, each
-  /// constant until the next one.
+  /// True: commands are set-points that stay constant until the next one. Commands that the logger
+  /// had interpolated were replaced by such set-points.
   bool has_held_set_points = false;
-  bool is_geographic = false;       ///< x_m is east and y_m north, from latitude and longitude
+  /// True: x (east) and y (north) were computed from latitude and longitude.
+  bool is_geographic = false;
   std::vector<double> t_s;          ///< time, s, strictly rising
   std::vector<double> force_left;   ///< F'L of each left wheel, over F_max, forward positive
   std::vector<double> force_right;  ///< F'R of each right wheel, over F_max, forward positive

@@ -54,8 +54,9 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
 }
 
-/// The command that moves a channel, by row, in an arbitrary unit: for heading and yaw rate the yaw
-/// moment of force difference and steering, else the thrust.
+/// Returns the command that moves a channel, for each row, in an arbitrary unit. For heading and
+/// yaw rate, it is about the yaw moment (of force difference and steering); for other channels, the
+/// thrust.
 std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
   const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
   std::vector<double> activity(log.rows());
@@ -76,8 +77,8 @@ std::vector<double> picked(const std::vector<double>& values,
   return some;
 }
 
-/// channel_quality() of a channel that has values only in `rows`. The result has one entry per row
-/// of the log; rows without a value are not measurements.
+/// Computes channel_quality() for a channel that has values only in `rows`. The result nevertheless
+/// covers all rows of the log: rows without a value are marked as no measurements.
 ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel channel,
                           const DrivingLog& log, const std::vector<double>& values) {
   const std::vector<double> activity = activity_for(channel, log);
@@ -92,10 +93,10 @@ ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel chann
   return quality;
 }
 
-/// True if at least 80 % of the times between successive `rows` are about equal. This is the case
-/// for readings of a slow sensor, and for a channel that only lacks the rows of a gap.
+/// True if at least 80 % of the time spans between successive `rows` are about equal. They are
+/// equal if the readings come from a slow sensor, or if only the rows of a gap lack a reading.
 bool are_regular(const std::vector<double>& t_s, const std::vector<std::size_t>& rows) {
-  constexpr double kAbout = 1.5;  // times that differ by less than this factor count as equal
+  constexpr double kAbout = 1.5;  // time spans that differ by less than this factor count as equal
   constexpr double kMost = 0.8;
   std::vector<double> gaps_s;
   for (std::size_t i = 1; i < rows.size(); ++i) gaps_s.push_back(t_s[rows[i]] - t_s[rows[i - 1]]);
@@ -167,8 +168,8 @@ void join_position(DrivingLog& log) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const bool new_x = x.value[i] != x.value[i - 1];
     const bool new_y = y.value[i] != y.value[i - 1];
-    // If a new value of x is not a measurement (a spike, or saturated), y of this row is not used
-    // either, and vice versa.
+    // If a new value of x is a spike or saturated, neither x nor y of this row is used. The same
+    // holds for a new value of y.
     const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
     x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
   }

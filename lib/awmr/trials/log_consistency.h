@@ -34,9 +34,9 @@ namespace awmr {
 /// A column with a wrong unit or sign.
 struct Contradiction {
   std::string column;       ///< wrong column: "yaw_rate_radps"
-  std::string message;      ///< the comparison, its result, the likely cause
+  std::string message;      ///< text: what was compared, the result, the likely cause
   std::string mapping;      ///< column mapping that corrects it, `NAME=SOURCE*FACTOR`; may be empty
-  std::string remedy = {};  ///< if not empty: advice that the message shows instead of `mapping`
+  std::string remedy = {};  ///< advice that the message shows instead of `mapping`; may be empty
 };
 
 /// Returns the columns with a wrong unit or sign; empty if all channels agree. `mappings`: column

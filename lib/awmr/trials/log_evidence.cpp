@@ -15,9 +15,9 @@ namespace {
 
 /// Approximate time from a command to the vehicle's response.
 constexpr double kResponse_s = 0.2;
-/// Adds the means of the commands to which the vehicle responds in the window. These are the
-/// commands that were logged kResponse_s earlier or, if the log has the steering angle instead of
-/// the steering command, those logged in the window.
+/// Adds the means of the commands to `sums`. The vehicle responds in the window to commands that
+/// were logged kResponse_s earlier. If the log has the steering angle instead of the steering
+/// command, the commands in the window are used.
 void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window,
                   EvidenceWindow& sums) {
   const double delay_s = log.steering_command_rad ? kResponse_s : 0.0;
@@ -74,7 +74,8 @@ EvidenceWindow sums_of(const DrivingLog& log, const Vehicle& vehicle,
     const auto [least, most] = std::ranges::minmax(
         std::span(speed->value).subspan(window.begin, window.end - window.begin));
     sums.has_stuck_speed = !(least < most) && !is_rest(least, kRestSpeed_mps);
-    // Driving backward: reversed, so that it can be compared with the heading.
+    // If the vehicle drives backward, the course is reversed so that it can be compared with the
+    // heading.
     if (sums.driven_m < 0.0) sums.course_rad += pi<double>();
   }
   add_commands(log, vehicle, window, sums);
@@ -89,9 +90,9 @@ bool has_readings(const DrivingLog& log, std::size_t row) {
       });
 }
 
-/// Moves the windows so that they begin and end at rows with new readings, because a repeated value
-/// of a slow sensor was measured earlier than its row. An end moves forward into the next window,
-/// or back if no new reading follows there. A window that loses more than half its rows is dropped.
+/// Moves the ends of the windows to rows with new readings, because a slow sensor measured a
+/// repeated value earlier than the time of its row. An end moves forward into the next window, or
+/// back if no new reading follows there. A window that loses more than half its rows is dropped.
 std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   std::vector<LogWindow> moved;
   for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -111,8 +112,8 @@ std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   return moved;
 }
 
-/// Returns two further windows for every two consecutive windows: the first of the two, shifted by
-/// a third and by two thirds of its length. Empty if there are twenty windows or more.
+/// Returns overlapping windows: each window that has a successor, shifted forward by a third and by
+/// two thirds of its length. Empty if there are twenty windows or more, which suffice without them.
 std::vector<LogWindow> windows_between(const std::vector<LogWindow>& windows) {
   constexpr std::size_t kEnough = 20;
   constexpr std::size_t kParts = 3;
@@ -175,8 +176,9 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   const double determinant = ss * dd - sd * sd;
   const bool steering_only = dd < 1e-6 * ss;
   const bool sides_only = ss < 1e-6 * dd;
-  // A controller in combined mode makes the two moments proportional; then they cannot be
-  // separated. Above a correlation of 0.9, joint coefficients would mainly fit neglected inertia.
+  // The effects of steering and of force difference can be separated only if their moments are not
+  // proportional. A controller that uses both at once makes them proportional. Above a correlation
+  // of 0.9, a joint fit would mainly fit the inertia, which this regression neglects.
   const bool apart = determinant > 0.19 * ss * dd && !steering_only && !sides_only;
   if (n < 10.0 || rr <= 0.0) return {};
   constexpr double kSignificant = 5.0;  // smallest significant coefficient, in standard errors
@@ -189,8 +191,8 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   if (steering_only) return {shown(sr / ss, 1.0 / ss, sr * sr / ss), 0};
   if (sides_only) return {0.0, shown(dr / dd, 1.0 / dd, dr * dr / dd)};
   if (!apart) {
-    // Moments of opposite sign and nearly equal size would not turn the vehicle. Because it turns,
-    // one of the two has the wrong sign: the one that opposes the yaw rate.
+    // If both moments had nearly equal size and truly opposite signs, the vehicle would not turn.
+    // As it does turn, the moment that opposes the yaw rate has the wrong sign.
     constexpr double kNearlyEqual = 4.0;  // bound on the ratio of the squares of the two moments
     const bool cancel = sd < 0.0 && ss < kNearlyEqual * dd && dd < kNearlyEqual * ss;
     if (sd < 0.0 && !cancel) return {};

@@ -14,8 +14,8 @@
 
 namespace awmr {
 
-/// Window length, s: long enough to average the noise, and short enough that a vehicle turns by
-/// less than a full circle.
+/// Window length, s. It is long enough to average the noise, and short enough that the vehicle
+/// turns by less than a full circle in it.
 inline constexpr double kEvidenceWindow_s = 1.0;
 
 /// Signals of a log over one window; 0 for channels that the log lacks. Headings, courses and yaw
@@ -27,11 +27,11 @@ struct EvidenceWindow {
   double course_rad = 0.0;   ///< direction from first to last position, reversed if driven_m < 0
   double heading_rad = 0.0;  ///< heading (or integrated yaw rate) in the middle of the window
   double driven_m = 0.0;     ///< integral of the speed, forward positive
-  bool has_stuck_speed = false;  ///< all speeds are the same and not 0
+  bool has_stuck_speed = false;  ///< true: all speeds in the window are the same and not 0
   double thrust = 0.0;           ///< mean of F'L + F'R, forward positive
   double steering_rad = 0.0;     ///< mean steering input: the command, else the logged angle
-  double tau_steering_m = 0.0;   ///< l_f (F'L + F'R) sin d_r, as in allocation.h
-  double tau_diff_m = 0.0;       ///< d (F'R - F'L)(cos d_r + 1), as in allocation.h
+  double tau_steering_m = 0.0;   ///< l_f (F'L + F'R) sin d_r, d_r = steering_rad
+  double tau_diff_m = 0.0;       ///< d (F'R - F'L)(cos d_r + 1), d = half_track_m
   double span_s = 0.0;           ///< length of the window, s
 };
 
@@ -53,7 +53,8 @@ struct Evidence {
 Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
                      std::span<const ColumnMapping> mappings);
 
-/// Consecutive windows of about this length, s. Each begins and ends at a row with a new reading.
+/// Divides the log into consecutive windows of about `length_s`. Each begins and ends at a row with
+/// a new reading.
 std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s);
 
 /// The integral of a channel over a window (trapezoidal rule).
@@ -68,10 +69,12 @@ std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member me
   return values;
 }
 
-/// Coefficients of a linear regression of the yaw rate on the two yaw moments of EvidenceWindow:
-///     yaw rate = steering tau_steering + sides tau_diff
-/// A coefficient whose magnitude is below five standard errors is set to 0. Both are 0 with fewer
-/// than 10 windows. If the moments are too correlated to be separated, each is fitted alone.
+/// Coefficients of a linear regression of the yaw rate on the yaw moments tau_steering (of the
+/// steering) and tau_diff (of the force difference), as in EvidenceWindow:
+///     yaw rate = steering * tau_steering + sides * tau_diff
+/// A coefficient whose magnitude is below five standard errors is set to 0. With fewer than 10
+/// windows, both coefficients are 0. If the moments are too correlated to be separated, each is
+/// fitted alone.
 struct MomentShares {
   double steering = 0.0;  ///< 1/(m s)
   double sides = 0.0;     ///< 1/(m s)

@@ -15,13 +15,13 @@
 namespace awmr {
 namespace {
 
-/// True if the ratio of two channels is 0.6 to 1.6, which errors of calibration, slip or noise can
-/// explain. Otherwise a unit is wrong.
+/// True if the ratio of two channels is 0.6 to 1.6. Such a ratio can be due to calibration errors,
+/// slip or noise; any other ratio means a wrong unit.
 bool agree(double ratio) { return ratio >= 0.6 && ratio <= 1.6; }
 
 /// A unit that a channel may have by mistake.
 struct UnitFactor {
-  double factor;  ///< ratio of the two compared channels if the unit is this one
+  double factor;  ///< ratio of the two compared channels if the channel has this unit
   std::string_view words;
 };
 
@@ -53,8 +53,8 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
-/// If turning_rate() is below this number, the yaw rate is not in deg/s, because the vehicle would
-/// hardly turn at 2 deg/s.
+/// If turning_rate() is below this value, the column is assumed to be in rad/s: at less than 2
+/// deg/s the vehicle would hardly turn.
 constexpr double kSlowTurn = 2.0;
 /// Typical yaw rate while turning: the 75 % quantile over windows, in the unit of the column.
 double turning_rate(const Evidence& evidence) {
@@ -92,8 +92,8 @@ std::optional<double> turned_over_rate(const Evidence& evidence) {
   if (!ratio) return std::nullopt;
   const double size = std::abs(ratio->ratio);
   if (agree(size)) return std::nullopt;
-  // A large gyro bias also changes this ratio, but not the ratio of the deviations from the
-  // medians.
+  // The median is subtracted from both signals, because a large gyro bias changes the ratio of the
+  // signals, but not the ratio of their deviations from the medians.
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
   if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   return size;
@@ -133,10 +133,12 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
                        "data sheets"};
 }
 
-/// Ratio of the yaw rate to that of wheels that roll without sliding, u tan(d)/(2 l_f) (d: steering
-/// angle, 2 l_f: about the wheelbase). Uses windows with about equal forces left and right.
+/// Ratio of the yaw rate to that of wheels that roll without sliding, u tan(d)/(2 l_f) (u: speed,
+/// d: steering angle, 2 l_f: about the wheelbase). Uses windows with about equal forces left and
+/// right.
 std::optional<double> rate_over_rolling(const Evidence& evidence) {
-  // Largest moment of the force difference, as a fraction of the moment of the steering.
+  // Forces left and right count as equal if the yaw moment of their difference is at most this
+  // fraction of the yaw moment of the steering.
   constexpr double kLittle = 0.1;
   if (!evidence.has(LogChannel::kSpeed) || !evidence.vehicle.has_steering()) return std::nullopt;
   std::vector<double> rolling;
@@ -158,8 +160,8 @@ std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
   constexpr double kLargest_radps = 25.0;  // largest plausible yaw rate, as in turn_evidence.h
   if (!evidence.has(LogChannel::kYawRate) || evidence.has(LogChannel::kHeading)) return {};
   const double rate_radps = usual_largest(*evidence.log[LogChannel::kYawRate]);
-  // With sliding wheels, the ratio differs from 1, but is below this bound. deg/s instead of rad/s
-  // makes it 57.
+  // Largest ratio that sliding wheels can explain. A yaw rate in deg/s instead of rad/s gives a
+  // ratio of about 57.
   constexpr double kMaxSlide = 14.0;
   if (rate_radps <= kLargest_radps) {
     const auto ratio = rate_over_rolling(evidence);
@@ -202,8 +204,8 @@ std::string words_of_wheel(double ratio, const Vehicle& vehicle) {
 ///
 ///     mean = 12 sigma^2,   lower quartile = 12 sigma^2 ln(4/3)
 ///
-/// The lower quartile is used, because acceleration of the vehicle only increases the sum. Returns
-/// 0 with fewer than three measurements.
+/// Acceleration of the vehicle makes some of the sums larger. The lower quartile is used, because
+/// it changes least. Returns 0 with fewer than three measurements.
 double position_variance_m2(const DrivingLog& log) {
   const Measured& x = *log[LogChannel::kX];
   const Measured& y = *log[LogChannel::kY];
@@ -223,16 +225,18 @@ double position_variance_m2(const DrivingLog& log) {
 }
 
 /// Ratio of the distance between the first and the last position of a window to the integral of the
-/// speed, as a robust ratio over all windows. Noise sigma of each coordinate makes the distance
-/// longer, E moved^2 = true^2 + 4 sigma^2, so 4 sigma^2 is subtracted. Empty if the median distance
-/// in the faster half of the windows is below twice that of noise alone.
+/// speed, as a robust ratio over all windows. Noise makes the distance longer: with the standard
+/// deviation sigma of each coordinate, the expected square is true distance^2 + 4 sigma^2.
+/// Therefore 4 sigma^2 is subtracted from the square. Empty if the median distance in the faster
+/// half of the windows is below twice that of noise alone.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
-  constexpr double kClear = 4.0;  // smallest ratio of the squared distance to that of noise alone
+  // Smallest accepted ratio of the median squared distance to that of noise alone.
+  constexpr double kClear = 4.0;
   const double noise_m2 = 4.0 * position_variance_m2(evidence.log);
   std::vector<double> driven;
   std::vector<double> moved;
   for (const EvidenceWindow& w : evidence.overlapping) {
-    if (w.has_stuck_speed) continue;  // a stuck value says nothing about the unit
+    if (w.has_stuck_speed) continue;  // a stuck speed says nothing about its unit
     driven.push_back(std::abs(w.driven_m));
     moved.push_back(std::sqrt(std::max(0.0, w.moved_m * w.moved_m - noise_m2)));
   }

@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Sums over the measurements y of a channel; each field is the sum of the quantity named.
+/// Sums over all measurements y of one channel.
 struct Sums {
   double one_step = 0.0;      ///< sum of squared errors of the one-step prediction
   double long_horizon = 0.0;  ///< sum of squared errors of the long-horizon prediction
@@ -29,7 +29,7 @@ struct Predictor {
   Plant<double> plant;
   double step_s;
   std::optional<LaggedForces> lagged;
-  std::size_t series_step;  ///< every n-th measurement is kept in the series; 0: no series
+  std::size_t series_step;  ///< n: every n-th measurement is kept in the series; 0: no series
 };
 
 Predictor predictor(const DrivingLog& log, const Plant<double>& plant,
@@ -49,8 +49,9 @@ void run(const Predictor& model, std::size_t begin, std::size_t end, const State
                  model.lagged ? &*model.lagged : nullptr);
 }
 
-/// Predicts the next row from `row`, and adds the squared errors to `sums`. Components of the state
-/// that `row` does not measure come from `state`, the long-horizon prediction at `row`.
+/// Predicts the next row from the measurements in `row`, and adds the squared errors to `sums`.
+/// State components that were not measured in `row` are taken from `state`, the long-horizon
+/// prediction for that row.
 void add_one_step(const Predictor& model, std::size_t row, State<double> state, ChannelSums& sums) {
   const DrivingLog& log = *model.signals.log;
   each_measurement(log, row, [&](LogChannel channel, double measured) {

@@ -26,10 +26,12 @@ struct PredictedSeries {
 
 struct ChannelPrediction {
   LogChannel channel = LogChannel::kX;
-  int samples = 0;               ///< number of measurements
-  PredictionError one_step;      ///< each row is predicted from the measurements of the row before
-  PredictionError long_horizon;  ///< a whole window is predicted from its measured initial state
-  PredictedSeries series = {};   ///< long-horizon prediction; empty if most_in_series is 0
+  int samples = 0;  ///< number of measurements
+  /// Error if each row is predicted from the measurements of the row before.
+  PredictionError one_step;
+  /// Error if a whole window is predicted from its measured initial state.
+  PredictionError long_horizon;
+  PredictedSeries series = {};  ///< long-horizon prediction; empty if most_in_series is 0
 };
 
 struct PredictionOptions {

@@ -17,14 +17,15 @@
 
 namespace awmr {
 
-/// Which value to use if a row has a speed or yaw rate twice: the number in its column (printed),
-/// or the distance or number of turns over the elapsed time (timed).
+/// Value to use if a row gives a speed or yaw rate in two ways. The printed value is the number in
+/// its column. The timed value is the distance or number of turns divided by the elapsed time.
 enum class Preference { kPrinted, kTimed };
 inline constexpr NameTable<Preference, 2> kPreferenceNames{
     {{"printed", Preference::kPrinted}, {"timed", Preference::kTimed}}};
 
 struct TrialOptions {
-  std::vector<ColumnMapping> columns;  ///< load_trials() appends the mappings of the vehicle file
+  /// Column mappings; load_trials() appends those of the vehicle file.
+  std::vector<ColumnMapping> columns;
   Preference preference = Preference::kPrinted;
   /// True: trials that contradict themselves or the vehicle file (log_consistency.h,
   /// table_consistency.h) are accepted with a warning instead of refused. For unusual vehicles.

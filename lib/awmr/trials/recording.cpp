@@ -25,7 +25,7 @@ bool is_blank(std::string_view line) {
   return first == std::string_view::npos || line[first] == '#';
 }
 
-/// Text of a comment without '#' and blanks before it; other lines unchanged.
+/// Returns the line without '#', blanks and tabs at its beginning: the text of a comment.
 std::string_view without_marks(std::string_view line) {
   return line.substr(std::min(line.find_first_not_of("# \t"), line.size()));
 }
@@ -103,8 +103,8 @@ void Recording::take(const std::string& line) {
   put(line);
 }
 
-/// Looks for the header in a line; true if the line itself is the header. A comment with column
-/// names becomes the header at the first row below it that has the same number of cells.
+/// Looks for the header in `line`. Returns true if the line itself is the header. A comment with
+/// column names becomes the header at the first row below it that has the same number of cells.
 bool Recording::find_header(const std::string& line) {
   const std::optional<Header> header = header_of(without_marks(line), mappings_);
   if (is_blank(line)) {
@@ -122,7 +122,7 @@ bool Recording::find_header(const std::string& line) {
   return false;
 }
 
-/// Sets aside the lines before the header: turns them into comments.
+/// Sets aside the lines before the header, that is, turns them into comments.
 void Recording::put_before_aside() {
   const std::string before = std::exchange(text_, {});
   lines_ = 0;
@@ -156,8 +156,8 @@ std::string Recording::damage_of(const std::string& line) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string_view text = cells[i].text;
     if (!is_number_[i] || is_number(cells[i], header_.delimiter)) continue;
-    // A cell without digits, such as "nan", was written on purpose: the line is kept, and the
-    // reader of the log reports the cell.
+    // A cell without digits, such as "nan", is not a sign of damage. The line is kept as a row, and
+    // the reader of the log later reports the cell.
     if (std::any_of(text.begin(), text.end(), is_digit)) {
       return fmt::format("its cell {} is \"{}\", which is not a number", header_.names[i],
                          shortened(text, 40));

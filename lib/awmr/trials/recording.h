@@ -35,8 +35,8 @@ class Recording {
     char delimiter = ',';
   };
 
-  /// `mappings`: column mappings with which the log will be read; a header with their source
-  /// columns is recognised, too. `most_bytes`: maximum size of the text.
+  /// `mappings`: column mappings with which the log will be read. A line that names their source
+  /// columns is also recognised as the header. `most_bytes`: maximum size of the text.
   explicit Recording(std::vector<ColumnMapping> mappings = {},
                      std::size_t most_bytes = kMaxRecording);
 
@@ -49,7 +49,7 @@ class Recording {
 
   /// The complete lines so far.
   const std::string& text() const { return text_; }
-  /// Number of rows of data: without lines set aside, comments and empty lines.
+  /// Number of rows of data. Lines set aside, comments and empty lines are not counted.
   std::size_t rows() const { return rows_; }
   bool has_header() const { return !header_.names.empty(); }
   /// Number of lines set aside.
@@ -73,11 +73,13 @@ class Recording {
   std::string text_ = {};
   std::string line_ = {};  ///< last line, which is still incomplete
   bool line_too_long_ = false;
-  bool after_return_ = false;  ///< true: the last byte was a carriage return
+  /// True: the last byte was a carriage return; a line feed after it ends the same line.
+  bool after_return_ = false;
   bool full_ = false;
   Header header_ = {};
-  Header commented_ = {};             ///< names in the last comment that may be the header
-  std::vector<bool> is_number_ = {};  ///< by column: true if the first row has a number
+  /// Column names in the last comment; it becomes the header if rows with as many cells follow.
+  Header commented_ = {};
+  std::vector<bool> is_number_ = {};  ///< for each column: true if the first row has a number in it
   int lines_ = 0;                     ///< number of lines in text_
   std::size_t rows_ = 0;
   std::size_t set_aside_ = 0;

@@ -18,9 +18,12 @@
 namespace awmr {
 namespace {
 
-constexpr std::size_t kMinEqual = 50;  ///< minimum number of equal rows, except in exact copies
-constexpr double kNearlyAll = 0.95;    ///< minimum fraction of equal rows in the part in common
-constexpr std::size_t kMaxAlike = 8;   ///< rows that occur more often are not used for the offset
+/// Fewest equal rows for a part in common, except exact copies.
+constexpr std::size_t kMinEqual = 50;
+constexpr double kNearlyAll = 0.95;  ///< minimum fraction of equal rows within the part in common
+/// Rows that occur in the first log more often than this are not used to find the time offset
+/// between the two logs.
+constexpr std::size_t kMaxAlike = 8;
 constexpr std::size_t kMinCurve = 20;
 
 /// Values of one quantity in two logs.
@@ -53,7 +56,8 @@ std::vector<Pair> shared_values(const DrivingLog& a, const DrivingLog& b) {
   return pairs;
 }
 
-/// Resolution of the values: the smallest difference between two, but at least 1e-9 of their range.
+/// Resolution of the values: the smallest difference between two values. Differences of at most
+/// 1e-9 of their range are ignored, because they are due to rounding.
 double resolution_of(std::vector<double> values) {
   std::ranges::sort(values);
   const double least = 1e-9 * (values.back() - values.front());
@@ -68,7 +72,8 @@ double resolution_of(std::vector<double> values) {
 /// The rows of a log, with each value as a rounded multiple of its resolution.
 struct RoundedRows {
   std::vector<std::vector<std::int64_t>> rows;
-  std::vector<bool> changes;  ///< by row: true if a measurement differs from the previous row
+  /// For each row: true if a measurement differs from that of the previous row.
+  std::vector<bool> changes;
 };
 
 RoundedRows rounded_rows(const std::vector<Pair>& pairs, const std::vector<double>& resolutions,
@@ -89,7 +94,7 @@ RoundedRows rounded_rows(const std::vector<Pair>& pairs, const std::vector<doubl
   return found;
 }
 
-/// The offset t_b - t_a, s, between the times of the two logs with which most rows agree.
+/// Returns the time offset t_b - t_a, s, between the logs a and b for which most rows agree.
 std::optional<double> likeliest_offset_s(const DrivingLog& a, const RoundedRows& of_a,
                                          const DrivingLog& b, const RoundedRows& of_b,
                                          double tolerance_s) {
@@ -121,7 +126,7 @@ std::size_t nearest_row(const DrivingLog& log, double t_s) {
   return t_s - log.t_s[row - 1] < *after - t_s ? row - 1 : row;
 }
 
-/// A part that two logs have in common: rows of each, both included.
+/// A part that two logs have in common: its first and its last row in each log.
 struct CommonPart {
   std::size_t a_begin = 0;
   std::size_t a_end = 0;
@@ -138,7 +143,7 @@ bool is_common_start(const CommonPart& part, const DrivingLog& a, const DrivingL
          std::max(share_of_a, share_of_b) < kNearlyAll;
 }
 
-/// True if the logs have the same rows, apart from the start of the time.
+/// True if the logs have the same rows. Their times may differ by a constant offset.
 bool is_copy(const DrivingLog& a, const DrivingLog& b, const std::vector<Pair>& pairs) {
   if (a.rows() != b.rows()) return false;
   if (!std::ranges::all_of(pairs, [](const Pair& pair) { return pair.a == pair.b; })) return false;
@@ -146,8 +151,8 @@ bool is_copy(const DrivingLog& a, const DrivingLog& b, const std::vector<Pair>& 
   return std::abs(b.t_s.back() - b.t_s.front() - span_s) <= 1e-6 * span_s;
 }
 
-/// Extends the part over equal rows at its ends. These were not compared, because no measurement
-/// changes in them: rows at rest, and the first row of a log.
+/// Extends the part in common over further equal rows at both ends. Rows in which no measurement
+/// changes (at rest, or the first row of a log) were not compared before.
 CommonPart extended(CommonPart part, const RoundedRows& of_a, const RoundedRows& of_b) {
   while (part.a_begin > 0 && part.b_begin > 0 &&
          of_a.rows[part.a_begin - 1] == of_b.rows[part.b_begin - 1]) {

@@ -23,7 +23,7 @@ namespace awmr {
 void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>& faults);
 
 /// Adds a fault (kGivenTwice) for each curve of 20 speeds or more that repeats an earlier one
-/// exactly, apart from the start of the time.
+/// exactly. The times of the two curves may differ by a constant offset.
 void check_repeated_curves(const std::vector<CoastCurve>& curves, std::vector<Fault>& faults);
 
 }  // namespace awmr

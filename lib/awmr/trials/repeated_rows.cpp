@@ -13,15 +13,16 @@
 namespace awmr {
 namespace {
 
-/// Repeats are reported if P(k or more) is at most this.
+/// k repeated rows are reported if the probability of k or more repeats by chance is at most this.
 constexpr double kChance = 0.01;
 /// Minimum degrees of freedom for an estimate of the scatter from rows with equal settings.
 constexpr int kMinDifferences = 3;
-/// If the last decimal place of the largest reading is below this fraction of it, the readings were
-/// computed, and their last place is not their resolution.
+/// If one unit in the last decimal place of the readings is less than this fraction of the largest
+/// reading, the readings were computed. Their last place is then not their resolution.
 constexpr double kComputed = 1e-6;
 
-/// Probability p that two readings are the same by chance; a = q/(2 s) (repeated_rows.h).
+/// Probability p that two readings with standard deviation s, rounded to multiples of q, are the
+/// same by chance. The formula in repeated_rows.h uses a = q/(2 s).
 double chance_of_same(double q, double s) {
   const double a = q / (2.0 * s);
   // For small a the two terms below cancel numerically; p is then a/sqrt(pi), with an error below
@@ -33,7 +34,8 @@ double chance_of_same(double q, double s) {
 /// Probability of k or more for a Poisson variable with mean `expected`; 1 if k <= `expected`.
 double chance_of_so_many(double expected, int k) {
   if (k <= expected) return 1.0;
-  // The first term is L^k e^-L / k!; each next one is L/(k+1), L/(k+2), ... times the previous.
+  // Sum of L^j e^-L / j! over j >= k, with L = `expected`. Each term is L/(j + 1) times the term
+  // before it.
   double term = std::exp(k * std::log(expected) - expected - std::lgamma(k + 1.0));
   double sum = 0.0;
   for (int j = k; term > 1e-6 * sum; ++j) {
@@ -49,8 +51,8 @@ struct LikeRuns {
   std::vector<double> readings;
 };
 
-/// The column to compare: `timed` if it has a value in all rows, else `printed` if it has a value
-/// in all rows, else none.
+/// Returns the column whose readings are compared: `timed` if it has a value in all rows. Otherwise
+/// `printed` if that has a value in all rows, else none.
 std::optional<std::string_view> reading_of(const TrialReader& reader,
                                            const std::vector<std::size_t>& rows,
                                            const RepeatRule& rule) {
@@ -97,8 +99,8 @@ std::optional<double> scatter_seen(const std::vector<LikeRuns>& groups) {
   return std::sqrt(squares / differences);
 }
 
-/// Resolution q of the readings: one unit in their last decimal place; for computed readings the
-/// smallest difference between two.
+/// Resolution q of the readings: one unit in their last decimal place. For readings that were
+/// computed, it is the smallest difference between two of them.
 double resolution_of(const TrialReader& reader, std::string_view reading,
                      const std::vector<LikeRuns>& groups) {
   std::set<double> values;

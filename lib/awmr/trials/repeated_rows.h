@@ -33,8 +33,9 @@ struct RepeatRule {
   /// Columns with the settings of a run; those missing from the table are skipped.
   std::vector<std::string_view> settings;
   std::string_view timed = "elapsed_s";  ///< column with the reading that is compared
-  std::string_view printed = {};         ///< column compared if any row lacks `timed`; may be empty
-  double scatter = 0.003;                ///< relative standard deviation of the reading
+  /// Column that is compared if any row lacks a value in the column `timed`; may be empty.
+  std::string_view printed = {};
+  double scatter = 0.003;  ///< relative standard deviation of the reading
 };
 
 /// Adds the warning `repeated-rows` if more of the `rows` repeat an earlier row than chance

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kShortestWindow = 3;
 
-/// First row of the window, from row `from` on, with a measurement of the channel; empty if none.
+/// Returns the first row of the window, not before row `from`, with a measurement of the channel.
+/// Empty if there is none.
 std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel channel,
                                        std::size_t from) {
   const auto& measured = (*window.log)[channel];
@@ -23,9 +24,9 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel chann
   return std::nullopt;
 }
 
-/// Rate of change of a channel at the start of the window, in its unit per second: slope of the
-/// least-squares line through the measurements within 0.5 s of the first one, at least two. Empty
-/// with fewer than two measurements.
+/// Rate of change of a channel at the start of the window, in the channel's unit per second. It is
+/// the slope of the least-squares line through the first measurement and those within 0.5 s after
+/// it. Empty with fewer than two measurements.
 std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   constexpr double kSpan_s = 0.5;
   const auto first = first_fresh(window, channel, window.begin);
@@ -53,8 +54,9 @@ std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   return (n * ty - t * y) / (n * tt - t * t);
 }
 
-/// True if the mean force in the second before the window (for the first window of a log: in its
-/// first half second) is negative, so that the vehicle probably moves backward at its start.
+/// True if the vehicle probably moves backward at the start of the window, because the mean force
+/// in the second before the window is negative. For the first window of a log, the mean force in
+/// its first half second is used.
 bool moves_backward(const LogWindow& window) {
   constexpr double kBefore_s = 1.0;
   constexpr double kAfter_s = 0.5;
@@ -82,13 +84,13 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
     if (end - begin >= kShortestWindow) windows.push_back({&log, begin, end});
     begin = end;
   };
-  std::size_t piece_end = 0;  // end of the part without a gap that contains `begin`
+  std::size_t piece_end = 0;  // the part without gaps that contains `begin` ends before this row
   for (std::size_t row = 1; row <= log.rows(); ++row) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > kGapSteps * step_s) {
       piece_end = row;
-      // Equal parts leave no short remainder. One step is subtracted, so that the row added by
-      // add_row_of_rest() does not make a further part. The number of parts is limited to the
-      // number of rows, which a log with times in nanoseconds would exceed.
+      // Windows of equal length leave no short remainder. One step is subtracted from the span, so
+      // that the row added by add_row_of_rest() does not make a further window. There are at most
+      // as many windows as rows: times in nanoseconds that are read as seconds would require more.
       const double span_s = log.t_s[piece_end - 1] - log.t_s[begin] - step_s;
       const double most = static_cast<double>(piece_end - begin);
       const auto parts =
@@ -163,15 +165,16 @@ State<double> measured_initial_state(const LogWindow& window) {
 
 namespace {
 
-/// Speed, m/s or rad/s, below which a resistance may be replaced by a straight line through the
+/// Speed, m/s or rad/s. Below it, a resistance may be replaced by a straight line through the
 /// origin (rest_speed()), because logs do not resolve slower motion.
 constexpr double kChordSpeed = 0.01;
 
-/// Longest step h, s, that resolves a resistance g(w) without its Coulomb friction:
+/// Longest integration step h, s, that resolves a resistance g(w) without its Coulomb friction. w
+/// is the speed or yaw rate, beta the exponent of g, inertia m' or I'z:
 ///   h <= inertia w/(max(1, beta) g(w))
-/// This bound is computed at two speeds w, kChordSpeed and the steady speed under `force`, because
-/// g(w)/w is largest at the first for beta < 1 and at the second for beta > 1. The Runge-Kutta
-/// method is stable up to 2.78 times this step.
+/// The bound is computed at w = kChordSpeed and at the steady w under `force`. g(w)/w is largest at
+/// the first one if beta < 1, at the second one if beta > 1. The Runge-Kutta method is stable up to
+/// 2.78 times this step.
 double resistance_step_s(Resistance<double> law, double inertia, double force) {
   law.coulomb = 0.0;
   double step_s = std::numeric_limits<double>::infinity();

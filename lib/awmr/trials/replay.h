@@ -33,10 +33,10 @@ inline int steps_in(double span_s, double longest_step_s) {
   return std::max(1, static_cast<int>(std::ceil(span_s / longest_step_s - 1e-9)));
 }
 
-/// Mean force over [t, t + h] of motors with lag. `delay_s`: latency of the commands, null for
-/// none; the result carries the derivative with respect to it. `command`: mean command over the
-/// same time, after the delay. If the motors have back-EMF and the command is 0, the force is 0 at
-/// once, because the lag does not apply to a motor that is switched off.
+/// Mean force over [t, t + h] of motors with lag. `delay_s`: latency of the commands; null if they
+/// have none. If T is ceres::Jet, the result has the derivative with respect to the latency.
+/// `command`: mean of the delayed command over [t, t + h]. If the motors have back-EMF and the
+/// command is 0, the force is 0 without lag, because the motor is then switched off.
 template <class T>
 SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals, double t_s,
                            double h_s, const T* delay_s, const SideForces<T>& command,
@@ -52,8 +52,9 @@ SideForces<T> lagged_force(const LaggedForces& lagged, const LogSignals& signals
           side(mean.force.right, mean.by_delay.right, command.right)};
 }
 
-/// Advances `state` from the time `from_s` to `to_s`, both between `row` and the next row, with
-/// constant commands: those of the row `acting`. Other arguments: see replay_rows().
+/// Advances `state` from the time `from_s` to `to_s`, both between `row` and the next row. The
+/// commands are constant in this time: those of the row `acting`. Other arguments: see
+/// replay_rows().
 template <class T, class Step>
 State<T> step_between(const LogSignals& signals, std::size_t row, std::size_t acting,
                       const T& from_s, const T& to_s, const Plant<T>& plant, const T* delay_s,
@@ -128,8 +129,9 @@ void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
   }
 }
 
-/// In a log with a steering angle but no command, the logged angle is used unchanged, even beyond
-/// the steering stop: sets the stop to 10 rad. Otherwise returns the plant unchanged.
+/// Returns the plant with a steering stop of 10 rad if the log has a steering angle but no steering
+/// command. The logged angle is then used unchanged, even beyond the real stop. For other logs,
+/// returns the plant unchanged.
 template <class T>
 Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
   if (!log.steering_command_rad) plant.steering_max_rad = T(10.0);
@@ -149,7 +151,7 @@ class ModelStep {
   /// The plant with the steering stop of without_stop_of_logged_angle(), and without Coulomb
   /// friction, which rates() and the integration step add.
   const Plant<T>& plant() const { return plant_; }
-  /// Time derivatives of the state, with friction.
+  /// Time derivatives of the state, with Coulomb friction.
   State<T> rates(const State<T>& at, const SideForces<T>& force, const T& steering) const {
     const State<T> free = state_rates(plant_, at, force, steering);
     return with_friction(friction_, sliding(friction_, at, free), free);
@@ -166,7 +168,8 @@ class ModelStep {
   FrictionRates<T> friction_;
 };
 
-/// replay_rows() with the 3-DOF model. Precondition: that of the constructor of ModelStep.
+/// Calls replay_rows() with the 3-DOF model. Precondition: `plant` fulfils the precondition of the
+/// constructor of ModelStep.
 template <class T, class Visit>
 void replay(const LogSignals& signals, std::size_t begin, std::size_t end, const Plant<T>& plant,
             const T* delay_s, double longest_step_s, State<T> state, Visit visit,
@@ -176,9 +179,9 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, const
               step);
 }
 
-/// replay_rows() with the four-wheel model, without latency of the commands. Precondition:
-/// `vehicle.body` is a result of resolved_at_rest_on_tyres(). Returns false if the tyres became too
-/// stiff for any step; the states from then on are invalid.
+/// Calls replay_rows() with the four-wheel tyre model, without latency of the commands.
+/// Precondition: `vehicle.body` is a result of resolved_at_rest_on_tyres(). Returns false if the
+/// tyres became too stiff for any step; the states from then on are invalid.
 template <class Visit>
 bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
             FourWheels<double> vehicle, double longest_step_s, const State<double>& state,
@@ -242,17 +245,19 @@ void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
   }
 }
 
-/// Initial state of a window: the first measurement of each channel in it. Without a measurement,
-/// the yaw rate is derived from the heading, heading and speed from the positions, and the steering
-/// angle is the command at the first row; otherwise the state is 0. The heading from positions is
-/// the direction of motion, or opposite to it if the vehicle moves backward, as its speed (without
-/// a speed, its commands) shows.
+/// Initial state of a window: the first measurement of each channel in it. If a channel has none,
+///   - the yaw rate is derived from the heading;
+///   - the heading and the speed are derived from the positions. The heading is the direction of
+///     motion, or its opposite if the speed (without a speed, the commands) shows that the vehicle
+///     moves backward;
+///   - the steering angle is the steering command at the first row;
+///   - any other component is 0.
 State<double> measured_initial_state(const LogWindow& window);
 
-/// Longest step of replay() that is accurate for this plant, s: a quarter of the shortest time
-/// constant of servo, sway and back-EMF braking, and no longer than the resistances of surge and
-/// yaw allow. With steps of a quarter of a time constant, the Runge-Kutta method has a
-/// relative error of 3e-5 per time constant of an exponential decay.
+/// Longest step of replay() that is accurate for this plant, s. It is a quarter of the shortest
+/// time constant of servo, sway and back-EMF braking, or the step that the resistances of surge and
+/// yaw allow, if that is shorter. With steps of a quarter of a time constant, the Runge-Kutta
+/// method has a relative error of 3e-5 per time constant of an exponential decay.
 double replay_step_s(const Plant<double>& plant);
 
 /// Shortest permitted step, s. It resolves a time constant of 0.4 ms, shorter than that of any

@@ -39,7 +39,8 @@ std::vector<WindowMoments> moments_of(const DrivingLog& log, LogChannel channel)
 /// True if a channel is only noise about a constant value. Analysis of variance: F = n var(means of
 /// the windows)/(mean variance within a window) is at most kMaxRatio (n: readings per window).
 bool is_noise_alone(const std::vector<WindowMoments>& windows) {
-  // F can exceed 1 for correlated noise; motion gives more than 100.
+  // F is about 1 for white noise, and somewhat larger for correlated noise. Motion gives more than
+  // 100.
   constexpr double kMaxRatio = 5.0;
   const auto n = static_cast<double>(windows.size());
   double mean = 0.0, within = 0.0, readings = 0.0, between = 0.0;
@@ -54,7 +55,8 @@ bool is_noise_alone(const std::vector<WindowMoments>& windows) {
 
 /// True if the mean speed is 0 within its error, or slower than any vehicle of this length drives.
 bool is_about_zero(const std::vector<WindowMoments>& windows, double length_m) {
-  constexpr double kFroude = 0.005;  // Froude number u/sqrt(g length) of the slowest driving
+  // Froude number u/sqrt(g length) below which no vehicle drives; u: speed, g: gravity.
+  constexpr double kFroude = 0.005;
   double sum = 0.0, count = 0.0, variance = 0.0;
   for (const WindowMoments& w : windows) {
     sum += w.mean * w.count;

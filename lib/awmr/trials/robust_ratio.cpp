@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMinPairs = 10;
 constexpr double kLargestSpread = 0.6;
-/// Pairs with a smaller |x| are skipped: the vehicle is at rest.
+/// Pairs (x, y) with a smaller |x| are skipped, because the vehicle is at rest.
 constexpr double kSmallest = 1e-9;
 
 }  // namespace

@@ -9,12 +9,14 @@ namespace awmr {
 
 struct RobustRatio {
   double ratio = 0.0;
-  double spread = 0.0;  ///< median absolute deviation of the pairs' y/x, divided by |ratio|
-  int pairs = 0;        ///< number of pairs used
+  /// Median absolute deviation of the ratios y/x from `ratio`, divided by |ratio|.
+  double spread = 0.0;
+  int pairs = 0;  ///< number of pairs used
 };
 
-/// Median of y/x over the half of the pairs with the larger |x|. Empty if this half has fewer than
-/// 10 pairs, or if `spread` would exceed 0.6 because the two signals are not proportional.
+/// Returns the median of y/x over the half of the pairs (x, y) with the larger |x|. Empty if this
+/// half has fewer than 10 pairs, or if `spread` would exceed 0.6: the two signals are then not
+/// proportional.
 std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y);
 
 }  // namespace awmr

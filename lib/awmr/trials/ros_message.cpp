@@ -92,8 +92,8 @@ const MessageType* type_of(std::string_view name) {
   return nullptr;
 }
 
-/// Reads CDR. Numbers are aligned to their size, counted from the end of the 4-byte encoding
-/// header.
+/// Reads a message in CDR (the serialisation of ROS 2). Numbers are aligned to their size. Offsets
+/// count from the end of the encoding header, which has 4 bytes.
 class CdrReader {
  public:
   /// Precondition: at least four bytes.

@@ -40,11 +40,11 @@ Result<Database> open(std::string_view bytes, const std::string& file) {
   auto* copy = static_cast<unsigned char*>(sqlite3_malloc64(bytes.size()));
   if (copy == nullptr) return program_fault("no memory for the bag");
   std::copy(bytes.begin(), bytes.end(), copy);
-  // Bytes 18 and 19 give the journal mode; 2 is a write-ahead log, which a database in memory
-  // lacks.
+  // Bytes 18 and 19 of an SQLite file give the journal mode. 2 means a write-ahead log, which a
+  // database in memory does not support, so both are set to 1 (rollback journal).
   if (bytes.size() > 19 && copy[18] == 2 && copy[19] == 2) copy[18] = copy[19] = 1;
   const auto size = static_cast<sqlite3_int64>(bytes.size());
-  // SQLite frees the copy even if this fails.
+  // SQLite frees `copy`, even if sqlite3_deserialize() fails.
   if (sqlite3_deserialize(handle, "main", copy, size, size,
                           SQLITE_DESERIALIZE_FREEONCLOSE | SQLITE_DESERIALIZE_READONLY) !=
       SQLITE_OK) {

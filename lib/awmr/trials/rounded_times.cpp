@@ -16,24 +16,26 @@ namespace {
 
 constexpr double kTick_s = 1e-6;  ///< times are compared in multiples of this
 constexpr std::size_t kMinRows = 20;
-/// Minimum number of steps that differ from the usual one. Fewer such steps are attributed to
-/// single late rows.
+/// Minimum number of time steps that differ from the usual step. If fewer differ, single rows were
+/// late, and the times are not rounded.
 constexpr int kMinUnequal = 10;
-/// Minimum q, as a fraction of the usual step, for which times are replaced.
+/// Rounded times are replaced only if their resolution is at least this fraction of the usual time
+/// step.
 constexpr double kMatters = 0.01;
-/// Minimum q, as a fraction of the usual step and in ticks, for which unevenly spaced rows are
-/// reported.
+/// Rounded times of unevenly spaced rows are reported only if their resolution is at least kCoarse
+/// times the usual step, and at least kCoarse_ticks.
 constexpr double kCoarse = 0.2;
 constexpr std::int64_t kCoarse_ticks = 5000;
-/// If all steps are multiples of the usual one and fewer than this fraction differ from it, rows
-/// are missing and the times are not rounded.
+/// If all time steps are multiples of the usual step, and fewer than this fraction differ from it,
+/// the times are not rounded; some rows are missing.
 constexpr double kMissingRows = 0.2;
 
 /// Rounding of the times of a file.
 struct RoundedTimes {
-  double resolution_s = 0.0;   ///< q: all time steps are multiples of it
-  double step_s = 0.0;         ///< h
-  std::vector<double> even_s;  ///< times without rounding; empty if the rows are not evenly spaced
+  double resolution_s = 0.0;  ///< q: largest number of which all time steps are multiples
+  double step_s = 0.0;        ///< h
+  /// Estimated times without rounding; empty if the rows are not evenly spaced.
+  std::vector<double> even_s;
 };
 
 std::vector<std::int64_t> steps_in_ticks(std::span<const double> t_s) {
@@ -51,7 +53,8 @@ std::int64_t median_of(std::vector<std::int64_t> steps) {
 }
 
 /// Row numbers n_k: 0, 1, 2, ... plus the number of missing rows before each row. The step between
-/// rows is estimated as the mean of the steps within one q of the median.
+/// rows is estimated as the mean of all steps that differ from the median step by at most the
+/// resolution.
 std::vector<double> numbers_with_missing_rows(const std::vector<std::int64_t>& steps,
                                               std::int64_t resolution) {
   const std::int64_t usual = median_of(steps);
@@ -70,10 +73,10 @@ std::vector<double> numbers_with_missing_rows(const std::vector<std::int64_t>& s
   return numbers;
 }
 
-/// The line t_0 + n_k h fitted to the times, in s. Empty if its errors are not those of rounding:
-/// an error exceeds q, or the standard deviation exceeds q/sqrt(6). Rounding alone has q/sqrt(12).
-/// At q/sqrt(6), the true spacing varies as much as the rounding, and the rounded times are as good
-/// as the line.
+/// Fits the line t_0 + n_k h to the times, s; h is the step between rows, q the resolution. Empty
+/// if rounding does not explain the deviations from the line: one exceeds q, or their standard
+/// deviation exceeds q/sqrt(6). Rounding alone gives q/sqrt(12). At q/sqrt(6), the true spacing
+/// varies as much as the rounding, and the rounded times are as good as the line.
 std::optional<RoundedTimes> even_times(std::span<const double> t_s,
                                        const std::vector<double>& numbers, double resolution_s) {
   const auto n = static_cast<double>(t_s.size());
@@ -101,8 +104,8 @@ std::optional<RoundedTimes> even_times(std::span<const double> t_s,
   return is_rounding ? std::optional(std::move(result)) : std::nullopt;
 }
 
-/// Finds rounded times. Empty if rounding does not matter: nearly all steps are equal, some rows
-/// are missing, or q is small.
+/// Finds rounded times. Empty if rounding does not matter: nearly all steps are equal, only rows
+/// are missing, or the resolution is fine compared with the steps.
 std::optional<RoundedTimes> check_rounding(std::span<const double> t_s) {
   if (t_s.size() < kMinRows) return std::nullopt;
   const std::vector<std::int64_t> steps = steps_in_ticks(t_s);

@@ -28,7 +28,7 @@ struct Signals {
   std::vector<CsvNote> notes = {};
 };
 
-/// Function that returns true if the values of a signal are requested.
+/// Function that selects signals: true if the values of the signal `name` are requested.
 using Wanted = std::function<bool(const std::string& name)>;
 
 /// Maximum number of signals per file.

@@ -17,13 +17,14 @@ struct Stretch {
   std::size_t end = 0;
 };
 
-/// Steering angle by row, rad: measured, or commanded if it was not measured.
+/// Steering angle of each row, rad: the measured one, or the command if none was measured.
 const std::vector<double>& steering_angle_of(const DrivingLog& log) {
   return log[LogChannel::kSteering] ? log[LogChannel::kSteering]->value : *log.steering_command_rad;
 }
 
 std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
-  // The command shows where the steering changes; a measured angle changes in every row by noise.
+  // Changes of the steering are found in the command, because noise changes a measured angle in
+  // every row.
   const std::vector<double>& steering = log.driving_steering_rad();
   const double gap_s = kGapSteps * log.median_step_s();
   std::vector<Stretch> stretches;
@@ -89,8 +90,8 @@ bool is_steady(const Line& line, double drift) {
          std::abs(line.rise) <= 3.0 * line.rise_error;
 }
 
-/// Cuts rows off the beginning of `stretch` until it is steady (SteadyRule), and returns the line
-/// fitted to the rate there; empty if it is never steady.
+/// Cuts rows off the beginning of `stretch` until the remainder is steady (SteadyRule). Returns the
+/// straight line fitted to the rate in the remainder. Empty if no remainder is steady.
 std::optional<Line> steady_rest(const DrivingLog& log, const Measured& rate, const SteadyRule& rule,
                                 Stretch& stretch) {
   for (double from_s = log.t_s[stretch.begin] + rule.settling_s;; from_s += rule.later_s) {
@@ -133,7 +134,7 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
   if (!rate || (!by_sides && (!(left > 0.0) || uneven))) return std::nullopt;
   const auto line = steady_rest(log, *rate, rule, stretch);
   if (!line) return std::nullopt;
-  // If the mean rate is 0 within its error, the vehicle may be at rest.
+  // A mean rate that does not exceed three standard errors may be 0: the vehicle may be at rest.
   if (!(std::abs(line->mean) > 3.0 * line->mean_error) || line->mean == 0.0) return std::nullopt;
   const double left_turn = by_sides ? right - left : steering_rad;
   if (turning ? line->mean * left_turn < 0.0 : line->mean < 0.0) return std::nullopt;
@@ -144,7 +145,7 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
                    {left, right}};
 }
 
-/// Turning row of a steady run of a vehicle without steering.
+/// Builds the row of a turning table from a steady run of a vehicle without steering.
 TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
   const auto [least, most] = std::minmax(run.sides.left, run.sides.right);
   return {.line = run.segment.line,

@@ -22,21 +22,28 @@ namespace awmr {
 /// be forward. The mean rate must also exceed three standard errors and have the direction of the
 /// command.
 struct SteadyRule {
-  double same = 1e-3;            ///< in units of F' and in rad, >= 0: increase for noisy commands
-  double settling_s = 1.0;       ///< s, >= 0: increase for vehicles that settle slowly
-  double shortest_s = 1.0;       ///< s, > 0: decrease to accept more, less certain segments
-  double later_s = 0.25;         ///< s, > 0: length of each further piece that is cut off
-  double drift = 0.03;           ///< > 0, fraction of the mean rate: decrease to be stricter
-  double straight_rad = 0.0087;  ///< rad, > 0: largest steering angle of a surge run, 0.5 deg
+  /// Largest accepted change of a constant command, in F' or rad, >= 0; increase it for noisy
+  /// commands.
+  double same = 1e-3;
+  /// Time cut off after a change of command, s, >= 0; increase it for vehicles that settle slowly.
+  double settling_s = 1.0;
+  /// Shortest segment, s, > 0; decrease it to accept more, less certain segments.
+  double shortest_s = 1.0;
+  double later_s = 0.25;  ///< length of each further piece that is cut off, s, > 0
+  /// Largest accepted change of the rate, as a fraction of its mean, > 0.
+  double drift = 0.03;
+  /// Largest steering angle of a surge run, rad, > 0; default 0.5 deg.
+  double straight_rad = 0.0087;
 };
 
 /// A part of a log with steady motion.
 struct SteadySegment {
-  double begin_s = 0.0;    ///< t_s of its first row
-  double end_s = 0.0;      ///< t_s of its last row
-  int line = 0;            ///< line of its first row in the file
-  bool turning = false;    ///< true: turning run; false: surge run
-  double mean_rate = 0.0;  ///< magnitude: rad/s of a turning run, m/s of a surge run
+  double begin_s = 0.0;  ///< t_s of its first row
+  double end_s = 0.0;    ///< t_s of its last row
+  int line = 0;          ///< line of its first row in the file
+  bool turning = false;  ///< true: turning run; false: surge run
+  /// Magnitude of the yaw rate (turning run, rad/s) or speed (surge run, m/s).
+  double mean_rate = 0.0;
   /// Standard error of mean_rate, from the scatter about the straight line. Assumes independent
   /// errors of neighbouring rows.
   double std_error = 0.0;
@@ -61,9 +68,10 @@ struct SteadyWheel {
 };
 
 /// Returns the steady speeds of the wheels in the segments of the log in which speed and yaw rate
-/// are steady (SteadyRule). A segment with equal commands left and right gives one speed, u; others
-/// give u - d r for the left and u + d r for the right wheels. Without a yaw rate, only segments
-/// with equal commands are used.
+/// are steady (SteadyRule). A segment with equal commands left and right gives one speed, the
+/// vehicle's speed u. Other segments give u - d r for the left and u + d r for the right wheels,
+/// where r is the yaw rate, and d is half the track width. Without a yaw rate, only segments with
+/// equal commands are used.
 std::vector<SteadyWheel> steady_wheels(const DrivingLog& log, const Vehicle& vehicle,
                                        const SteadyRule& rule);
 

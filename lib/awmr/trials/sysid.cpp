@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-/// Names of the tests in the order of their runs.
+/// Names of the tests that a file may contain. Each test becomes a run, in this order.
 constexpr std::array<std::string_view, 9> kSysIdTests{
     "slow-forward",    "slow-backward",       "fast-forward",
     "fast-backward",   "quasistatic-forward", "quasistatic-backward",
@@ -28,7 +28,7 @@ struct SysIdLength {
 constexpr std::array<SysIdLength, 3> kSysIdLengths{
     {{"Meters", 1.0}, {"Feet", 0.3048}, {"Inches", 0.0254}}};
 
-/// Conversion of a number: none, radians to degrees, rotations to metres.
+/// Conversion of a number in the file: none, radians to degrees, rotations to metres.
 enum class SysIdUnit { kNone, kDegrees, kMetres };
 
 /// A number of a row that becomes a column.
@@ -219,9 +219,9 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
   tests_.emplace_back(test);
 }
 
-/// Makes the voltages of a side negative if the side turned backward and no voltage is negative:
-/// some robot programs record voltages without sign. (SysId itself gives every voltage the sign of
-/// its velocity.)
+/// Makes all voltages of one side of the robot negative if its wheels turned backward and none of
+/// its voltages is negative: some robot programs record voltages without sign. (SysId itself gives
+/// a voltage the sign of the wheels' velocity.)
 void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
                                         std::string_view test) {
   const auto values_of = [&](std::string_view name) -> std::vector<double>& {

@@ -26,7 +26,7 @@
 
 namespace awmr {
 
-/// All tests one after the other. `t_s` begins at 0 in each run.
+/// The rows of all tests, one test after the other. Each test is a run whose `t_s` begins at 0.
 struct SysIdLog {
   std::vector<std::string> header = {};           ///< column names: run, t_s, left_volts, ...
   std::vector<std::vector<double>> columns = {};  ///< by column, then by row

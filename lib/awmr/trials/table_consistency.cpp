@@ -24,8 +24,8 @@ struct Table {
   std::vector<Finding>& findings;
   std::vector<Fault>& faults;
 
-  /// Reports a contradiction as a fault, or with `as_is` as a finding. `remedy`: "map it with ...",
-  /// or empty.
+  /// Reports a contradiction as a fault, or as a finding if the option `as_is` is set. `remedy`:
+  /// advice such as "map it with ..."; may be empty.
   void report(int line, const std::string& message, const std::string& remedy) const {
     if (options.as_is) {
       findings.push_back({file, line, Severity::kWarning, "table-contradiction", message});
@@ -79,12 +79,13 @@ double side_limit(const Vehicle& vehicle) {
   return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
 }
 
-/// Range of the wheel forces over all tables of a vehicle whose forces are in another unit than F'.
+/// Range of the wheel forces over those tables of a vehicle in which the forces exceed the limit
+/// and cannot be F'. Absent if there is no such table.
 struct FolderForces {
   std::optional<ForceSpan> wheels = {};
 
-  /// Range that decides the unit of a column with the range `own`: the range over all tables, or
-  /// only `own` if its forces can be F'.
+  /// Returns the range of forces from which the unit of a column is determined. `own`: range of the
+  /// column itself, which is returned if its values can be F'. Otherwise returns `wheels`.
   ForceSpan with(const ForceSpan& own) const {
     return is_share_of_f_max(own) || !wheels ? own : *wheels;
   }
@@ -141,8 +142,9 @@ void check_wheel_force(const Table& table, const std::vector<TurningRow>& rows,
                remedy_of(units, force_unit_fixes(units, "wheel_force"), table.options.columns));
 }
 
-/// Checks the tau_speed of surge runs against n F'max, n the number of driven wheels:
-///   tau_speed = 4 F' for n = 4 and the wheels straight                             [paper (41)]
+/// Checks the tau_speed of surge runs against its limit n F'max, with the number n of driven wheels
+/// and the largest force F'max of one wheel. For n = 4 and straight wheels
+///   tau_speed = 4 F'                                                                [paper (41)]
 void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tables& tables) {
   const Vehicle& vehicle = tables.vehicle;
   const int wheels = vehicle.driven_wheels();
@@ -170,11 +172,12 @@ void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tab
       remedy_of(found.units, found.unit_fixes, table.options.columns));
 }
 
-/// Reports steering angles that are probably in radians: all below 2 % of the stop, which is in
-/// degrees. Returns false if reported.
+/// Reports steering angles that are probably in radians, because all are below 2 % of the steering
+/// stop in degrees. Returns false if it reports them.
 bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
                     const Vehicle& vehicle) {
-  // Largest angle, as a fraction of the stop, that may be in radians (1 deg is 0.0175 rad).
+  // Angles may be in radians if all are below this fraction of the stop in degrees: 1 deg is 0.0175
+  // rad.
   constexpr double kSmall = 0.02;
   if (rows.empty()) return true;
   const double steepest_deg =
@@ -210,7 +213,7 @@ void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                    fastest_mps, fastest_mps / driven_mps, driven_mps)});
 }
 
-/// First row or point of the coast-down with the highest initial speed.
+/// The coast-down with the highest initial speed, and the line with its first row.
 struct FastestCoast {
   std::string file = {};
   int line = 0;

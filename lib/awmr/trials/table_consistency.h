@@ -13,9 +13,10 @@ namespace awmr {
 /// The vehicle and its other tables, with which a table is compared.
 struct Tables {
   const Vehicle& vehicle;
-  /// Determines the top speed and the unit of force.
+  /// Surge runs. They determine the top speed and the unit of force.
   const std::optional<TrialSet<SurgeRow>>& surge;
-  const std::optional<TrialSet<TurningRow>>& turning;  ///< determines the unit of force
+  /// Turning runs, which also determine the unit of force.
+  const std::optional<TrialSet<TurningRow>>& turning;
 };
 
 /// Checks one table. Adds these faults, each at the first wrong row and with the mapping that would

@@ -26,8 +26,8 @@ const CsvColumn kSurgeColumns[] = {{"tau_speed", false},
                                    {"distance_m", false},
                                    {"elapsed_s", false}};
 
-// A row may leave cells empty. turning.cpp checks which columns a steered and a differential turn
-// need.
+// Cells may be empty, because a steered and a differential turn need different columns. turning.cpp
+// checks that no row lacks a cell that it needs.
 const CsvColumn kTurningColumns[] = {{"steering_deg", true},
                                      {"wheel_force", false, EmptyCells::kOptional},
                                      {"force_left", false, EmptyCells::kOptional},
@@ -134,7 +134,8 @@ std::string why_no_formula(const ColumnMapping& mapping) {
   return fmt::format(" (as arithmetic: {})", formula.error());
 }
 
-/// Reason why no file can use a mapping; empty if one can or if no header is known.
+/// Returns the reason why no file can use a mapping. Empty if a file can use it, or if no header is
+/// known.
 std::optional<std::string> unusable(const ColumnMapping& mapping,
                                     const std::vector<Header>& headers) {
   std::vector<std::string> files;
@@ -179,7 +180,7 @@ std::string trials_with(const std::string& column) {
   return fmt::format("{}", fmt::join(kinds, ", "));
 }
 
-/// Reason why a mapping is unused although a file has its columns.
+/// Returns the reason why a mapping is unused although a file has its source columns.
 std::string why_unused(const ColumnMapping& mapping) {
   return fmt::format(
       "no file with the columns of this formula needs {}, which is a column of {} trials; correct "

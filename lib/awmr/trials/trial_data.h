@@ -24,7 +24,8 @@ struct TrialData {
 struct Trials {
   Vehicle vehicle;
   TrialData data;
-  std::vector<Finding> findings;  ///< from reading surge, turning, coast-downs, logs, in this order
+  /// Findings of the surge, turning and coast-down files and of the logs, in this order.
+  std::vector<Finding> findings;
 };
 
 }  // namespace awmr

@@ -78,7 +78,8 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
   if (!counted) return RateInRow{printed.value_or(0.0), {}, {}};
 
   if (*elapsed_s == 0.0) {
-    // elapsed_s may be 0 only in a row at rest: the printed rate is 0, or without one the amount.
+    // elapsed_s may be 0 only in a row at rest. In such a row the printed rate is 0; if there is no
+    // printed rate, the distance or number of turns is 0.
     const double motion = printed.value_or(*amount);
     if (motion != 0.0) {
       reader.fault(ErrorCode::kOutOfRange, row, "elapsed_s",

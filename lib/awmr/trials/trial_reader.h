@@ -35,7 +35,7 @@ class TrialReader {
   /// Returns a finding with the file and the line of this row.
   Finding finding(std::size_t row, Severity severity, std::string code, std::string message) const;
 
-  /// last_place() and rounding_error() of agreement.h, for a column of this file.
+  /// Call last_place() and rounding_error() of agreement.h for a column of this file.
   double last_place(std::string_view column) const;
   double rounding_error(double printed, std::string_view column) const;
 
@@ -54,10 +54,11 @@ struct Rate {
   std::string code;                 ///< code of the finding if the two values disagree
 };
 
-/// The rate of one row, and the amount and time from which it was timed.
+/// Speed or yaw rate of one row, with the distance or number of turns and the time that determine
+/// it.
 struct RateInRow {
-  /// m/s or rad/s, >= 0: the value that TrialOptions prefer if the row has a printed and a timed
-  /// one, else the one that it has; 0 if it has neither.
+  /// The rate to use, m/s or rad/s, >= 0. If the row has a printed and a timed value, the option
+  /// `preference` selects one of them. 0 if the row has neither.
   double used = 0.0;
   /// Distance, m, or number of turns; absent unless elapsed_s > 0.
   std::optional<double> amount;

@@ -18,10 +18,11 @@ constexpr std::size_t kFileHeaderBytes = 16;
 
 /// A topic that the file announces.
 struct Subscription {
-  std::size_t needed = 0;                       ///< minimum size of a message, bytes
-  std::optional<std::size_t> time_offset = {};  ///< offset of `timestamp`; empty: not a time series
-  std::vector<ulog::Leaf> wanted = {};          ///< requested numbers of the topic
-  std::size_t topic = 0;                        ///< index in Signals::topics
+  std::size_t needed = 0;  ///< minimum size of a message, bytes
+  /// Offset of the field `timestamp`; empty: not a time series.
+  std::optional<std::size_t> time_offset = {};
+  std::vector<ulog::Leaf> wanted = {};  ///< requested numbers of the topic
+  std::size_t topic = 0;                ///< index in Signals::topics
 };
 
 struct Reading {
@@ -101,8 +102,8 @@ Status take_data(std::string_view message, std::size_t offset, Reading& reading)
   return {};
 }
 
-/// Reads a message of type 'B': flags that a reader must know, and offsets of data that were
-/// appended after a crash. Returns the offsets.
+/// Reads a message of type 'B': flags for features that a reader must support, and the offsets of
+/// data that were appended after a crash. Returns the offsets.
 Result<std::vector<std::uint64_t>> flags_of(std::string_view message, std::size_t offset,
                                             const Reading& reading) {
   constexpr std::size_t kFlagBytes = 40;

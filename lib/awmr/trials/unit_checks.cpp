@@ -16,11 +16,11 @@ namespace {
 
 /// A unit that t_s may have by mistake.
 struct TimeUnit {
-  double factor;  ///< ratio of the row spacing to the sample time if the unit is this one
+  double factor;  ///< ratio of the row spacing to the sample time if t_s has this unit
   std::string_view words;
 };
 
-/// Contradiction that names `unit` as the unit of t_s.
+/// Builds the contradiction which states that t_s is probably in `unit`, not in seconds.
 Contradiction time_in(const TimeUnit& unit, const Evidence& evidence) {
   const double step_s = evidence.log.median_step_s();
   const double sample_time_s = evidence.vehicle.sample_time_s;
@@ -40,7 +40,8 @@ std::optional<Contradiction> check_time(const Evidence& evidence) {
     if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
     return time_in(unit, evidence);
   }
-  // Row spacings below 1 ms and below a twentieth of the sample time cannot be in seconds.
+  // A row spacing below 1 ms and below a twentieth of the sample time is too short to be in
+  // seconds.
   constexpr double kFastest_s = 1e-3;
   constexpr double kOften = 0.05;
   if (step_s >= kFastest_s || ratio >= kOften) return std::nullopt;
