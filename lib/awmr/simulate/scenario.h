@@ -148,8 +148,7 @@ struct HeadingStepsOptions {
 
 /// Returns the scenario of the paper's heading runs: the vehicle starts at rest at heading 0, and
 /// each of `headings_deg` (counter-clockwise positive; not empty) is commanded in turn. For
-/// example, heading_steps({30, -30}) is the paper's scenario C3.                         [paper
-/// 4.3]
+/// example, heading_steps({30, -30}) is the paper's scenario C3. [paper 4.3]
 Scenario heading_steps(const std::vector<double>& headings_deg,
                        const HeadingStepsOptions& options = {});
 
