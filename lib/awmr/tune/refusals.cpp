@@ -31,8 +31,8 @@ std::string in_words(const Gains<double>& g) {
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
-/// Text such as " 32 % of the runs settle with these gains. This change lets the runs settle (...): ...".
-/// Empty if enough runs settle.
+/// Text such as " 32 % of the runs settle with these gains. This change lets the runs settle (...):
+/// ...". Empty if enough runs settle.
 std::string unsettled_text(const Objective& objective, const ConstraintContext& context,
                            const Gains<double>& gains) {
   ObjectiveSetting setting = on_few_vehicles(objective.setting());

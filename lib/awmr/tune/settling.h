@@ -42,8 +42,8 @@ std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
                                                 const ConstraintContext& context,
                                                 const Gains<double>& gains, double share);
 
-/// Text for messages: "Each of these changes lets runs settle (...): ...". `runs`: the word for the runs,
-/// such as "runs". Precondition: `changes` is not empty.
+/// Text for messages: "Each of these changes lets runs settle (...): ...". `runs`: the word for the
+/// runs, such as "runs". Precondition: `changes` is not empty.
 std::string describe(const std::vector<SettlingChange>& changes, std::string_view runs);
 /// Text for messages: "None of these changes lets runs settle: ...", with the changes that were
 /// tried. `runs` as in describe().

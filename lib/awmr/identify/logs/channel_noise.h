@@ -97,7 +97,8 @@ double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 ///   2. a second-order drift in place of the first-order drift, if step 1 succeeded;
 ///   3. differenced noise in place of the result of steps 1 and 2.
 /// `free_share`: degrees of freedom of the fit over the number of errors, in (0, 1]; the variances
-/// are divided by it. `before`: noise model of the previous round. Its sensor_std is kept. If it has a second-order drift, the search for a second-order drift starts from it.
+/// are divided by it. `before`: noise model of the previous round. Its sensor_std is kept. If it
+/// has a second-order drift, the search for a second-order drift starts from it.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

@@ -59,7 +59,8 @@ struct LogFitOptions {
   /// Noise levels of a fit at nearly the same coordinates, with which the search begins. Empty: the
   /// search begins with the noise of the sensors.
   NoiseLevels noise;
-  /// The fit gives up after the first round of settle_noise() if LogFit::relative_error exceeds this.
+  /// The fit gives up after the first round of settle_noise() if LogFit::relative_error exceeds
+  /// this.
   double give_up_above = std::numeric_limits<double>::infinity();
   Loss loss = Loss::kSquared;  ///< use a robust loss if a sensor has outliers
   std::uint64_t seed = 1;      ///< seed of the multistart and of the bootstrap
