@@ -19,7 +19,8 @@ constexpr long kLargestRow = 512;
 constexpr std::size_t kLongestName = 64;
 const NumberRule kScaleRule{.min = 1e-12, .max = 1e12};
 
-/// A name becomes a cell of the CSV header, so only letters, digits and _ are allowed.
+/// True if the name of a column has only letters, digits and _. Other characters are not allowed,
+/// because the name becomes a cell of a CSV header.
 bool is_plain(std::string_view name) {
   constexpr std::string_view kAllowed =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";

@@ -21,12 +21,13 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t kMinWindows = 15;
-constexpr double kSignificance = 5.0;  // smallest significant error, in standard errors
+// Errors above this number of standard errors are significant.
+constexpr double kSignificance = 5.0;
 constexpr double kMinScale = 0.03;
 constexpr double kMinOffset_rad = 0.0175;
 
-/// Divides the log into about `count` windows of 1 to 5 s. Longer windows reduce the effect of
-/// noise at their ends, but accumulate more sideslip and heading errors.
+/// Divides the log into about `count` windows of 1 to 5 s. In a longer window, the noise of its
+/// first and last reading matters less, but more errors by sideslip and heading accumulate.
 std::vector<LogWindow> calibration_windows(const DrivingLog& log, double count = 20.0) {
   constexpr double kShortest_s = 1.0;
   constexpr double kLongest_s = 5.0;
@@ -53,8 +54,9 @@ std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
   return rows;
 }
 
-/// Least squares of y = X k, in three rounds; before the second and third, outliers are removed.
-/// Empty if X is rank-deficient, or if at most twice as many rows as coefficients are left.
+/// Fits y = X k by least squares in three rounds. Outliers are removed before the second and the
+/// third round. Returns empty if X is rank-deficient, or if the rows left are at most twice as many
+/// as the coefficients.
 std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   constexpr int kRounds = 3;
   Regression found;
@@ -76,13 +78,14 @@ std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::Vect
   return found;
 }
 
-/// Displacement in one window (moved), and the integrals a (driven), b (turned), c (slipped) and
-/// d (hastened) of calibration_checks.h.
+/// Displacement of the position in one window (`moved`), and the integrals over the window that
+/// explain it. calibration_checks.h defines them as a (`driven`), b (`turned`), c (`slipped`) and d
+/// (`hastened`).
 struct CourseWindow {
   Complex moved, driven, turned, slipped, hastened;
 };
 
-/// Computes the displacement and the integrals of one window. `psi`: heading by row, rad.
+/// Computes the displacement and the integrals of one window. `psi`: heading of each row, rad.
 CourseWindow course_window(const DrivingLog& log, const LogWindow& window,
                            const std::vector<double>& psi) {
   const std::vector<double>& x = log[LogChannel::kX]->value;
@@ -106,13 +109,15 @@ CourseWindow course_window(const DrivingLog& log, const LogWindow& window,
 }
 
 struct CourseFit {
-  Complex factor;          ///< k = s exp(i phi)
-  double std_error = 0.0;  ///< standard error of the real and of the imaginary part of k
+  Complex factor;  ///< k = s exp(i phi)
+  /// Standard error of the real or of the imaginary part of k, whichever is larger.
+  double std_error = 0.0;
   double scatter_m = 0.0;  ///< standard deviation of the residuals, m
 };
 
-/// Fits the displacements (calibration_checks.h) with headings multiplied by `heading_factor`.
-/// Empty if a channel is missing, with fewer than 15 windows, or if the windows do not determine k.
+/// Fits the complex factor k between measured and integrated displacement (calibration_checks.h).
+/// The headings are first multiplied by `heading_factor`. Empty if a channel is missing, with fewer
+/// than 15 windows, or if the windows do not determine k.
 std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor = 1.0) {
   for (const LogChannel channel :
        {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kHeading}) {
@@ -122,7 +127,8 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
   if (windows.size() < kMinWindows) return std::nullopt;
   std::vector<double> psi = log[LogChannel::kHeading]->value;
   for (double& heading : psi) heading *= heading_factor;
-  // With k = p + i q: Re(k a) = p Re a - q Im a, Im(k a) = p Im a + q Re a.
+  // The complex equation of the fit is split into real and imaginary parts. A term k a with k = p +
+  // i q gives Re(k a) = p Re a - q Im a and Im(k a) = p Im a + q Re a.
   constexpr Eigen::Index kTerms = 4;
   Eigen::MatrixXd left(2 * static_cast<Eigen::Index>(windows.size()), 2 * kTerms);
   Eigen::VectorXd right(left.rows());
@@ -144,7 +150,7 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
                    found->scatter};
 }
 
-/// Integral of the yaw rate from the first row, rad, by row.
+/// For each row: the integral of the yaw rate from the first row to this one, rad.
 std::vector<double> integrated_rate(const DrivingLog& log) {
   const std::vector<double>& rate = log[LogChannel::kYawRate]->value;
   std::vector<double> psi(log.rows(), 0.0);
@@ -154,8 +160,9 @@ std::vector<double> integrated_rate(const DrivingLog& log) {
   return psi;
 }
 
-/// Scale ratio s (calibration_checks.h) of a log without heading. Empty if a channel is missing, if
-/// there are fewer than 15 windows, or if the windows do not determine s.
+/// Ratio s of the position's scale to the speed's scale, for a log without heading
+/// (calibration_checks.h). Empty if a channel is missing, if there are fewer than 15 windows, or if
+/// the windows do not determine s.
 std::optional<Calibration> distance_scale(const DrivingLog& log) {
   for (const LogChannel channel :
        {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kYawRate}) {
@@ -181,8 +188,8 @@ std::optional<Calibration> distance_scale(const DrivingLog& log) {
   return Calibration{scale, 0.5 * found->std_errors(0) / scale};
 }
 
-/// Factor k between the change of heading and the integral of the yaw rate (calibration_checks.h).
-/// Empty if a channel is missing or with fewer than 15 windows.
+/// Ratio k of the change of heading to the integral of the yaw rate (calibration_checks.h). Empty
+/// if a channel is missing or with fewer than 15 windows.
 std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
   if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log);
@@ -209,7 +216,8 @@ std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
 /// (calibration_checks.h). Without a heading, psi is the integral of the yaw rate. Empty if a
 /// channel is missing, with fewer than 15 windows in motion, or if the windows do not determine k.
 std::optional<Calibration> course_over_heading(const DrivingLog& log) {
-  constexpr double kMoving = 0.3;  // smallest displacement used, as a fraction of the longest one
+  // Windows with a displacement below this fraction of the longest one are not used.
+  constexpr double kMoving = 0.3;
   constexpr double kWindows = 60.0;
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed}) {
     if (!log[channel]) return std::nullopt;
@@ -225,7 +233,7 @@ std::optional<Calibration> course_over_heading(const DrivingLog& log) {
     longest_m = std::max(longest_m, std::abs(sums.back().moved));
   }
   std::vector<double> angles_rad;
-  std::vector<Eigen::RowVector4d> rows;  // columns: psi, change of psi, time, 1
+  std::vector<Eigen::RowVector4d> rows;  // regressors of each window: psi, change of psi, time, 1
   double before_rad = 0.0;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (!(std::abs(sums[w].moved) > kMoving * longest_m)) continue;

@@ -23,7 +23,7 @@ struct RowSpan {
 
 struct ChannelQuality {
   Repeats repeats = Repeats::kNone;
-  std::vector<bool> fresh;          ///< by row: true if the value is a measurement
+  std::vector<bool> fresh;          ///< for each row: true if the value is a measurement
   double quantum = 0.0;             ///< resolution, in the unit of the values; 0: not detected
   std::vector<std::size_t> spikes;  ///< rows with a spike: the value jumps away and back
   std::vector<RowSpan> stuck;       ///< rows with one repeated value while the command changed

@@ -23,7 +23,8 @@
 namespace awmr {
 namespace {
 
-/// A guess of a column's unit, with the expression that converts the column to awmr's unit.
+/// A guess of the unit of a file's column, with the `--column` expression that converts the column
+/// to awmr's unit.
 struct Scale {
   std::string expression;
   Confidence confidence = Confidence::kUnsure;
@@ -61,8 +62,8 @@ double largest(const std::vector<double>& values) {
 constexpr double kUsualStop_deg = 20.0;
 constexpr double kUsualVolts = 12.0;
 
-/// True if the values may be pulses of a servo or a motor driver, us: from 500 below to 500 above
-/// 1500.
+/// True if the values may be pulse lengths of a servo or a motor driver in us: all lie between 800
+/// and 2200. (Usual pulses have 1000 to 2000 us.)
 bool looks_like_pulses(const std::vector<double>& values) {
   if (values.empty()) return false;
   const auto [least, most] = std::ranges::minmax(values);
@@ -178,7 +179,8 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   }
 }
 
-/// Index of the file's column that the guess uses; empty for a formula of several columns.
+/// Index of the file's column that the guess uses. Empty if the guess is a formula of several
+/// columns.
 std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample& sample) {
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const std::string name = quoted(sample.names[i]);
@@ -189,14 +191,14 @@ std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample&
   return std::nullopt;
 }
 
-/// Clears guesses whose source column is constant while other channels move, because such a column
-/// is not a measurement.
+/// Clears each guess whose source column is constant while other channels of the file move: a
+/// constant column is then not a measurement.
 void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   for (ColumnGuess& guess : guesses) {
     const auto source = source_of(guess, sample);
     if (!source) continue;
-    // The channel of this guess has the values of the guess's source column; any other channel has
-    // those of the source column of its first guess.
+    // Returns the values of one of awmr's columns. For the column of this guess, they come from the
+    // guess's source column; for any other column, from the source column of its first guess.
     const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {
       if (column == guess.column) return sample.values[*source];
       for (const ColumnGuess& other : guesses) {
@@ -287,7 +289,7 @@ std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind)
     return std::find(sample.names.begin(), sample.names.end(), name) != sample.names.end();
   };
   for (const CsvColumn& column : columns_of(kind)) {
-    // Only a table of speed bins (from_mps) needs elapsed_s.
+    // Among coast-down files, only a table of speed bins (column from_mps) needs elapsed_s.
     if (kind == TrialKind::kCoastdown && column.name == "elapsed_s" && !has("from_mps")) continue;
     const std::vector<ColumnGuess> guesses = guesses_of(column.name, sample, kind);
     all.insert(all.end(), guesses.begin(), guesses.end());
@@ -317,7 +319,8 @@ std::vector<std::string> unused_columns(const FileSample& sample,
                                         const std::vector<ColumnGuess>& guesses) {
   std::set<std::string> used;
   for (const ColumnGuess& guess : guesses) {
-    // In the form SOURCE*SCALE+OFFSET, the name of the source may have any characters.
+    // A guess of the form SOURCE*SCALE+OFFSET is matched by text, because SOURCE may contain
+    // characters that ColumnExpression::parse() does not accept in a name.
     for (const std::string& name : sample.names) {
       if (guess.expression == name || guess.expression.starts_with(name + "*")) used.insert(name);
     }

@@ -32,8 +32,8 @@ const ChannelInfo& info(LogChannel channel);
 /// the log repeats its last value: repeated values are not fresh. A sensor with coarse resolution
 /// is fresh in every row. Spikes, stuck and saturated values are not fresh (channel_quality.h).
 struct Measured {
-  std::vector<double> value;  ///< values by row, SI; the heading has no jumps by full turns
-  std::vector<bool> fresh;    ///< by row: true if the value is a measurement
+  std::vector<double> value;  ///< one value per row, SI; the heading has no jumps by full turns
+  std::vector<bool> fresh;    ///< for each row: true if the value is a measurement
   int fresh_count = 0;        ///< number of fresh rows
   /// True: the sensor is slower than the log, which repeats its last value.
   bool held = false;

@@ -39,8 +39,8 @@ void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow
   }
 }
 
-/// Heading by row, rad; without a heading channel the integral of the yaw rate, from 0. Empty if
-/// both channels are missing.
+/// Heading of each row, rad; without a heading channel the integral of the yaw rate, from 0. Empty
+/// if both channels are missing.
 std::vector<double> headings_of(const DrivingLog& log) {
   if (const auto& heading = log[LogChannel::kHeading]) return heading->value;
   const auto& rate = log[LogChannel::kYawRate];

@@ -17,8 +17,8 @@
 namespace awmr {
 namespace {
 
-/// Columns whose sign may be wrong. kSides: force_left and force_right; a wrong sign of their
-/// difference means that they are swapped.
+/// Columns whose sign may be wrong. kSides stands for force_left and force_right. If the sign of
+/// their difference is wrong, the two columns are swapped.
 enum class Signed { kSteering, kSides, kYawRate, kHeading, kY };
 constexpr std::size_t kSignedCount = 5;
 
@@ -26,14 +26,15 @@ constexpr std::size_t kSignedCount = 5;
 struct SignRelation {
   Signed a;
   Signed b;
-  int sign;  ///< +1: the signs agree; -1: one of the two columns has the wrong sign
+  int sign;  ///< +1: the signs of both columns agree; -1: one of them is wrong
 };
 
 /// Relation of the course over ground (the direction in which the positions move) to the heading.
 struct CourseRelation {
   /// +1: positions move along the heading; -1: along its mirror image; 0: undetermined.
   int sign = 0;
-  double offset_rad = 0.0;  ///< mean angle from the heading or its mirror image to the course
+  /// Mean angle from the heading (sign = 1) or its mirror image (sign = -1) to the course.
+  double offset_rad = 0.0;
 };
 
 CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
@@ -55,8 +56,9 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   }
   // On a straight drive, the heading and its mirror image cannot be distinguished.
   if (n < 10.0 || std::abs(headings) / n > 0.95) return {};
-  // Largest scatter of the angles, on a scale from 0 to 1. With the right sign, the angles scatter
-  // only by noise; with the wrong sign, twice the heading is added to every angle.
+  // Largest scatter of the angles between heading and course, on a scale from 0 to 1. With the
+  // right sign of the heading, the angles scatter only by noise. With the wrong sign, each angle
+  // has an error of twice the heading.
   constexpr double kMaxNoise = 0.3;
   const auto holds = [n](double one, double other) {
     const double of_one = 1.0 - one / n;
@@ -67,9 +69,10 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   return {};
 }
 
-/// The sign of course_relation() for logs without a heading, with the integral of the yaw rate in
-/// place of the heading. Because this integral drifts, parts of 60 windows (about a minute) are
-/// evaluated separately. 0 if two parts contradict each other, or if no part determines the sign.
+/// Returns the sign of course_relation() for logs without a heading. The integral of the yaw rate
+/// replaces the heading. As this integral drifts, parts of 60 windows (about a minute) are
+/// evaluated separately. Returns 0 if two parts contradict each other, or if no part determines the
+/// sign.
 int turning_sign(std::span<const EvidenceWindow> windows) {
   constexpr std::size_t kPart = 60;
   int sign = 0;
@@ -117,8 +120,9 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
 
 unsigned bit(Signed column) { return 1U << static_cast<unsigned>(column); }
 
-/// Smallest sets of columns, one bit per column, that make all relations agree if the signs of the
-/// columns are changed. `fixed`: columns whose sign is known to be right.
+/// Returns the smallest sets of columns that may have the wrong sign: if the signs of all columns
+/// of such a set are changed, all relations agree. A set has one bit per column. `fixed`: columns
+/// whose sign is known to be right.
 std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations, unsigned fixed) {
   std::vector<unsigned> best;
   std::size_t least = kSignedCount + 1;
@@ -137,11 +141,13 @@ std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations,
   return best;
 }
 
-/// Offset to add to the heading after changing its sign, deg, a multiple of 90. It is needed if a
-/// compass counts from north and x points east. 0 if the positions show no such offset.
+/// Offset, deg, that must be added to the heading after its sign was changed; a multiple of 90. It
+/// is needed if a compass counts from north and x points east. 0 if the positions show no such
+/// offset.
 double mirrored_heading_deg(const Evidence& evidence) {
   constexpr double kQuarter_deg = 90.0;
-  constexpr double kClose_deg = 20.0;  // tolerance for declination and sideslip, deg
+  // Largest accepted difference from a multiple of 90, due to declination and sideslip, deg.
+  constexpr double kClose_deg = 20.0;
   if (!evidence.has(LogChannel::kX) || !evidence.has(LogChannel::kY)) return 0.0;
   const CourseRelation course = course_relation(evidence.overlapping);
   if (course.sign != -1) return 0.0;
@@ -186,7 +192,8 @@ Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
       scaled_mapping(evidence, "y_m", -1.0)};
 }
 
-/// Text of the alternative solutions, "a, or b and c". `columns`: names, in the order of Signed.
+/// Text that lists the alternative sets of wrong columns: "a, or b and c". `columns`: names of the
+/// columns, in the order of the enumerators of Signed.
 std::string alternatives(const std::array<std::string, kSignedCount>& columns,
                          const std::vector<unsigned>& solutions) {
   std::string text;
@@ -246,7 +253,8 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
 struct SideShares {
   double of_sum = 0.0;
   double of_difference = 0.0;
-  bool is_positive = true;  ///< true: y has the sign of F'R - F'L
+  /// True: the signal y has the sign of F'R - F'L; false: the opposite sign.
+  bool is_positive = true;
 
   bool follows_difference() const { return of_difference > 0.5 && of_difference > 3.0 * of_sum; }
 };
@@ -308,11 +316,12 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
                                    option_text("column '" + mapping + "'"))};
 }
 
-/// Increase of the logged speed during rearward thrust, m/s, summed over all spans of such thrust.
-/// In a span it is the largest rise of the mean over 0.25 s above the smallest earlier mean. The
-/// first half second of a span is skipped, because motors and sensors may lag.
+/// Increase of the logged speed during rearward thrust, m/s, summed over all time spans with such
+/// thrust. The speed is averaged over 0.25 s. The increase in a span is the largest rise of this
+/// average above an earlier value. The first half second of a span is skipped, because motors and
+/// sensors may lag.
 double gathered_backwards_mps(const DrivingLog& log) {
-  // Smallest rearward thrust that counts, as a fraction of the largest thrust.
+  // Thrust counts as rearward if its magnitude is at least this fraction of the largest thrust.
   constexpr double kPushes = 0.1;
   constexpr double kLag_s = 0.5;
   constexpr double kMean_s = 0.25;
@@ -343,7 +352,7 @@ double gathered_backwards_mps(const DrivingLog& log) {
 /// Detects a column with speeds without sign: never negative, and rising during rearward thrust.
 /// (Rearward thrust would slow down a vehicle that drives forward.)
 std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
-  // Smallest negative speed that counts, as a fraction of the largest speed.
+  // A speed counts as negative if its magnitude is at least this fraction of the largest speed.
   constexpr double kNegative = 0.05;
   constexpr double kMuch = 0.15;
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;

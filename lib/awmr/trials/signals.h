@@ -16,9 +16,10 @@ namespace awmr {
 /// Messages of one topic, in file order, with the fields that were requested.
 struct Topic {
   std::string name;
-  std::vector<std::int64_t> time_ns = {};        ///< time of each message
-  std::vector<std::size_t> columns = {};         ///< requested signals: indices in Signals::header
-  std::vector<std::vector<double>> values = {};  ///< values by requested signal, then by message
+  std::vector<std::int64_t> time_ns = {};  ///< time of each message
+  std::vector<std::size_t> columns = {};   ///< requested signals: indices in Signals::header
+  /// For each requested signal: one value per message.
+  std::vector<std::vector<double>> values = {};
 };
 
 /// Signals of a file.

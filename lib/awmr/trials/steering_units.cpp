@@ -15,10 +15,12 @@
 namespace awmr {
 namespace {
 
-/// Ratio of the curvature of the path to that of the steering angle: (r/u)/(tan(factor d_r)/l_f).
-/// It is at most about 1 if factor d_r is the angle in rad. Windows in which the force difference
-/// turns the vehicle more than the steering are skipped. Empty without a speed, without heading and
-/// yaw rate, or if the two curvatures are not proportional.
+/// Ratio of the curvature of the path, r/u, to the curvature for the steering angle, tan(`factor`
+/// d_r)/l_f. r is the yaw rate, u the speed, d_r the logged angle, l_f the distance from the centre
+/// of gravity to the front axle. The ratio is at most about 1 if `factor` d_r is the true angle in
+/// rad. Windows in which the force difference turns the vehicle more than the steering are skipped.
+/// Empty without a speed, without heading and yaw rate, or if the two curvatures are not
+/// proportional.
 std::optional<double> sharpness(const Evidence& evidence, double factor) {
   const bool heading = evidence.has(LogChannel::kHeading);
   if (!evidence.has(LogChannel::kSpeed)) return std::nullopt;
@@ -44,8 +46,8 @@ double largest_steering_deg(const DrivingLog& log) {
   return largest_deg;
 }
 
-/// Detects a servo command in place of the steering angle: a servo angle about 90 or 180 deg, a
-/// pulse length in us, or percent of the stop.
+/// Detects a servo command in place of the steering angle: a servo angle with its centre at 90 or
+/// 180 deg, a pulse length in us, or percent of the stop.
 std::optional<Contradiction> check_servo(const Evidence& evidence, const std::string& column) {
   const std::vector<double>& angle_rad = evidence.log.driving_steering_rad();
   const auto [low_rad, high_rad] = std::ranges::minmax_element(angle_rad);
@@ -54,7 +56,8 @@ std::optional<Contradiction> check_servo(const Evidence& evidence, const std::st
   const double stop_deg = evidence.vehicle.steering_max_deg;
   const std::string reads = fmt::format(
       "goes from {:.4g} to {:.4g} deg, while the stop is at {:g} deg", low, high, stop_deg);
-  // Calibration and trim may move both ends slightly beyond the stop.
+  // Servo angles may differ from the centre by up to this multiple of the stop, because calibration
+  // and trim may move both ends slightly beyond the stop.
   constexpr double kBeyondStop = 1.2;
   for (const double centre : {90.0, 180.0}) {
     if (low < centre - kBeyondStop * stop_deg || high > centre + kBeyondStop * stop_deg) continue;
@@ -89,7 +92,8 @@ std::optional<Contradiction> check_absent_steering(const Evidence& evidence) {
                        column + "=0"};
 }
 
-/// Detects steering angles beyond the stop: a servo's command or counts.
+/// Detects steering angles far beyond the stop, which are probably the command or the counts of a
+/// servo.
 std::optional<Contradiction> check_large_angles(const Evidence& evidence, const std::string& column,
                                                 double largest_deg) {
   const double stop_deg = evidence.vehicle.steering_max_deg;
@@ -108,9 +112,10 @@ std::optional<Contradiction> check_large_angles(const Evidence& evidence, const 
           option_text(fmt::format("column '{}=(COUNTS - CENTRE)*DEGREES_PER_COUNT'", column)))};
 }
 
-/// Ratio of the path's curvature to that of the logged steering angle. Without a speed: yaw rate
-/// per moment of the steering, divided by yaw rate per moment of a force difference. Both ratios
-/// are about 1 in the right unit, and large for radians. 0 if the log does not determine it.
+/// Ratio of the path's curvature to that of the logged steering angle. In a log without a speed,
+/// the yaw rate per moment of the steering, divided by the yaw rate per moment of a force
+/// difference. Either ratio is about 1 if the angle was logged in degrees, and large if it was
+/// logged in radians. 0 if the log does not determine it.
 double times_as_sharp(const Evidence& evidence) {
   const double degree = degrees(1.0);
   if (const auto sharp = sharpness(evidence, degree)) return *sharp * degree;

@@ -27,15 +27,16 @@ void check_surge_columns(TrialReader& reader) {
   }
 }
 
-/// tau_speed of a row: from the file, else computed from the force of one wheel. Adds a finding if
-/// the row has both and they differ by more than rounding.
+/// Returns tau_speed of a row: the value in the file, else the one computed from the force of one
+/// wheel. Adds a finding if the row has both and they differ by more than rounding.
 double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
                     std::vector<Finding>& findings) {
   const auto printed = reader.non_negative(row, "tau_speed");
   const auto wheel_force = reader.non_negative(row, "wheel_force");
   if (!wheel_force) return *printed;
   // tau_speed = (F'L + F'R)(cos d_r + 1) = 4 F' at d_r = 0                             [paper (41)]
-  // With two driven wheels it is 2 F'.
+  // for four driven wheels, each with the force F', and the steering angle d_r. Two driven wheels
+  // give 2 F'.
   const double from_wheels = driven_wheels * *wheel_force;
   if (!printed) return from_wheels;
   const double tolerance = reader.rounding_error(*printed, "tau_speed") +

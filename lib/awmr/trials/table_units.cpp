@@ -44,8 +44,9 @@ constexpr double kUsualLengthsPerSecond = 20.0;
 constexpr double kSlowTable_radps = 0.01;  // smallest plausible yaw rate of the fastest turn
 constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 
-/// The unit whose `times` agrees within 10 % with every ratio of a printed to a timed value. Null
-/// if there is none, or with fewer than two ratios.
+/// Finds the unit of a column from `ratios`, the printed values divided by the timed ones. It is
+/// the unit whose `times` differs from every ratio by less than 10 %. Null without such a unit, or
+/// with fewer than two ratios.
 template <std::size_t N>
 const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<TableUnit, N>& units) {
   for (const TableUnit& unit : units) {
@@ -63,8 +64,8 @@ struct Smaller {
   std::string_view words;
 };
 
-/// Selects the correction by 1/100 or by 1/1000: the one with which the speed of the fastest run is
-/// nearer to three vehicle lengths per second, a common value.
+/// Selects the more plausible of two corrections, by 1/100 or by 1/1000. It is the one that brings
+/// the speed of the fastest run nearer to three vehicle lengths per second, a common value.
 Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thousandth) {
   constexpr double kCommon = 3.0;
   const auto apart = [&](const Smaller& unit) {
@@ -103,10 +104,11 @@ std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
   return ratios;
 }
 
-/// Upper bound of the vehicle's speed u at full thrust, with a margin of 30 %. Extrapolated from
-/// the fastest surge run by tau_speed/tau_run = (u/u_run)^b with b = 1/2, because the resistance
-/// grows at least with the square root of the speed. Empty if that run used less than half of the
-/// full thrust, because static friction then dominates.
+/// Upper bound of the vehicle's speed u at full thrust, with a margin of 30 %. It is extrapolated
+/// to the full thrust tau from the fastest surge run, with the speed u_run at the thrust tau_run:
+/// tau/tau_run = (u/u_run)^b with b = 1/2, because the resistance grows at least with the square
+/// root of the speed. Empty if that run used less than half of the full thrust, because static
+/// friction then dominates.
 std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   constexpr double kRoom = 1.3;
@@ -117,7 +119,8 @@ std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& sur
   return kRoom * fastest_run->speed_mps / std::min(1.0, share * share);
 }
 
-/// The first correction that brings a speed below the vehicle's top speed.
+/// Returns the likely unit of a speed that exceeds the vehicle's top speed `top_mps`: the first
+/// unit whose correction brings the speed below it.
 Smaller unit_below(double speed_mps, double top_mps) {
   constexpr Smaller kUnits[] = {{1.0 / 3.6, "the speed looks like km/h"},
                                 {1e-2, "the speed looks like cm/s"},
@@ -151,8 +154,8 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehic
   const double speed_mps = fastest(surge.rows, &SurgeRow::speed_mps);
   const double lengths = speed_mps / vehicle.length_m;
   if (const TableUnit* unit = unit_of(ratios, kTableSpeedUnits)) {
-    // A factor of 1000 means that either the speed is in mm/s or the time in milliseconds. If the
-    // printed speed is usual for the vehicle's length, it is the time.
+    // A speed in mm/s and a time in milliseconds both give the ratio 1000. If the printed speed is
+    // usual for the vehicle's length, the time is wrong.
     const bool is_time = unit->times == 1000.0 && lengths <= kUsualLengthsPerSecond;
     if (is_time) unit = &kTableSpeedUnits[4];
     return wrong(first.line,
@@ -194,7 +197,7 @@ std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning) {
 
 namespace {
 
-/// The quantities of a coast-down file from which its units are checked.
+/// Values of a coast-down file that must be plausible if its units are right.
 struct Coasts {
   int line;                    ///< number of the first line with data
   double fastest_mps;          ///< highest initial speed
@@ -272,7 +275,7 @@ std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
     fastest_mps = std::max(fastest_mps, curve.speed_mps.front());
     include((most - least) / (curve.t_s.back() - curve.t_s.front()), deceleration_mps2);
   }
-  // The fit does not use curves whose speed does not fall.
+  // Curves without any change of speed are not checked, because the fit does not use them.
   if (!(deceleration_mps2.hi > 0.0)) return std::nullopt;
   const bool of_bins = curves.front().of_bins;
   return wrong_unit({curves.front().line, fastest_mps, deceleration_mps2,

@@ -19,20 +19,20 @@
 namespace awmr {
 namespace {
 
-/// Largest accepted ratio of the yaw rate to that of rolling wheels: 3 for a steered turn (the
-/// vehicle may drift, or steer its rear wheels, too), 4 for a differential turn (the speed is
-/// interpolated twice).
+/// Largest accepted ratio of the yaw rate to that of rolling wheels. It is 3 for a steered turn,
+/// because the vehicle may drift, or steer its rear wheels, too. It is 4 for a differential turn,
+/// whose limit is less certain: it is computed from two interpolated speeds.
 constexpr double kMaxSteered = 3.0;
 constexpr double kMaxBySides = 4.0;
-/// Smallest accepted ratio of the yaw rate to that of rolling wheels, for the turn of a table with
-/// the largest ratio. Real turns have ratios several times larger, even with a wheelbase of five
-/// times l_f and strong understeer.
+/// Smallest accepted ratio of the yaw rate to that of rolling wheels. It is compared with the
+/// largest ratio in a table. Real turns have ratios several times larger, even with a wheelbase of
+/// five times l_f and strong understeer.
 constexpr double kMinSteered = 0.01;
 constexpr double kMaxAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;
 
-/// Usual range of the ratio of the yaw rate to that of rolling wheels, in the right unit. A unit is
-/// suggested only if it brings the largest ratio into this range.
+/// Usual range of the ratio of the yaw rate to that of rolling wheels if the unit is right. A unit
+/// is suggested only if it brings the largest ratio into this range.
 constexpr Interval kPossibleShare{0.03, 2.5};
 constexpr double kPossibleAcceleration_mps2 = 15.0;
 
@@ -141,8 +141,9 @@ std::string turn_text(const TurningRow& row) {
                      row.sides->right - row.sides->left);
 }
 
-/// Yaw rate r of a steered turn, divided by that of rolling wheels, u tan(d_r)/l_f. Empty if the
-/// speed u is unknown.
+/// Yaw rate r of a steered turn, divided by that of rolling wheels, u tan(d_r)/l_f. u is the speed
+/// of the surge runs with this force, d_r the steering angle, l_f the distance from the centre of
+/// gravity to the front axle. Empty if u is unknown.
 std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& speed,
                                        const Vehicle& vehicle) {
   const auto u = speed.at(vehicle.driven_wheels() * row.wheel_force);
@@ -155,8 +156,10 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
 }
 
 /// Yaw rate r of a differential turn, divided by that of rolling wheels, (u(n F'R) - u(n F'L))/(2
-/// d). Empty if a speed u is unknown. Scatter of the surge runs may make their curve too flat
-/// between the two forces, so at least half its mean slope from the origin is assumed there.
+/// d). u(tau) is the speed of the surge runs at the thrust tau, n the number of driven wheels, F'L
+/// and F'R are the forces of a left and a right wheel, d is half the track width. Empty if one of
+/// the speeds is unknown. Scatter of the surge runs may make the curve u(tau) too flat between the
+/// two forces. Therefore at least half its mean slope from the origin is assumed there.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
@@ -177,7 +180,8 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
 }
 
 /// Yaw rate r of a steered turn, divided by the yaw rate at which the centripetal acceleration
-/// reaches its limit on the smallest possible circle, of radius l_f/tan(d_r).
+/// reaches its limit on the smallest possible circle, of radius l_f/tan(d_r). l_f is the distance
+/// from the centre of gravity to the front axle, d_r the steering angle.
 TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
   const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
   const double most = std::sqrt(kMaxAcceleration_mps2 / radius_m);
@@ -188,11 +192,11 @@ TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
                       row.yaw_rate_radps * row.yaw_rate_radps * radius_m, kMaxAcceleration_mps2)};
 }
 
-/// One limit, with the rows compared with it.
+/// A limit of the yaw rate, and the rows that are compared with it.
 struct TurnCriterion {
   std::vector<TurnShare> shares;
   double most;        ///< largest accepted ratio of yaw rate to limit
-  double least;       ///< smallest accepted value of the table's largest ratio; 0: none
+  double least;       ///< smallest accepted value of the largest ratio in the table; 0: any
   Interval possible;  ///< usual ratios in the right unit
 };
 
@@ -224,8 +228,9 @@ std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
   return {std::move(steered), std::move(by_sides), std::move(circle), std::move(any)};
 }
 
-/// Corrections of the unit that bring a ratio of yaw rate to limit (`share`) into the range
-/// `possible`. `is_printed`: the yaw rate was read from yaw_rate_radps, not computed from turns.
+/// Returns the corrections of the unit that bring `share`, a ratio of yaw rate to limit, into the
+/// range `possible`. `is_printed`: the yaw rate was read from yaw_rate_radps, not computed from
+/// turns.
 std::vector<UnitFix> turn_unit_fixes(double share, const Interval& possible, bool is_printed) {
   const bool is_fast = share > possible.hi;
   std::vector<UnitFix> found;
@@ -249,7 +254,7 @@ WrongUnit wrong_column(const TurnShare& worst, const TurnCriterion& criterion, b
   return {line, fmt::format("{}: {} {}", described, what, words_of(unit_fixes)), unit_fixes};
 }
 
-/// Reports the rows that exceed the limit although most rows do not.
+/// Reports single rows that exceed the limit in a table in which most rows do not.
 WrongUnit wrong_rows(const std::vector<TurnShare>& shares, double most) {
   std::vector<int> lines;
   for (const TurnShare& one : shares) {

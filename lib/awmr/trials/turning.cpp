@@ -21,7 +21,8 @@ const Rate kTurningRate{.printed_column = "yaw_rate_radps",
                         .per_amount = 2.0 * pi<double>(),
                         .code = "yaw-rate-mismatch"};
 
-/// Relative error of the computed tau_turn: l_f, d and the steering angle are known to about 1 %.
+/// Relative error of the computed tau_turn: the vehicle's dimensions and the steering angle are
+/// known to about 1 %.
 constexpr double kGeometryError = 0.01;
 
 void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
@@ -42,8 +43,9 @@ void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
 
 /// Cause of the turn in a row of the file: steering, or a force difference.
 struct Turn {
-  double left = 0.0;        ///< steering_deg or, of a differential turn, F'R - F'L; left positive
-  std::string in_words;     ///< "steering_deg 5", for messages
+  /// The value of steering_deg, or F'R - F'L if the turn is differential; left positive.
+  double left = 0.0;
+  std::string in_words;     ///< cause of the turn, for messages: "steering_deg 5"
   double computed_m = 0.0;  ///< tau_turn computed from the forces, m, >= 0
   std::string equation;     ///< equation of computed_m, for messages
   std::string parameter;    ///< vehicle parameter in the equation: "front_axle_m"
@@ -109,7 +111,8 @@ double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
 
 /// Reads a steered turn:
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
-/// Empty on a fault.
+/// F' is the force of each wheel, d_r the steering angle, l_f the distance from the centre of
+/// gravity to the front axle. Empty on a fault.
 std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                 double wheel_force) {
   const double steering_deg = *reader.cell(row, "steering_deg");
@@ -131,6 +134,7 @@ std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehi
 
 /// Reads a differential turn, with straight wheels:
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
+/// F'L and F'R are the forces of each left and each right wheel, d is half the track width.
 Turn by_sides(const TrialReader& reader, std::size_t row, const Vehicle& vehicle) {
   const double left = *reader.cell(row, "force_left");
   const double right = *reader.cell(row, "force_right");
@@ -245,7 +249,7 @@ void check_sides_given(TrialReader& reader) {
 }
 
 /// Reads one row. Moment and yaw rate are magnitudes: a turn to the right is stored as its mirror
-/// image, because g3 is odd. Empty on a fault.
+/// image, because the yaw resistance g3(r) is an odd function. Empty on a fault.
 std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                    Preference preference, std::vector<Finding>& findings) {
   const auto turn = vehicle.has_steering() ? by_steering_or_sides(reader, row, vehicle)
@@ -266,8 +270,8 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
                     .sides = turn->sides};
 }
 
-/// If the table of a vehicle with steering has only differential turns, moves them to `rows`, so
-/// that g3 is fitted to them. Adds the warning `turned-by-sides`.
+/// If all turns in the table of a vehicle with steering are differential, moves them to `rows`, so
+/// that the yaw resistance g3 is fitted to them. Adds the warning `turned-by-sides`.
 void take_sides_alone(TrialSet<TurningRow>& set, std::vector<Finding>& findings) {
   if (!set.rows.empty() || set.by_sides.empty()) return;
   set.rows = std::exchange(set.by_sides, {});
@@ -316,7 +320,8 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   if (set.rows.empty()) {
-    // Runs without a turn are used only to determine tyre scrub, which needs steered turns.
+    // Runs in which the vehicle did not turn serve only to determine tyre scrub. This also needs
+    // steered turns, which the table does not have.
     set.standing.clear();
     set_aside.insert(set_aside.end(), standing.begin(), standing.end());
     std::sort(set_aside.begin(), set_aside.end());
