@@ -159,7 +159,7 @@ void check_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
            "kg m^2 (with all mass in the corners, it would be 3 times){}",
            ratio, box.inertia_kgm2(),
            guess ? remedy(*vehicle.yaw_inertia_kgm2, guess)
-                 : "; measure it again, or omit the key: then the inertia of the box is used")});
+                 : "; measure it again, or omit the key: then that of the box is used")});
 }
 
 void check_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {
