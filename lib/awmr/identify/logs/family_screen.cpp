@@ -82,7 +82,8 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
     best = std::move(*least);
   }
   // If no family decreases the errors much, their cause is something else, such as unequal motors.
-  return best.fit.relative_error < kExplained * same.fit.relative_error ? best : same;
+  const double excess = std::max(0.0, best.fit.relative_error - 1.0);
+  return excess < kExplained * (same.fit.relative_error - 1.0) ? best : same;
 }
 
 FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
