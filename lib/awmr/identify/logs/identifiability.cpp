@@ -17,12 +17,12 @@ namespace awmr {
 namespace {
 
 /// Largest standard error of an identified quantity, in its large changes. The limit is lower for
-/// the sway resistance a_s, so that 1/a_s is at least 5 standard errors from 0. Reason: the logs
+/// the sway resistance a_s, so that 1/a_s is at least 4 standard errors from 0. Reason: the logs
 /// measure the reciprocal, because the lateral speed is v ~ m' r u / a_s. The standard error of ln
 /// a_s is a_s times that of 1/a_s. If noise makes a_s too small, the standard error of ln a_s is
 /// therefore too small as well, and the common limit would accept such values more often.
 double unknown_from(const FreeQuantity& q) {
-  constexpr double kUnknownReciprocal = 0.2;
+  constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;
 }
 

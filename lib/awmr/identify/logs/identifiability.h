@@ -44,7 +44,7 @@ struct Identifiability {
 /// The parts are blocks of some seconds. With three or more logs, whole logs are used as parts too
 /// if their scatter exceeds the prediction significantly (5 %), as with a model error that differs
 /// between logs. The larger D_ii then applies. A quantity is refused for one of two reasons: its
-/// standard error exceeds kUnknown large changes (0.2 for the sway resistance), or it
+/// standard error exceeds kUnknown large changes (half of that for the sway resistance), or it
 /// contributes a tenth or more to the squared length of a direction (eigenvector of H) that the
 /// logs do not determine.
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
