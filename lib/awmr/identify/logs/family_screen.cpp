@@ -58,8 +58,10 @@ std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open) {
   constexpr double kClearlyLess = 0.98;
+  constexpr double kExplained = 0.7;
   constexpr int kMostChanges = 8;
-  FamilyFit best = fit_roughly_from(logs, power_law, first, first.surge, first.yaw, {});
+  const FamilyFit same = fit_roughly_from(logs, power_law, first, first.surge, first.yaw, {});
+  FamilyFit best = same;
   std::optional<bool> changed_yaw;  // the axis that was changed last
   for (int changes = 0; changes < kMostChanges && !is_over(power_law); ++changes) {
     const std::vector<Neighbour> neighbours = neighbours_of(best, open, changed_yaw);
@@ -79,7 +81,9 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
     if (least->surge != best.surge) changed_yaw = false;
     best = std::move(*least);
   }
-  return best;
+  // If no family decreases the errors much, their cause is something else, such as unequal motors.
+  const double excess = std::max(0.0, best.fit.relative_error - 1.0);
+  return excess < kExplained * (same.fit.relative_error - 1.0) ? best : same;
 }
 
 FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,

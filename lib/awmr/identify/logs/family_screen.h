@@ -29,7 +29,8 @@ struct OpenAxes {
 /// and the same families with a delay of the commands or a lag of the motors, because families can
 /// compensate for these. Changes one family or adds one of these terms at a time as long as
 /// LogFit::relative_error decreases by more than 2 %, at most eight times. Returns the last rough
-/// fit. Its families are those of `first` if no others are better.
+/// fit if the excess of its relative error above 1 is less than 0.7 times that of the families of
+/// `first`, else the rough fit of these families.
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open);
 
