@@ -6,7 +6,7 @@
 namespace awmr {
 namespace {
 
-/// Text of library.properties, which the Arduino IDE requires. The two placeholders are the version
+/// Text of library.properties, which the Arduino IDE requires. It is formatted with the version
 /// and the SHA-256 of the parameters.
 constexpr std::string_view kProperties = R"(name=awmr
 version={}

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
@@ -20,7 +21,8 @@ ConstraintReport violated_limit(std::string name, double value, double limit, Se
           .sense = sense};
 }
 
-void add_bounds(const Gains<double>& g, GainBounds bounds, std::vector<ConstraintReport>& all) {
+void add_bounds(const Gains<double>& g, const GainBounds& bounds,
+                std::vector<ConstraintReport>& all) {
   const double gains[] = {g.heading.lambda, g.heading.mu, g.heading.epsilon, g.speed.mu,
                           g.speed.epsilon};
   std::size_t next = 0;

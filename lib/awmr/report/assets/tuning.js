@@ -11,8 +11,8 @@ function baselineWords(gains) {
   return {paper: "the paper's gains", "pole-placement": "pole placement"}[source] || source;
 }
 
-/// Describes by how much masses and wheel forces of the drawn vehicles vary in addition to the
-/// model's covariance (unmodelled variation). Empty if they do not.
+/// Text on the unmodelled variation of the drawn vehicles: the factors of their masses and the ranges
+/// of their wheel forces, which apply in addition to the model's covariance. Empty without variation.
 function openWords(open) {
   if (!open) return "";
   const masses = open.mass_factors ? [`m' and I'z times ${open.mass_factors.join(", ")}`] : [];
