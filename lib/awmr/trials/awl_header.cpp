@@ -45,7 +45,8 @@ std::vector<Column> columns_in(JsonObject& header) {
         column.name == "run") {
       entry.fault(
           ErrorCode::kBadName, "name",
-          fmt::format("expected 1 to {} letters, digits and _, and not 'run'", kLongestName));
+          fmt::format("expected 1 to {} letters, digits and _ as the column's name, but not 'run'",
+                      kLongestName));
     } else if (!names.insert(column.name).second) {
       entry.fault(ErrorCode::kGivenTwice, "name", "another column has this name");
     }
@@ -111,8 +112,8 @@ Result<Layout> layout_of(std::string_view json, const std::string& file) {
                                                          bytes_of(layout.columns.back().kind);
     if (end != layout.row_bytes) {
       header.fault(ErrorCode::kBrokenFile, "row_bytes",
-                   fmt::format("found {}; the sync bytes, checksum, row number and columns have {} "
-                               "bytes",
+                   fmt::format("found {} bytes per row, but the sync bytes, checksum, row number "
+                               "and columns have {} bytes",
                                layout.row_bytes, end));
     } else if (layout.columns.empty() || layout.columns.front().name != kTimeName) {
       header.fault(ErrorCode::kBrokenFile, "columns",

@@ -383,7 +383,7 @@ std::vector<Finding> calibration_findings(const DrivingLog& log,
          fmt::format(
              "the course over ground differs from heading_deg by {:+.2f} +- {:.2f} deg (left "
              "positive): the compass is rotated in the vehicle, its declination is missing, or the "
-             "vehicle drifts to one side; the fit estimates this offset, as with {}",
+             "vehicle drifts to one side; the fit estimates this offset, as if {} were given",
              degrees(offset->value), degrees(offset->std_error),
              option_text("fit bias.heading_deg"))});
   }

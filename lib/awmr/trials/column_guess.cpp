@@ -89,7 +89,8 @@ Scale force_scale(const std::string& quoted, const Words& words,
             "the values look like servo pulses in us, 1500 at rest"};
   }
   return {fmt::format("{}/{:.4g}", quoted, most), Confidence::kUnsure,
-          fmt::format("the value at full power is unknown; the largest here is {:.4g}", most)};
+          fmt::format("the value at full power is unknown; assumed to be the largest value, {:.4g}",
+                      most)};
 }
 
 Scale scale_of(const std::string& quoted, const Words& words, Dimension dimension,
@@ -107,13 +108,14 @@ Scale scale_of(const std::string& quoted, const Words& words, Dimension dimensio
   }
   if (dimension == Dimension::kAngle && looks_like_pulses(values)) {
     return {fmt::format("({} - 1500)/500*{:g}", quoted, kUsualStop_deg), Confidence::kUnsure,
-            fmt::format("the values look like servo pulses in us: 1500 is straight ahead, 500 more "
-                        "or less the stop, assumed to be {:g} deg",
+            fmt::format("the values look like servo pulses in us: 1500 is straight ahead, 1000 and "
+                        "2000 are the steering stops, assumed to be at {:g} deg",
                         kUsualStop_deg)};
   }
   if (dimension == Dimension::kAngle && largest(values) > 2.0 * pi<double>()) {
     return {quoted, Confidence::kLikely,
-            fmt::format("the values reach {:.4g}, more than a turn in radians: degrees",
+            fmt::format("the values reach {:.4g}, more than a full turn in radians, so they are "
+                        "degrees",
                         largest(values))};
   }
   return {times(quoted, 1.0), Confidence::kUnsure,

@@ -160,7 +160,8 @@ Contradiction sign_contradiction(const Evidence& evidence, Signed which) {
   const std::string steering(evidence.log.steering_column());
   switch (which) {
     case Signed::kSteering:
-      return {steering, "the vehicle turns against its steering: positive is to the left",
+      return {steering,
+              "the vehicle turns in the direction opposite to its steering (left is positive)",
               scaled_mapping(evidence, steering, -1.0)};
     case Signed::kSides: {
       const auto [left, right] = swapped_mappings(evidence);

@@ -69,8 +69,8 @@ std::optional<Contradiction> check_servo(const Evidence& evidence, const std::st
     const double factor = stop_deg / 500.0;
     return Contradiction{column,
                          reads +
-                             ": it looks like a servo's pulse in us, 1500 straight ahead and 500 "
-                             "to the stop",
+                             ": it looks like a servo's pulse length in us, 1500 straight ahead, "
+                             "1000 and 2000 at the stops",
                          scaled_mapping(evidence, column, factor, -1500.0 * factor)};
   }
   const double most = std::max(std::abs(low), std::abs(high));

@@ -81,7 +81,8 @@ Result<TrialSet<SurgeRow>> read_surge(const std::filesystem::path& path,
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside,
-                      "a run at rest or without thrust does not determine tau_speed = a1 u^b1",
+                      "a run at rest or without thrust does not determine the surge resistance "
+                      "tau_speed = a1 u^b1",
                       findings);
   find_repeated_rows(
       reader, kept,

@@ -225,8 +225,8 @@ std::optional<WrongUnit> wrong_unit(const Coasts& coasts,
   if (top_mps && coasts.fastest_mps > *top_mps) {
     const auto [factor, words] = unit_below(coasts.fastest_mps, *top_mps);
     return wrong(coasts.line,
-                 fmt::format("a coast-down begins at {:.3g} m/s, but by its surge runs the vehicle "
-                             "reaches at most {:.3g} m/s: {}",
+                 fmt::format("a coast-down begins at {:.3g} m/s, but according to the surge runs "
+                             "the vehicle reaches at most {:.3g} m/s: {}",
                              coasts.fastest_mps, *top_mps, words),
                  coasts.speed, factor);
   }

@@ -48,8 +48,8 @@ constexpr std::array<RateUnit, 4> kPrintedUnits{
      {9.549297, "yaw_rate_radps", 1.0 / 9.549297, "turns per minute"},
      {57295.78, "yaw_rate_radps", 1.0 / 57295.78, "thousandths of a degree per second"},
      {1.0 / 57.29578, "yaw_rate_radps", 57.29578,
-      "radians per second converted from degrees once "
-      "too often"}}};
+      "radians per second that were multiplied by pi/180 "
+      "by mistake"}}};
 constexpr std::array<RateUnit, 4> kTimedUnits{
     {{360.0, "turns", 1.0 / 360.0, "turns in degrees"},
      {60.0, "elapsed_s", 60.0, "a time in minutes"},
@@ -150,8 +150,9 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
   if (!u || !(*u > 0.0) || row.steering_rad == 0.0) return std::nullopt;
   const double most = *u * std::tan(row.steering_rad) / vehicle.front_axle_m;
   return TurnShare{&row, row.yaw_rate_radps / most,
-                   fmt::format("while rolling wheels at the {:.3g} m/s of the surge runs turn at "
-                               "{:.3g} rad/s (u tan(steering)/front_axle_m)",
+                   fmt::format("while rolling wheels at the {:.3g} m/s of the surge runs with this "
+                               "force turn the vehicle at {:.3g} rad/s (u "
+                               "tan(steering)/front_axle_m)",
                                *u, most)};
 }
 
@@ -173,9 +174,9 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
   const double most = difference / (2.0 * vehicle.half_track_m);
   return TurnShare{
       &row, row.yaw_rate_radps / most,
-      fmt::format("while rolling wheels, which by the surge runs differ by {:.3g} m/s "
-                  "between left and right, turn at {:.3g} rad/s (this difference over 2 "
-                  "half_track_m)",
+      fmt::format("while the speeds of rolling wheels left and right, according to the surge "
+                  "runs, differ by {:.3g} m/s, which turns the vehicle at {:.3g} rad/s (this "
+                  "difference over 2 half_track_m)",
                   difference, most)};
 }
 

@@ -329,7 +329,8 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   take_sides_alone(set, findings);
   set.set_aside = static_cast<int>(set_aside.size());
   note_rows_set_aside(reader, set_aside,
-                      "a run without yaw moment or yaw rate does not determine tau_turn = a3 r^b3",
+                      "a run without yaw moment or yaw rate does not determine the yaw resistance "
+                      "tau_turn = a3 r^b3",
                       findings);
   find_repeated_rows(reader, kept,
                      {.settings = {"steering_deg", "wheel_force", "force_left", "force_right",
