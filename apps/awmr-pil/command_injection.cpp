@@ -9,7 +9,7 @@ namespace {
 
 using cli::Injection;
 
-constexpr std::uint32_t kPeriod_ms = 300;  ///< between two commands of the operator
+constexpr std::uint32_t kPeriod_ms = 300;  ///< time between two commands of the operator
 
 std::string frame(unsigned sequence, const std::string& text) {
   const std::string body = fmt::format("{} {}", sequence, text);
@@ -17,7 +17,8 @@ std::string frame(unsigned sequence, const std::string& text) {
   return fmt::format("#{}*{:04X}\n", body, crc16_of(bytes, body.size()));
 }
 
-/// Characters that a failed line delivers every kPeriod_ms; empty: none.
+/// Returns the characters that arrive every kPeriod_ms instead of the operator's KEEP while the
+/// line has this failure; empty if none arrive.
 std::string failed_line(Injection injection) {
   switch (injection) {
     case Injection::kCommandNoise:

@@ -11,38 +11,40 @@
 namespace awmr::pil {
 
 struct Difference {
-  /// By name, in the signal's unit: largest absolute difference over the rows that both runs have;
-  /// infinite if a value is finite in only one of the runs.
+  /// Names of the signals, each with the largest absolute difference between the two runs, in the
+  /// signal's unit. Only rows that both runs have are compared. The difference is infinite if a
+  /// value is finite in only one of the runs.
   std::vector<std::pair<std::string, double>> signals;
   bool same_length = true;  ///< both runs have the same number of rows
 
-  double largest() const;  ///< largest difference of all signals in SI units, that is, without
-                           ///< heading_deg
+  /// Returns the largest of the differences of all signals in SI units. The signal heading_deg, in
+  /// degrees, is left out.
+  double largest() const;
   double of(const std::string& signal) const;  ///< difference of one signal; infinite for an
                                                ///< unknown signal
 };
 
-/// Compares two runs of run_loop(): the vehicle's state, and the outputs of the control step as the
-/// executors returned them, before the actuators.
+/// Compares two runs of run_loop(): the states of the vehicle, and the outputs of the control step
+/// before the actuators round them.
 Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>& b);
-/// Compares a run of run_loop() with a run of simulate(), which computes in double. The commands
-/// compared are those that the actuators received.
+/// Compares a run of run_loop() with a run of simulate(), which computes in double. Forces and
+/// steering angles are compared after the rounding by the actuators.
 Difference difference(const std::vector<LoopRow>& a, const Run& b);
 
-/// Largest distance of a heading in `a` from the range of the headings in `b` at the previous, the
-/// same and the next sample, deg, >= 0; infinite if a heading is not finite. The neighbouring
-/// samples are included because, by rounding, one run may start to turn one sample before the
-/// other.
+/// Returns the largest heading difference between the runs, deg, >= 0; infinite if a heading is not
+/// finite. At each sample of `a`, it is the distance from the range of the headings of `b` at the
+/// previous, the same and the next sample. This tolerates that, by rounding, one run begins to turn
+/// one sample before the other.
 double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b);
 
-/// Clock cycles of a control step: least, mean and most of a run.
+/// Clock cycles per control step of a run: smallest, mean and largest number.
 struct Cycles {
   unsigned min = 0;
   double mean = 0.0;
   unsigned max = 0;
 };
-/// Returns the least, mean and largest cycles of the rows. Rows without cycles (steps on the host)
-/// are ignored.
+/// Returns the smallest, mean and largest number of cycles in the rows. Rows without cycles (steps
+/// on the host) are ignored.
 Cycles cycles_of(const std::vector<LoopRow>& rows);
 
 }  // namespace awmr::pil

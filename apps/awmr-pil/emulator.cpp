@@ -18,11 +18,13 @@ namespace {
 
 constexpr std::uint32_t kRamOffset = 0x800000;  ///< offset of RAM addresses in an ELF file
 constexpr std::uint8_t kPaint = 0xC5;
-/// Maximum number of cycles that simavr runs per call. By default, simavr returns after every
-/// instruction. Timers and interrupts stay exact, because simavr returns earlier if one is due.
+/// Maximum number of cycles that simavr executes per call. Without this setting simavr returns
+/// after every instruction, which is slower. Timers and interrupts stay exact, because simavr
+/// returns earlier if one is due.
 constexpr avr_cycle_count_t kRunCycles = 1000;
 
-/// The only emulator, for sleep(): simavr 1.6 gives this callback no user data.
+/// Pointer to the only Emulator object. The callback sleep() needs it, because simavr 1.6 passes no
+/// user data to that callback.
 Emulator* the_emulator = nullptr;
 
 void no_log(avr_t*, int, const char*, va_list) {}
@@ -74,8 +76,8 @@ std::span<std::uint8_t> Emulator::flash(const std::string& symbol, std::size_t s
 
 std::uint64_t Emulator::cycles() const { return avr_->cycle; }
 
-/// Replaces simavr's sleep callback, which waits in real time. Records the sleep and the cycles of
-/// the interrupt before it.
+/// Called by simavr when the chip goes to sleep, in place of simavr's own function, which waits in
+/// real time. Records the sleep, and the number of cycles since the interrupt that woke the chip.
 void Emulator::sleep(avr_t* avr, std::uint64_t) {
   Emulator& self = *the_emulator;
   if (self.entered_at_ != 0) {
@@ -86,9 +88,9 @@ void Emulator::sleep(avr_t* avr, std::uint64_t) {
   self.asleep_ = true;
 }
 
-/// The chip serves an interrupt that is raised between `sei` and `sleep` before the instruction
-/// after the sleep [ATmega2560 data sheet, 7.7]. simavr 1.6 executes that instruction first; if it
-/// is `cli`, the interrupt is never served. This function serves the interrupt as the chip does.
+/// Corrects a deviation of simavr 1.6 from the chip. If an interrupt is raised between `sei` and
+/// `sleep`, the chip serves it before the instruction after `sleep` [ATmega2560 data sheet, 7.7].
+/// simavr executes that instruction first; if it is `cli`, the interrupt is never served.
 void Emulator::serve_interrupt_after_sleep() {
   constexpr unsigned kSleep = 0x9588;  // opcode of sleep
   if (avr_->state != cpu_Running || avr_->sreg[S_I] == 0 || avr_->pc < 2) return;

@@ -42,7 +42,7 @@ class Emulator {
   /// Returns the `size` bytes of a constant in flash, by its symbol; otherwise like ram().
   std::span<std::uint8_t> flash(const std::string& symbol, std::size_t size);
 
-  /// Resets the chip like its reset pin: RAM is kept and the time continues.
+  /// Resets the chip as its reset pin does: RAM keeps its content, and the count of cycles goes on.
   void reset();
   /// Runs until the chip sleeps. Errors (fault): the program crashed or ended, or the chip is still
   /// awake after `cycle_limit` cycles.
@@ -51,22 +51,23 @@ class Emulator {
   /// 1000 cycles long. Errors (fault): the program crashed or ended, or `done` is still false after
   /// `cycle_limit` cycles.
   Status run_until(const std::function<bool()>& done, std::uint64_t cycle_limit);
-  /// Clock cycles of the last interrupt that woke the chip, from its entry (included) to the next
-  /// sleep.
+  /// Returns the clock cycles between the entry of the last interrupt that woke the chip (included)
+  /// and the next sleep.
   unsigned last_interrupt_cycles() const { return last_interrupt_cycles_; }
   std::uint64_t cycles() const;
 
   /// Fills the RAM between the variables and the stack with a pattern, to measure the stack.
   /// Precondition: the chip sleeps.
   void paint_stack();
-  /// Bytes from the top of RAM down to the lowest address written since paint_stack().
+  /// Returns the largest use of the stack since paint_stack(), bytes: from the top of RAM down to
+  /// the lowest address that was overwritten.
   unsigned stack_bytes() const;
 
   /// Sets the callback for the bytes that USART0 sends.
   void on_uart_output(std::function<void(std::uint8_t)> receive) { receive_ = std::move(receive); }
   /// Connects USART0 to the callback and to send_to_uart(). Call once, after load().
   void connect_uart();
-  /// Queues bytes for USART0, which receives each as soon as it accepts it.
+  /// Queues bytes for USART0. Each byte is delivered as soon as USART0 accepts it.
   void send_to_uart(std::span<const std::uint8_t> bytes);
 
  private:

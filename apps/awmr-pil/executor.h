@@ -1,4 +1,4 @@
-// Interface to the programs that execute the control step: the same sources built for the host, the
+// Interface to whatever executes the control step: a build of its sources for the host, the
 // firmware on the emulated chip, or the firmware on a real board.
 #pragma once
 
@@ -24,19 +24,19 @@ struct Step {
 class Executor {
  public:
   virtual ~Executor() = default;
-  /// Starts the controller and returns the fault bits of its start-up check; 0 if it found none.
-  /// Errors: the link or the chip fails.
+  /// Starts the controller and returns the fault bits of its start-up check; 0 if the check found
+  /// no fault. Errors: the link or the chip fails.
   virtual Result<std::uint8_t> start() = 0;
-  /// Resets the chip during the run. After the reset its guidance begins again at the first point
-  /// of its path. Errors (input): the chip is a real board, which the program cannot reset.
+  /// Resets the chip during the run. Its guidance then begins again at the first point of the path.
+  /// Errors (input): the chip is on a real board, which this program cannot reset.
   virtual Status reset() = 0;
-  /// Follows these points from the next step on, as waypoints or as a line, depending on the
-  /// mission. Errors (input): more points than the firmware has room for.
+  /// From the next step on, the vehicle follows these points: as waypoints or as corners of a line,
+  /// depending on the mission. Errors (input): more points than the firmware has room for.
   virtual Status follow(const Points& points) = 0;
   virtual Result<Step> step(const AutopilotInput& input) = 0;
 };
 
-/// Resource use of the chip's firmware, as far as known.
+/// Memory use of the chip's firmware, and repeated requests on its serial line.
 struct ChipFigures {
   unsigned flash_bytes = 0;
   unsigned ram_bytes = 0;
@@ -49,27 +49,30 @@ class Chip : public Executor {
   virtual ChipFigures figures() const = 0;
 };
 
-/// Runs the control step in float on this machine. The arguments must outlive the executor, which
-/// refers to them.
+/// Returns an executor that runs the control step in float on this machine. It refers to the
+/// arguments, which must outlive it.
 std::unique_ptr<Executor> host_executor(const AutopilotParameters& parameters,
                                         const Mission& mission);
 
-/// Runs firmware on an emulated chip and exchanges data through its RAM. `damage_parameters`: flip
-/// a bit of the parameters in flash before the start. Errors: those of Emulator::load().
+/// Returns a chip that is emulated and exchanges data through its RAM. `elf`: its firmware.
+/// `damage_parameters`: flip a bit of the parameters in flash before the start, to test the
+/// start-up check. Errors: those of Emulator::load().
 Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool damage_parameters);
-/// Runs firmware on an emulated chip and exchanges data through its USART. `parameters_crc`: see
-/// frame_link(). The line flips a fraction `noise` of the bits and loses the same fraction of the
-/// bytes, in both directions. Errors: those of Emulator::load().
+/// Returns a chip that is emulated and exchanges data through its USART. `elf`: its firmware;
+/// `damage_parameters`: as for memory_link(); `parameters_crc`: as for frame_link(). The line flips
+/// a fraction `noise` of the bits and loses the same fraction of the bytes, in both directions.
+/// Errors: those of Emulator::load().
 Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
                                         std::uint32_t parameters_crc, double noise);
-/// Exchanges data with a real board through a serial port, which start() opens. `elf`: the firmware
-/// with which the board was flashed, read only for its use of flash and RAM. `parameters_crc`: see
-/// frame_link(). Errors: those of Emulator::load().
+/// Returns a chip on a real board, which exchanges data through a serial port that start() opens.
+/// `elf`: the firmware with which the board was flashed; it is read only to report its use of flash
+/// and RAM. `parameters_crc`: as for frame_link(). Errors: those of Emulator::load().
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc);
-/// Runs firmware on an emulated chip whose USART is connected to a pseudo-terminal, and prints the
-/// terminal's name on stdout. Returns when the program that opened the terminal closes it.
+/// Emulates a board: runs firmware on an emulated chip whose USART is connected to a
+/// pseudo-terminal, and prints the terminal's name on stdout. Returns when the program that opened
+/// the terminal closes it.
 Status serve_terminal(const std::filesystem::path& elf);
 
 }  // namespace awmr::pil

@@ -35,8 +35,8 @@ constexpr const char* kFlags[] = {"-mmcu=atmega2560",
                                   "-Isrc",
                                   "-Ipil",
                                   "src/awmr.cpp"};
-/// Compiler options for few cycles. Those after -O2 keep more values in registers, which saves 350
-/// of the 9,700 cycles of a step.
+/// Compiler options for few cycles. The options after -O2 keep more values in registers. This saves
+/// 350 of the 9,700 cycles of a control step.
 constexpr const char* kForSpeed[] = {"-O2", "-mstrict-X", "-fno-tree-pre",
                                      "-fno-move-loop-invariants"};
 constexpr const char* kForSize[] = {"-Os", "-mcall-prologues"};
@@ -46,11 +46,12 @@ std::span<const char* const> flags_for(cli::Optimize optimize) {
   return kForSpeed;
 }
 
-/// Time limit of the compiler, s: a hundred times the usual duration, because a machine can be
+/// Time limit of the compiler, s: a hundred times its usual duration, because the machine may be
 /// busy.
 constexpr double kTimeLimit_s = 200.0;
 
-/// Writes a file of the temporary folder without flushing it to the disk.
+/// Writes a file of the temporary folder. Does not flush it to the disk, because it is needed only
+/// during this run.
 Status put_temporary(const fs::path& path, std::string_view bytes) {
   AWMR_RETURN_IF_ERROR(make_directory(path.parent_path()));
   std::ofstream file(path, std::ios::binary);
@@ -60,8 +61,8 @@ Status put_temporary(const fs::path& path, std::string_view bytes) {
                      fmt::format("cannot write the file: {}", std::strerror(errno)));
 }
 
-/// Checks the path of `file` below the folder `kept`. Errors (input): a folder on it, or the file
-/// itself, is a symbolic link.
+/// Checks that no symbolic link could redirect the output. Errors (input): `file`, or a folder
+/// between `kept` and `file`, is a symbolic link.
 Status check_no_link(const fs::path& kept, const fs::path& file) {
   fs::path place = kept;
   for (const fs::path& part : file) {

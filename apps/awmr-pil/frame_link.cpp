@@ -8,11 +8,12 @@
 namespace awmr::pil {
 namespace {
 
-/// Maximum number of times that one request is sent. If one bit in a thousand is damaged, 40 % of
-/// the attempts succeed, and 40 attempts in a row fail with a probability of 1e-9.
+/// Maximum number of times that a request is sent. If each bit is damaged with a probability of
+/// 0.001, an attempt succeeds with a probability of 0.4, and 40 attempts in a row fail with a
+/// probability of 1e-9.
 constexpr int kAttempts = 40;
-/// Maximum number of times that the start request is sent. It is short, so fewer attempts suffice,
-/// and a missing board is reported sooner.
+/// Maximum number of times that the start request is sent. A start request is short and thus rarely
+/// damaged, so 10 attempts suffice. A missing board is then reported sooner.
 constexpr int kStartAttempts = 10;
 
 /// Encodes a request as a frame.
@@ -53,9 +54,9 @@ class FrameLink : public Chip {
     return ask(::pil::kFollow, writer.bytes(), 0);
   }
 
-  /// Executes one step. A chip that was reset answers no request before a start request. If the
-  /// chip does not answer, it is therefore started again and gets its points, and the step is
-  /// requested again.
+  /// Executes one step. If the chip does not answer, it may have been reset, and then answers
+  /// nothing but a start request. The chip is therefore started again, its points are sent again,
+  /// and the step is requested again.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> request = pack(input);
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(::pil::kStep, request, kStepBytes));
@@ -99,7 +100,7 @@ class FrameLink : public Chip {
     return type == ::pil::kHello ? kStartAttempts : kAttempts;
   }
 
-  /// Like exchange(), but returns an error (refused) if no attempt is answered.
+  /// Like exchange(), but returns an error (refused) if the chip answers none of the attempts.
   Status ask(std::uint8_t type, std::span<const std::uint8_t> bytes, std::size_t length) {
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(type, bytes, length));
     if (answered) return {};
@@ -109,8 +110,9 @@ class FrameLink : public Chip {
                                attempts_for(type), static_cast<char>(type)));
   }
 
-  /// Sends a request with these bytes, repeats it while the line stays silent, and waits for the
-  /// answer, whose payload must have `length` bytes. False: no answer to any attempt.
+  /// Sends a request with the payload `bytes`, and repeats it while the line stays silent. Waits
+  /// for the answer, whose payload must have `length` bytes. Returns false if no attempt is
+  /// answered.
   Result<bool> exchange(std::uint8_t type, std::span<const std::uint8_t> bytes,
                         std::size_t length) {
     const std::vector<std::uint8_t> request = framed(type, ++sequence_, bytes);
@@ -123,8 +125,8 @@ class FrameLink : public Chip {
     return false;
   }
 
-  /// Reads until the answer to the current request is complete. False: the line became silent
-  /// before that. Errors (fault): the answer's payload does not have `length` bytes.
+  /// Reads until the answer to the current request is complete. Returns false if the line becomes
+  /// silent first. Errors (fault): the payload of the answer does not have `length` bytes.
   Result<bool> is_answered(std::uint8_t type, std::size_t length) {
     const Patience patience = type == ::pil::kHello ? Patience::kStart : Patience::kAnswer;
     reader_.reset();
@@ -132,7 +134,8 @@ class FrameLink : public Chip {
       AWMR_ASSIGN_OR_RETURN(const std::optional<std::uint8_t> byte, line_->receive(patience));
       if (!byte) return false;
       if (!reader_.take(*byte)) continue;
-      // Ignores a delayed answer to an earlier request that was repeated.
+      // Ignores a late answer to an earlier request. The chip answers every copy of a repeated
+      // request, so a second answer may arrive.
       if (reader_.type() != type || reader_.sequence() != sequence_) continue;
       if (reader_.length() == length) return true;
       return program_fault(

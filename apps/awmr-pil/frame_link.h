@@ -1,4 +1,5 @@
-// Executes the control step on a chip over a serial line, with the frames of firmware/frame.h.
+// Executes the control step on a chip that is connected by a serial line, with the frames of
+// firmware/frame.h.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@
 
 namespace awmr::pil {
 
-/// How long to wait for a byte: kStart (longer) while the chip starts and checks its parameters,
-/// kAnswer otherwise. The times depend on the line.
+/// Selects how long to wait for a byte: kStart (longer) while the chip starts and checks its
+/// parameters, kAnswer otherwise. The waiting times differ between an emulated and a real chip.
 enum class Patience { kStart, kAnswer };
 
 /// Byte stream to and from a chip, emulated or real. Bytes may be damaged or lost on the way.
@@ -19,8 +20,8 @@ class Line {
  public:
   virtual ~Line() = default;
   virtual Status open() = 0;
-  /// Resets the chip at the other end. Errors (input): the chip is a real board, which the program
-  /// cannot reset.
+  /// Resets the chip at the other end of the line. Errors (input): the chip is on a real board,
+  /// which this program cannot reset.
   virtual Status reset() = 0;
   virtual Status send(std::span<const std::uint8_t> bytes) = 0;
   /// Returns the next byte; none if the line stays silent. Errors: the chip or the line is gone.
@@ -28,8 +29,9 @@ class Line {
   virtual ChipFigures figures() const = 0;
 };
 
-/// Returns a chip that is controlled through the line. `parameters_crc`: CRC-32 of the parameters,
-/// xor mission_crc(). If the firmware reports another value, start() returns an error (input).
+/// Returns a chip that executes the control step over the line. `parameters_crc`: the value that
+/// the firmware must report at its start, the CRC-32 of the parameters xor mission_crc(). If it
+/// reports another value, start() returns an error (input).
 std::unique_ptr<Chip> frame_link(std::unique_ptr<Line> line, std::uint32_t parameters_crc);
 
 }  // namespace awmr::pil

@@ -11,9 +11,9 @@ struct HostParts : AllParts<split> {
   typedef AnyLineFollower<float> Line;
 };
 
-/// Executes the control step on this machine. All optional parts are compiled in, and those that
-/// the mission does not need are disabled. The results must equal those of the firmware, in which
-/// unneeded parts are not compiled at all.
+/// Executes the control step on this machine. All optional parts are compiled in, but those that
+/// the mission does not need are disabled. In the firmware, such parts are not compiled in. The
+/// results must be equal nevertheless.
 template <class G, CombinedSplit split>
 class HostExecutor : public Executor {
  public:
@@ -58,7 +58,7 @@ class HostExecutor : public Executor {
   }
 
  private:
-  /// Like pil_set_up() in the firmware's mission.h.
+  /// Sets up the parts of the mission, as pil_set_up() in the firmware's mission.h does.
   void set_up() {
     const Mission& mission = *mission_;
     const float sample_time_s = parameters_->sample_time_s;

@@ -13,7 +13,8 @@ namespace {
 constexpr int kFields = 11;  ///< floats in an AutopilotInput
 constexpr float kAcceptance_m = 1.0F;
 
-/// Input of one step, and the points to follow from it on.
+/// A candidate of the search: the input of one step, and the points that the vehicle follows from
+/// this step on.
 struct Attack {
   AutopilotInput input{};
   Points points;
@@ -59,21 +60,21 @@ float hostile_value(Random& random, float largest) {
     case 3:
       return std::bit_cast<float>(random.bits());
     default:
-      // Log-uniform over eight decades below the largest.
+      // Magnitude log-uniform over eight decades below `largest`.
       return sign * largest * static_cast<float>(std::pow(10.0, -8.0 * random.uniform()));
   }
 }
 
-/// Random waypoint, usually so near to the vehicle that it counts as reached at once. The same step
-/// then also evaluates the next waypoint.
+/// Returns a random waypoint, usually so near to the vehicle that it counts as reached at once.
+/// Then the step is longer, because it also evaluates the next waypoint.
 Position<float> hostile_point(Random& random, const Position<float>& vehicle_m) {
   const float reach_m = random.bits() % 8 == 0 ? 1000.0F : kAcceptance_m;
   const auto off = [&] { return reach_m * static_cast<float>(2.0 * random.uniform() - 1.0); };
   return {vehicle_m.x_m + off(), vehicle_m.y_m + off()};
 }
 
-/// Sets the time stamp of the GPS fix: usually a new fix up to 2 s old, sometimes one of any time;
-/// sometimes keeps the last fix.
+/// Sets the time stamp of the GPS fix. Usually the fix is new, with an age of up to 2 s; sometimes
+/// its time is random; sometimes the last fix is repeated.
 void receive_fix(AutopilotInput& in, Random& random) {
   in.position_is_fix = 1;
   const std::uint32_t kind = random.bits() % 8;
@@ -81,7 +82,8 @@ void receive_fix(AutopilotInput& in, Random& random) {
   in.fix_ms = kind == 2 ? random.bits() : in.times.now_ms - random.bits() % 2000;
 }
 
-/// Redraws a few of the numbers of `best`; sometimes all.
+/// Returns `best` with one to three of its input fields and a few of its points redrawn; sometimes
+/// all of them.
 Attack changed(const Attack& best, const SafetyLimits& limits, bool has_fixes, Random& random) {
   Attack attack = best;
   const std::uint32_t changes = random.bits() % 8 == 0 ? kFields : 1 + random.bits() % 3;
@@ -116,7 +118,8 @@ bool same(const AutopilotOutput& a, const AutopilotOutput& b) {
          a.command.steering_powerless == b.command.steering_powerless;
 }
 
-/// Executes one step on chip and host and counts it in `found`. Returns the chip's cycles.
+/// Executes one step on chip and host, and adds to `found` its cycles and whether the outputs
+/// differ. Returns the chip's cycles.
 Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hostile& found) {
   if (!attack.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(chip.follow(attack.points));
@@ -137,8 +140,8 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
                         const Mission& mission, const HostileSearch& search,
                         const Progress& progress) {
   Hostile found;
-  // All steps have the time 0. The first step is not counted: its time jumps, and its invalid mode
-  // raises a fault that resets the memory of earlier motion on chip and host.
+  // A first step, which is not counted, clears the memory of the run before, on chip and host: its
+  // invalid mode raises a fault. All steps of the search have the time 0.
   AutopilotInput first{};
   first.mode = 3;
   AWMR_RETURN_IF_ERROR(chip.step(first));

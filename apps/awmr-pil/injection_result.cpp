@@ -15,8 +15,8 @@ bool is_safe(const Allocation<float>& command) {
                    std::abs(command.steering_rad)}) <= 0.0F;
 }
 
-/// Result for a failure that disarms the vehicle: whether the autopilot's first fault comes in time
-/// and with the right cause, and whether the command is safe from then to the end.
+/// Evaluates a failure that must disarm the vehicle. The first fault of the autopilot must come in
+/// time and with the right cause. From then to the end, the command must be safe.
 Injected disarming_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
   result.expected = effect_of(setup.injection).fault;

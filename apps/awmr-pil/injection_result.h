@@ -9,10 +9,10 @@
 
 namespace awmr::pil {
 
-/// Returns the indices of the samples before which the chip was restarted, in increasing order.
+/// Returns the numbers of the steps before which the chip was restarted, in increasing order.
 std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows);
 
-/// Compares the faults and commands of a run with those that its injection must cause.
+/// Checks whether a run shows the faults and the safe commands that its injection must cause.
 Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows);
 
 }  // namespace awmr::pil

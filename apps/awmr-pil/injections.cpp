@@ -9,9 +9,10 @@ namespace {
 
 using cli::Injection;
 
-// Fault bits of the autopilot after the checks of the sketches have rejected a heading (or speed)
-// sensor. The autopilot then gets no new readings, and the last one becomes too old. The sketches
-// also disarm the vehicle, so that the last command becomes too old. Either fault may come first.
+// Fault bits that the autopilot may raise after the checks of the sketches have rejected a heading
+// (or speed) sensor. The rejection has two effects. The autopilot gets no new readings, so the last
+// reading becomes too old. The sketches disarm the vehicle, so the last command becomes too old.
+// Either fault may come first.
 constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
 constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
 
@@ -27,16 +28,17 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kCommandTimeout, Duration::kTwentySteps, kFaultCommandTimeout},
     {Injection::kStepLate, Duration::kOneStep, kFaultStepLate},
     {Injection::kParameters, Duration::kWholeRun, kFaultParameters},
-    // The last number is the longest time to the safe command, s: detection plus the autopilot's
-    // timeout. In a turn, a frozen compass or gyroscope contradicts the other one
-    // (kHeadingOutOfStep) before the check of frozen values has seen enough equal readings.
+    // Failures of the sensors. The last number of each row is the longest permitted time to the
+    // safe command, s: the time of detection plus the autopilot's timeout. During a turn, a frozen
+    // compass or gyroscope contradicts the other sensor (kHeadingOutOfStep) before the check for
+    // frozen values has seen enough equal readings.
     {Injection::kCompassSilent, Duration::kFromTheMiddle, kHeading, kCompassSilent, kSensorGood,
      1.5},
     {Injection::kCompassFrozen, Duration::kFromTheMiddle, kHeading, kCompassFrozen,
      kHeadingOutOfStep, 1.5},
     {Injection::kCompassJump, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
      1.5},
-    // A stuck heading is detected in the next turn.
+    // A stuck heading is detected only in the next turn, so the permitted time is long.
     {Injection::kCompassStuck, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kSensorGood,
      40.0},
     {Injection::kGyroSilent, Duration::kFromTheMiddle, kHeading, kGyroSilent, kSensorGood, 1.5},
@@ -52,18 +54,18 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kGpsRepeated, Duration::kFromTheMiddle, kSpeed, kGpsRepeated, kSensorGood, 1.5},
     {Injection::kGpsLate, Duration::kFromTheMiddle, kSpeed, kGpsSilent, kSensorGood, 1.5},
     {Injection::kGpsJump, Duration::kFromTheMiddle, kSpeed, kGpsJump, kSensorGood, 1.5},
-    // The next three are detected only after the vehicle has driven 2 to 6 m, which takes long at
-    // low speed.
+    // Failures that are detected only after the vehicle has driven 2 to 6 m, which takes long at
+    // low speed: speed stuck at 0, frozen position, reversed motors.
     {Injection::kGpsSpeedZero, Duration::kFromTheMiddle, kFaultCommandTimeout, kGpsInconsistent,
      kSensorGood, 40.0},
     {Injection::kGpsPositionFrozen, Duration::kFromTheMiddle, kFaultCommandTimeout,
      kGpsInconsistent, kSensorGood, 5.0},
     {Injection::kMotorsReversed, Duration::kFromTheMiddle, kFaultCommandTimeout, kWrongWay,
      kSensorGood, 40.0},
-    // Exchanged sides are detected in the next turn.
+    // Exchanged motors (left and right) are detected in the next turn.
     {Injection::kSidesSwapped, Duration::kFromTheMiddle, kHeading, kWrongTurn, kSensorGood, 40.0},
-    // A reversed gyroscope is detected because the filtered heading departs from the compass, or
-    // because the vehicle seems to turn against the commanded moment.
+    // A reversed gyroscope is detected by one of two checks: the filtered heading departs from the
+    // compass, or the vehicle seems to turn against the commanded yaw moment.
     {Injection::kGyroReversed, Duration::kFromTheMiddle, kHeading, kHeadingOutOfStep, kWrongTurn,
      40.0},
     {Injection::kSteeringStuck, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffCourse,
@@ -71,8 +73,8 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kServoReversed, Duration::kFromTheMiddle, kHeading, kWrongTurn, kOffCourse, 60.0},
     {Injection::kCompassTurning, Duration::kFromTheMiddle, kFaultCommandTimeout, kOffHeading,
      kWrongWay, 40.0},
-    // Failures of the operator's line. The limit is the command timeout plus the interval between
-    // two commands. STOP acts in the next step.
+    // Failures of the operator's line. The permitted time is the timeout of the commands plus the
+    // interval between two commands. STOP must take effect in the next step, so its time is short.
     {Injection::kCommandSilence, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,
      kSensorGood, 1.4},
     {Injection::kCommandNoise, Duration::kFromTheMiddle, kFaultCommandTimeout, kSensorGood,

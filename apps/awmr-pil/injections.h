@@ -1,4 +1,4 @@
-// Table of the injections of `awmr pil --inject`: effect, duration and expected detection.
+// Table of the failures of `awmr pil --inject`: when each acts, and which fault must detect it.
 #pragma once
 
 #include <cstddef>
@@ -24,31 +24,34 @@ struct InjectionEffect {
   cli::Injection injection;
   Duration duration;
   std::uint8_t fault;  ///< expected fault bits of the autopilot; at least one must be raised
-  /// Sensor check that must detect the failure; kSensorGood: not a sensor failure.
+  /// Check of the sketches that must detect the failure; kSensorGood if no sensor check is
+  /// expected.
   SensorFault cause = kSensorGood;
   SensorFault other_cause = kSensorGood;  ///< another check that may detect the failure first
-  /// Longest time to the safe command, s, for failures that disarm the vehicle; 0 for the others.
+  /// Longest permitted time to the safe command, s, for failures that disarm the vehicle. 0 for
+  /// failures that do not.
   double within_s = 0.0;
 };
 
 const InjectionEffect& effect_of(cli::Injection injection);
 
-/// True for failures of a sensor, the motors, the servo or the operator's line, which the checks of
-/// the sketches detect and answer by disarming the vehicle.
+/// True if the checks of the sketches must detect the failure and disarm the vehicle: failures of a
+/// sensor, the motors, the servo or the operator's line.
 bool disarms(cli::Injection injection);
 /// True for failures of the operator's line.
 bool is_command_failure(cli::Injection injection);
 
-/// True if `cause` is a check that may detect this injection first. `cause` is kSensorGood for
-/// failures of the operator's line.
+/// True if the sensor check `cause` may be the first one to detect this injection. Failures of the
+/// operator's line have the cause kSensorGood, because no sensor fails.
 bool is_expected_cause(cli::Injection injection, SensorFault cause);
 
-/// Indices of the samples at which an injection acts: [first, last); empty if it never acts.
+/// Steps in which an injection acts: from `first` to before `last`; empty if it never acts.
 struct Window {
   std::size_t first = 0;
   std::size_t last = 0;
 };
-/// `middle`: index of the sample in the middle of the run; `samples`: number of samples of the run.
+/// Returns the window of an injection. `middle`: number of the step in the middle of the run;
+/// `samples`: number of steps of the run.
 Window injection_window(cli::Injection injection, std::size_t middle, std::size_t samples);
 
 }  // namespace awmr::pil

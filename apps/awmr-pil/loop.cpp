@@ -23,9 +23,10 @@ using cli::Injection;
 
 float single(double value) { return static_cast<float>(value); }
 
-/// Returns the chip's input at the time `t_s`. Its reference heading is the one before obstacle
-/// avoidance and shaping, because these run on the chip; a chip that follows points or a path
-/// ignores it. The reference speed is 0 at the end of the path, or if obstacles leave no passage.
+/// Returns the chip's input at the time `t_s`. The chip itself applies obstacle avoidance and
+/// heading shaping, so it gets the reference heading before both. A chip that follows points or a
+/// path ignores this heading. The reference speed is 0 at the end of the path, or if obstacles
+/// leave no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
                         const GuidanceOutput& output) {
   const bool stops = output.finished || output.no_passage;
@@ -44,8 +45,9 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
   return in;
 }
 
-/// Age that is added to the last command while the vehicle is disarmed, ms. It is longer than every
-/// timeout, so the control step gives the safe command, as on the board.
+/// Age that is added to the last command while the vehicle is disarmed, ms. It exceeds every
+/// timeout. The control step then gives the safe command, as it does on the board of a disarmed
+/// vehicle.
 constexpr std::uint32_t kSilence_ms = 4'000'000;
 
 void inject(Injection injection, AutopilotInput& in) {
@@ -77,7 +79,8 @@ void inject(Injection injection, AutopilotInput& in) {
   }
 }
 
-/// Injects a pause of `by_ms` before a step: advances the clock and all time stamps.
+/// Injects a pause of `by_ms` before a step: advances the clock. The time stamps of the inputs
+/// advance too, so that no input becomes older.
 void delay(std::uint32_t by_ms, InputTimes& times) {
   times.now_ms += by_ms;
   times.heading_ms += by_ms;
@@ -85,8 +88,8 @@ void delay(std::uint32_t by_ms, InputTimes& times) {
   times.command_ms += by_ms;
 }
 
-/// Sets the row's forces and steering command: the chip's command, rounded to the actuators'
-/// resolution.
+/// Sets the forces and the steering angle that the actuators receive: the chip's command, rounded
+/// to the resolution of the actuators.
 void command(const LoopSetup& setup, LoopRow& row) {
   const Allocation<float>& requested = row.step.output.command;
   row.force = {static_cast<double>(requested.force.left),
@@ -97,13 +100,13 @@ void command(const LoopSetup& setup, LoopRow& row) {
   }
 }
 
-/// Injects motors that are reversed and whose sides are exchanged: each side gets the negated force
-/// of the other. The vehicle turns as commanded, but drives in the opposite direction.
+/// Injects motors that are reversed and also exchanged: each side gets the negative force of the
+/// other side. The vehicle then turns as commanded, but drives in the opposite direction.
 void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
 
 void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }
 
-/// Applies an injected failure of motors or servo to the row's command.
+/// Applies an injected failure of the motors or the servo to the forces and the steering angle.
 void fail_actuators(Injection injection, LoopRow& row) {
   if (injection == Injection::kMotorsReversed) reverse_motors(row);
   if (injection == Injection::kSidesSwapped) swap_sides(row);
@@ -111,7 +114,7 @@ void fail_actuators(Injection injection, LoopRow& row) {
   if (injection == Injection::kServoReversed) row.steering_command_rad *= -1.0;
 }
 
-/// Simulates the vehicle over one sample with the row's command.
+/// Simulates the vehicle over one sample, with the forces and the steering angle of `row`.
 Status drive(Physics& physics, const LoopRow& row, const std::string& scenario) {
   physics.step(row.t_s, row.force, row.steering_command_rad);
   if (physics.resolved()) return {};
@@ -174,7 +177,8 @@ Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor
   Sensing sensing(setup.scenario.sensors, setup.sample_time_s, run_seed(setup.scenario.seed, 0, 0));
   Positioning positioning(setup.scenario, setup.sample_time_s);
   Sensed sensed = sensing.at(0, physics.state());
-  Sensed located = sensed;  // with the estimated position, for the host's guidance in double
+  // Copy of the sensed values, with the estimated position; the host's guidance in double uses it.
+  Sensed located = sensed;
   located.position_m = positioning.step(0.0, sensed);
   ScenarioGuidance guidance(setup.scenario, setup.sample_time_s, located);
   if (!setup.mission.points.points_m.empty()) {

@@ -16,40 +16,44 @@ namespace awmr::pil {
 struct LoopSetup {
   Plant<double> plant;
   double sample_time_s = 0.01;
-  double force_max = 1.0;  ///< largest F' of a wheel, over F_max
+  double force_max = 1.0;  ///< largest force of a wheel that may be commanded, over F_max
   Scenario scenario;
   Mission mission;  ///< mission_of() the scenario
   YawMode mode = YawMode::kCombined;
   cli::Injection injection = cli::Injection::kNone;
-  SafetyLimits limits{};                 ///< limits of the firmware's input checks
-  GpsLimits gps_limits{};                ///< limits of the sketches' GPS checks
-  std::size_t middle = 0;                ///< first sample at which the injection acts
-  std::vector<std::size_t> resets = {};  ///< samples before which the executor is reset
+  SafetyLimits limits{};   ///< limits of the firmware's input checks
+  GpsLimits gps_limits{};  ///< limits of the sketches' GPS checks
+  std::size_t middle = 0;  ///< number of the first step in which the injection acts
+  /// Numbers of the steps before which the executor is reset.
+  std::vector<std::size_t> resets = {};
 };
 
 struct LoopRow {
   double t_s = 0.0;
   State<double> state{};
   Step step;
-  SensorFault cause = kSensorGood;    ///< sensor check that fails, with an injected failure
+  /// Sensor check of the sketches that fails in this step; kSensorGood if none fails.
+  SensorFault cause = kSensorGood;
   SideForces<double> force{};         ///< forces that the actuators receive in this step
   double steering_command_rad = 0.0;  ///< steering angle that the servo receives in this step
 };
 
-/// Copies noise and latency of the scenario's GPS to the model's vehicle. The firmware's position
-/// filter is computed from them, so that it equals the filter of the simulator.
+/// Copies noise and latency of the scenario's GPS to the model's vehicle. From these numbers the
+/// firmware's position filter is computed. It then equals the simulator's filter, which uses the
+/// scenario's GPS.
 void know_receiver(const Gps& gps, Model& model);
 
-/// True if the simulated speed sensor gives |u|; the firmware then has to find the direction of
-/// travel.
+/// True if the simulated speed sensor gives the magnitude of the speed only. The firmware then has
+/// to find the direction of travel.
 bool has_unsigned_speed(const Scenario& scenario);
 
 /// Checks that the firmware can run the scenario. Errors (input): the scenario uses a feature that
 /// the firmware does not support, or has more than kMaxPoints points.
 Status check_scenario(const Scenario& scenario, const std::string& file);
 
-/// Runs the loop until the scenario's duration or path ends, or obstacles leave no passage. Returns
-/// one row per sample. Errors: those of the executor; (input) the simulation diverges.
+/// Runs the closed loop until the scenario's duration or its path ends, or obstacles leave no
+/// passage. Returns one row per control step. Errors: those of the executor; (input) the simulation
+/// diverges.
 Result<std::vector<LoopRow>> run_loop(const LoopSetup& setup, Executor& executor,
                                       const Progress& progress = {});
 

@@ -23,7 +23,7 @@ int report(const awmr::Error& error, bool json = false) {
   return awmr::exit_code(error);
 }
 
-/// On a terminal, displays the current work and the time left.
+/// Runs the command. On a terminal, also displays the current stage of the work and the time left.
 awmr::Result<awmr::pil::Outcome> watched(const awmr::cli::PilOptions& options) {
   awmr::cli::Working working("reading");
   return awmr::pil::run_pil(

@@ -10,8 +10,8 @@
 namespace awmr::pil {
 namespace {
 
-/// Time limit for the chip to fall asleep, in cycles: 1 s. The longest wait is the start-up, whose
-/// checksum of the parameters takes a tenth of this.
+/// Time limit for the chip to go to sleep, in clock cycles: 1 s. The longest wait is that of the
+/// start, when the chip computes a checksum of its parameters. This takes 0.1 s.
 constexpr std::uint64_t kStartCycles = 16'000'000;
 
 class MemoryLink : public Chip {
@@ -45,15 +45,16 @@ class MemoryLink : public Chip {
     Writer writer;
     for (const Position<float>& point : points.points_m) writer.put(point.x_m).put(point.y_m);
     put("pil_points", writer);
-    // Firmware that follows a line has no acceptance radius, and so no symbol pil_acceptance_m.
+    // The variable pil_acceptance_m exists only in firmware that follows waypoints. A line has no
+    // acceptance radius.
     if (points.acceptance_m > 0.0F) put("pil_acceptance_m", Writer().put(points.acceptance_m));
     put("pil_point_count", Writer().put(static_cast<std::int16_t>(points.points_m.size())));
     points_ = points;
     return {};
   }
 
-  /// Executes one step. The chip has slept since its last step, so it does not read the input while
-  /// the host writes it.
+  /// Executes one step. The host may write the input now: the chip sleeps since its last step, so
+  /// it does not read the input at the same time.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> bytes = pack(input);
     std::copy(bytes.begin(), bytes.end(), input_.begin());
@@ -70,14 +71,14 @@ class MemoryLink : public Chip {
   }
 
  private:
-  /// Runs to the first sleep and returns the fault of the start-up check.
+  /// Lets the firmware start, up to its first sleep, and returns the fault of its start-up check.
   Result<std::uint8_t> boot() {
     AWMR_RETURN_IF_ERROR(run_to_sleep());
     return emulator_->ram("pil_init_fault", 1)[0];
   }
 
-  /// Runs until the chip sleeps. Errors (input): the chip never sleeps, because a step takes longer
-  /// than the timer's period.
+  /// Lets the chip run until it sleeps. Errors (input): the chip never sleeps, because a control
+  /// step takes longer than the sample time.
   Status run_to_sleep() {
     const std::uint64_t begin = emulator_->cycles();
     const Status asleep = emulator_->run_to_sleep(kStartCycles);

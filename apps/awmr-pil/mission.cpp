@@ -22,7 +22,7 @@ std::vector<double> parameters_of(const Law& law) {
   return values;
 }
 
-/// Converts the law from double to the chip's float.
+/// Converts a guidance law for lines from double to float, in which the chip computes.
 template <template <class> class Law>
 Law<float> in_float(const Law<double>& law) {
   Law<float> result{};
@@ -72,15 +72,16 @@ Avoidance<float> in_float(const Avoidance<double>& a) {
           in_float(a.side_hysteresis_rad), in_float(a.brake_m)};
 }
 
-/// Formats floats in braces, as literals that read back to the same values.
+/// Formats numbers as a C initialiser in braces, with enough digits that the compiler reads the
+/// same floats.
 std::string braced(const std::vector<float>& values) {
   std::vector<std::string> literals;
   for (const float value : values) literals.push_back(fmt::format("{:.8e}f", value));
   return fmt::format("{{{}}}", fmt::join(literals, ", "));
 }
 
-/// C text for the header of the firmware, mission_header(): `constants` defines objects, `calls` are
-/// statements that pil_set_up() executes once after awmr_init().
+/// C++ source text for the generated header mission.h. `constants`: definitions of objects;
+/// `calls`: statements that pil_set_up() executes once after awmr_init().
 struct SetUp {
   std::string constants;
   std::string calls;

@@ -1,5 +1,5 @@
-// Mission of the firmware: the guidance features that a scenario needs and their parameters, in
-// float as on the chip.
+// Mission of the firmware: the guidance features that a scenario needs, with their parameters in
+// float, as on the chip.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ struct LineMission {
   float corner_m = 0.0F;
 };
 
-/// Timed (Lissajous) path. `gain_per_s`: gain of the position error; 0: the path is followed
-/// without feedback of the position.
+/// Path given as a function of time (Lissajous figure). `gain_per_s`: gain of the feedback of the
+/// position error; 0: no feedback.
 struct PathMission {
   Lissajous<float> path{};
   float gain_per_s = 0.0F;
@@ -49,8 +49,8 @@ struct Mission {
   std::optional<Observers<float>> observers;
   CombinedSplit split = CombinedSplit::kRedistribute;
 
-  /// True if the chip computes the reference headings itself, from its points or its path; false if
-  /// it receives them from the host in each step.
+  /// True if the chip computes the reference headings itself, from points or a path. False if the
+  /// host sends the reference heading in each step.
   bool leads() const { return !points.points_m.empty() || path.has_value(); }
 };
 
@@ -62,13 +62,13 @@ std::set<FirmwarePart> parts_of(const Mission& mission);
 /// Maximum number of points that the firmware for `awmr pil` can follow.
 inline constexpr std::size_t kMaxPoints = 16;
 
-/// Generates mission.h of the firmware: the capacity for points, and the functions that set up the
-/// mission and follow points. Missions with the same `skip_passed` and without optional parts have
-/// the same mission.h.
+/// Generates the header mission.h of the firmware: the maximum number of points, and functions that
+/// set up the mission and follow points. All missions without optional parts and with the same
+/// `skip_passed` have the same header, so they can use the same firmware.
 std::string mission_header(const Mission& mission);
 
-/// Returns 0 if no optional part is needed and no waypoint is skipped; else a checksum of
-/// mission_header(), which detects a board flashed for another mission.
+/// Returns a checksum of mission_header(), by which the host detects a board that was flashed for
+/// another mission. Returns 0 for missions that need no optional part and skip no waypoint.
 std::uint32_t mission_crc(const Mission& mission);
 
 }  // namespace awmr::pil

@@ -17,10 +17,12 @@
 namespace awmr::pil {
 namespace {
 
-constexpr int kStartTimeout_ms = 500;   ///< the check of the parameters takes 50 ms
-constexpr int kAnswerTimeout_ms = 300;  ///< 140 bytes take 146 ms at 9600 baud
-/// Waiting time after opening the port. Opening it resets a Mega 2560, whose boot loader waits
-/// before it starts the firmware.
+/// Timeout of the start. The firmware's check of its parameters takes 50 ms.
+constexpr int kStartTimeout_ms = 500;
+/// Timeout of an answer. The slowest case is 140 bytes at 9600 baud, which take 146 ms.
+constexpr int kAnswerTimeout_ms = 300;
+/// Waiting time after the port is opened. Opening the port resets a Mega 2560, and its boot loader
+/// waits before it starts the firmware.
 constexpr int kBootTime_ms = 2000;
 
 class Port : public Line {
@@ -93,7 +95,7 @@ class Port : public Line {
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,
                                         std::uint32_t parameters_crc) {
-  // Flash and RAM use are read from the ELF file.
+  // The emulator is created only to read the use of flash and RAM from the ELF file.
   const auto emulator = Emulator::load(elf);
   if (!emulator) return tl::unexpected(emulator.error());
   return frame_link(
@@ -112,7 +114,8 @@ Result<int> open_terminal() {
   return terminal;
 }
 
-/// Writes the bytes, up to the first one that the terminal does not accept; the rest is lost.
+/// Writes the bytes until the terminal does not accept one. The remaining bytes are lost, as on a
+/// real line.
 void write_to(int terminal, const std::string& bytes) {
   std::size_t sent = 0;
   while (sent < bytes.size()) {
@@ -137,7 +140,7 @@ Status serve_terminal(const std::filesystem::path& elf) {
   bool was_open = false;
   for (;;) {
     pollfd waiting{.fd = terminal, .events = POLLIN, .revents = 0};
-    // Waits up to 1 ms for input, but not while output is pending.
+    // Waits for input, at most 1 ms. Does not wait while output is pending.
     ::poll(&waiting, 1, answer.empty() ? 1 : 0);
     if ((waiting.revents & POLLIN) != 0) {
       std::uint8_t bytes[256];
@@ -149,7 +152,7 @@ Status serve_terminal(const std::filesystem::path& elf) {
     } else if ((waiting.revents & POLLHUP) != 0 && was_open) {
       break;
     }
-    // Long enough for a request, its step and its answer.
+    // Number of cycles that suffices for a request, its control step and its answer.
     const std::uint64_t end = (*emulator)->cycles() + 100'000;
     if (auto ran = (*emulator)->run_until([&] { return (*emulator)->cycles() >= end; }, kLong);
         !ran) {

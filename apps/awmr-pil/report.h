@@ -20,10 +20,13 @@ namespace awmr::pil {
 struct ChipRun {
   std::vector<LoopRow> rows;
   ChipFigures figures;
-  /// Absent without hostile steps, with an injection, and for a real board.
+  /// Results of the hostile steps. Absent if there are none: `hostile_steps` is 0, the run has an
+  /// injection, or the board is real.
   std::optional<Hostile> hostile;
-  std::uint8_t start_fault = 0;   ///< fault of the firmware's check at its start; 0: none
-  double real_time_factor = 0.0;  ///< simulated time over processor time (board: elapsed time)
+  std::uint8_t start_fault = 0;  ///< fault of the firmware's check at its start; 0: none
+  /// Simulated time over the processor time of the emulation; for a real board, over the elapsed
+  /// time.
+  double real_time_factor = 0.0;
 };
 
 /// A check of a run: a value and its upper bound.
@@ -35,32 +38,45 @@ struct Check {
   std::string unit;
 };
 
-/// Effect of an injected fault. The "window" is that of injection_window(); for a failure that
-/// disarms the vehicle it extends from the first fault of the autopilot to the end of the run.
+/// Results of a run with an injected failure. They refer to a window of steps: that of
+/// injection_window() or, if the failure disarms the vehicle, the steps from the autopilot's first
+/// fault to the end of the run.
 struct Injected {
   std::uint8_t expected = 0;  ///< fault bits of which at least one must be raised
-  std::uint8_t seen = 0;      ///< bits set on every sample of the window, or by the first fault
-  bool worked = false;        ///< an expected fault was raised in time, or the chip restarted
-  bool safe = true;           ///< forces 0 and wheels straight during the whole window
-  bool quiet = true;          ///< no fault of the autopilot outside of the window (with a failure:
-                              ///< before it)
+  /// Fault bits of the autopilot that were set in every step of the window. For a failure that
+  /// disarms the vehicle: the bits of the first fault.
+  std::uint8_t seen = 0;
+  /// True: an expected fault was raised in time, or the chip was restarted at the step of an
+  /// injected reset.
+  bool worked = false;
+  /// True: the command was safe (forces 0, wheels straight) in all steps of the window.
+  bool safe = true;
+  /// True: outside of the window, the autopilot had no fault. For a failure that disarms the
+  /// vehicle: no fault before the failure.
+  bool quiet = true;
 };
 
 /// Results of a run and the checks that it must pass.
 struct Report {
   ChipRun chip;
   Cycles cycles;
-  std::vector<std::size_t> restarts;      ///< samples before which the chip was restarted
-  Difference from_float;                  ///< difference of the chip's run from the same run in
-                                          ///< float on the host
-  std::optional<Difference> from_double;  ///< difference of the chip's run from the run in double
-                                          ///< on the host; absent with an injection
-  double heading_apart_deg = 0.0;         ///< heading_apart_deg() of the chip's run and the run in
-                                          ///< double on the host
-  std::optional<Difference> by_float32;   ///< difference of two runs on the host: float with powf,
-                                          ///< and double
-  std::optional<Difference> by_table;     ///< difference of two runs in float on the host: with
-                                          ///< tables, and with powf
+  /// Numbers of the steps before which the chip was restarted.
+  std::vector<std::size_t> restarts;
+  /// Difference between the run with the chip and the host's run in float. Every bit should be
+  /// equal.
+  Difference from_float;
+  /// Difference between the run with the chip and the host's run in double; absent with an
+  /// injection.
+  std::optional<Difference> from_double;
+  /// Largest heading difference between the run with the chip and the host's run in double, by
+  /// heading_apart_deg().
+  double heading_apart_deg = 0.0;
+  /// Difference between two runs on the host: in float with powf, and in double. It shows the
+  /// effect of float arithmetic.
+  std::optional<Difference> by_float32;
+  /// Difference between two runs on the host in float: with resistance tables, and with powf. It
+  /// shows the effect of the tables.
+  std::optional<Difference> by_table;
   std::optional<Injected> injected;
   std::vector<Check> checks;
 
@@ -69,12 +85,13 @@ struct Report {
   }
 };
 
-/// Adds the checks of cycles, memory, differences and faults to the report, each with its bound.
-/// `period_cycles`: sample time in cycles of the chip's clock. Precondition: `options` has the
-/// bounds of cycles and heading.
+/// Adds to the report the checks of cycles, memory, differences and faults, each with its bound.
+/// `period_cycles`: sample time in clock cycles of the chip. Precondition: cycles_max and
+/// heading_max_deg of `options` have values.
 void evaluate(const cli::PilOptions& options, double period_cycles, Report& report);
 
-/// Returns the content of pil.json. Errors (input): an input cannot be read again.
+/// Returns the content of pil.json. Errors (input): an input file, whose hash pil.json lists,
+/// cannot be read again.
 Result<std::string> report_text(const cli::PilOptions& options, const LoopSetup& setup,
                                 const Report& report);
 

@@ -42,10 +42,10 @@ struct Inputs {
   AutopilotParameters parameters;
 };
 
-/// Checks the sample time for --link memory. Errors (input): it is too long (or too short) for the
-/// timer of pil_memory.cpp, which has 16 bits and counts at clock/8.
+/// Checks the sample time for --link memory. Errors (input): it is too short or too long for the
+/// timer of pil_memory.cpp, which has 16 bits and counts at an eighth of the clock frequency.
 Status check_sample_time(const Model& model) {
-  // The number of counts is computed in float and rounded as in the firmware.
+  // Rounded in float, as in the firmware, so that both find the same number of counts.
   const float counts = static_cast<float>(model.vehicle.sample_time_s) * 2e6F + 0.5F;
   if (counts >= 2.0F && counts < 65537.0F) return {};
   return input_error(
@@ -56,7 +56,8 @@ Status check_sample_time(const Model& model) {
           65536.0 * 8.0 / kClockHz * 1000.0, model.vehicle.sample_time_s * 1000.0));
 }
 
-/// Emit options that the scenario's guidance and split need, added to the given ones.
+/// Adds to the options `given` for the firmware those that the scenario's guidance and its split of
+/// the yaw moment need.
 EmitOptions emit_options_for(EmitOptions given, const Scenario& scenario, const Mission& mission) {
   given.parts.merge(parts_of(mission));
   if (mission.line) given.line_law = mission.line->place;
@@ -100,8 +101,9 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   return in;
 }
 
-/// Runs the loop with the control step in float on this machine. `form`: how resistances are
-/// computed, by table or powf; `resets`: samples before which the controller is reset.
+/// Runs the closed loop with the control step in float on this machine. `form`: whether resistances
+/// are computed by tables or by powf. `resets`: numbers of the steps before which the controller is
+/// reset.
 Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
                                       const std::vector<std::size_t>& resets = {}) {
   AutopilotParameters parameters = in.parameters;
@@ -118,8 +120,8 @@ Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
   return run_loop(setup, *host);
 }
 
-/// Sets the sample at which the injection begins: half of the number of samples of the same run
-/// without injection, which is simulated here.
+/// Sets the step at which the injection begins to the middle of the run. The number of steps comes
+/// from a simulation of the same run without injection.
 Status place_injection(Inputs& in) {
   Inputs undisturbed = in;
   undisturbed.setup.injection = Injection::kNone;
@@ -156,7 +158,8 @@ Result<std::unique_ptr<Chip>> connect(const PilOptions& options, const Inputs& i
   return memory_link(elf, damage);
 }
 
-/// Searches for the longest step of an emulated chip; called after its run.
+/// Searches for the slowest step of an emulated chip with hostile inputs. Call it after the run of
+/// the scenario.
 Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Inputs& in, Chip& chip,
                                           const Watch& watch) {
   if (options.port || options.injection != Injection::kNone || options.hostile_steps == 0) {
@@ -172,8 +175,8 @@ Result<std::optional<Hostile>> hostile_of(const PilOptions& options, const Input
   return std::optional(hostile);
 }
 
-/// Returns a time, s, to measure durations: the processor time of this process for an emulated
-/// chip, the wall-clock time for a real board.
+/// Returns the time from which durations are computed, s: the processor time of this process for an
+/// emulated chip, the wall-clock time for a real board.
 double elapsed_s(bool emulated) {
   timespec now{};
   ::clock_gettime(emulated ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &now);
@@ -211,7 +214,8 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in, const Watc
   return run;
 }
 
-/// Returns the options, with the defaults that depend on scenario and firmware filled in.
+/// Returns the options with default values for those that were not given. These defaults depend on
+/// the scenario and the firmware.
 PilOptions resolved(PilOptions options, const Inputs& in) {
   const std::set<FirmwarePart>& parts = in.emit.parts;
   const bool avoids = parts.contains(FirmwarePart::kAvoidance);
@@ -249,7 +253,8 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
   report.heading_apart_deg = heading_apart_deg(report.chip.rows, exact);
-  // Resistance families other than the power law have no powf form to compare the tables with.
+  // The effect of the tables can be measured only for power laws, because only these can also be
+  // computed by powf.
   if (in.model.surge_family != Family::kPower || in.model.yaw_family != Family::kPower) return {};
   AWMR_ASSIGN_OR_RETURN(const std::vector<LoopRow> by_powf, run_host(in, ResistanceForm::kPowf));
   report.by_float32 = difference(by_powf, exact);

@@ -1,5 +1,5 @@
-// Implementation of `awmr pil`: builds the firmware, runs it, compares the runs and checks the
-// bounds.
+// Executes `awmr pil`: builds the firmware, runs it on the chip and on the host, compares the runs,
+// and checks the bounds.
 #pragma once
 
 #include "awmr/model/record.h"
@@ -21,15 +21,15 @@ struct Outcome {
   std::vector<Finding> findings = {};
 };
 
-/// Progress callbacks. `doing` is called with a description when a new stage begins (compiling,
-/// running, ...), `progress` with the numbers of steps done and in total.
+/// Progress callbacks. `doing` is called with a description when a new stage begins, such as
+/// compiling. `progress` is called with the number of steps done and their total number.
 struct Watch {
   std::function<void(std::string_view)> doing = [](std::string_view) {};
   Progress progress = {};
 };
 
-/// Executes `awmr pil` and writes pil.json, also if a check fails (Outcome::passed). Errors:
-/// invalid input; no compiler; the chip or the link fails.
+/// Executes `awmr pil` and writes pil.json. A failed check is no error: Outcome::passed is then
+/// false. Errors: an input is invalid; there is no compiler; the chip or the link fails.
 Result<Outcome> run_pil(const cli::PilOptions& options, const Watch& watch);
 
 }  // namespace awmr::pil

@@ -24,7 +24,8 @@ constexpr double kGyroDrift_radps = 0.15;
 constexpr std::uint32_t kGpsLate_ms = 2000;
 constexpr float kGpsJump_m = 20.0F;
 
-/// Result of the sketches' parser for the sentence of a faulty receiver; kFix for other injections.
+/// Returns what the sketches' parser finds in the sentence that a faulty GPS receiver sends.
+/// Returns kFix if the injected failure does not concern the sentence.
 GpsSentence sentence_of(Injection injection) {
   const char* text = "";
   switch (injection) {
@@ -54,7 +55,7 @@ CheckedSensors::CheckedSensors(Injection injection, double sample_time_s, const 
   heading_.begin(0);
   heading_.turn.begin(kRadpsPerWord, static_cast<float>(sample_time_s));
   gps_.begin(0);
-  // Calibrates the gyroscope at rest, as a board does before it drives.
+  // Calibrates the gyroscope at rest, as a board does before the drive begins.
   for (int i = 0; i < 100; ++i) {
     heading_.calibration.take(rounded(kGyroNoise * std::normal_distribution<double>()(random_)),
                               kRadpsPerWord, false, 0.0F);
@@ -69,7 +70,8 @@ SensorFault CheckedSensors::step(std::size_t k, bool fails, const Commanded& bef
     in.measured.r_radps = -in.measured.r_radps;
   }
   if (fails && injection_ == Injection::kCompassTurning) {
-    // The heading that the controller gets drifts as well, because it is filtered from the compass.
+    // Adds the drift also to the heading that the controller gets, because that heading is filtered
+    // from the compass.
     turned_rad_ += kCompassTurning_radps * sample_time_s_;
     in.measured.psi_rad =
         float_math::wrapped(in.measured.psi_rad + static_cast<float>(turned_rad_));

@@ -1,6 +1,7 @@
-// Injects sensor failures: derives raw readings from the simulated motion, and applies the checks
-// of the sketches (control/heading_check.h, gps_check.h). The time stamp of a rejected sensor is
-// not renewed, as on the board, so that the autopilot finds its reading too old.
+// Injects sensor failures. Derives raw readings from the simulated motion, and applies the checks
+// of the sketches to them (control/heading_check.h, gps_check.h). If a check rejects a sensor, its
+// time stamp is not renewed, as on the board. The autopilot then finds the sensor's reading too
+// old.
 #pragma once
 
 #include <deque>
@@ -25,9 +26,9 @@ class CheckedSensors {
  public:
   CheckedSensors(cli::Injection injection, double sample_time_s, const GpsLimits& limits);
 
-  /// Executes the k-th control step: stores the times of the last accepted readings in in.times.
-  /// Returns why a sensor is rejected, else kSensorGood. `fails`: the injection acts, and may also
-  /// change in.measured.
+  /// Executes control step number k. Sets the times of the last accepted readings in in.times.
+  /// Returns the check that rejects a sensor; kSensorGood if none does. `fails`: the injected
+  /// failure is present; it may also change in.measured.
   SensorFault step(std::size_t k, bool fails, const Commanded& before, AutopilotInput& in);
 
  private:
@@ -40,8 +41,10 @@ class CheckedSensors {
   std::int16_t field_[3] = {0, 0, 0};
   double heading_rad_ = 0.0;  ///< output of the complementary filter
   bool has_heading_ = false;
-  std::optional<double> stuck_rad_;  ///< heading that a stuck compass keeps; absent: not stuck
-  double turned_rad_ = 0.0;          ///< error so far of a compass whose heading drifts
+  /// Heading that a stuck compass keeps; absent if the compass is not stuck.
+  std::optional<double> stuck_rad_;
+  /// Heading error of a drifting compass so far.
+  double turned_rad_ = 0.0;
   std::optional<GpsFix> fix_;
   Position<float> fix_m_{};
   bool has_position_ = false;

@@ -9,14 +9,16 @@
 namespace awmr::pil {
 namespace {
 
-/// Timeout of the start in cycles: 1 s, ten times the duration of the parameter check.
+/// Timeout of the start, in clock cycles: 1 s. The firmware's check of its parameters takes a tenth
+/// of this time.
 constexpr std::uint64_t kLineStartCycles = 16'000'000;
-/// Timeout of an answer in cycles: 30 ms. A request, its step and its answer take 3 ms. It must be
-/// longer than the pause of 20 ms after which the chip discards an incomplete frame.
+/// Timeout of an answer, in clock cycles: 30 ms. A request, its control step and its answer take 3
+/// ms. The timeout must exceed the pause of 20 ms after which the chip discards an incomplete
+/// frame.
 constexpr std::uint64_t kLineAnswerCycles = 480'000;
 
-/// Loses a fraction `share` of the transmitted bytes and flips this fraction of the bits of the
-/// others, in a deterministic sequence.
+/// Simulates a noisy line. A fraction `share` of the bytes is lost, and the same fraction of the
+/// bits of the other bytes is flipped, in a deterministic sequence.
 class Noise {
  public:
   explicit Noise(double share) : share_(share) {}

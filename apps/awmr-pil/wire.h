@@ -1,5 +1,5 @@
-// Converts input and output of a control step between the host's structs and the bytes of
-// awmr_input and awmr_output on the chip: little-endian, without padding.
+// Conversion between the host's structs for input and output of a control step and the bytes of the
+// chip's structs awmr_input and awmr_output (little-endian, without padding).
 #pragma once
 
 #include <cstdint>

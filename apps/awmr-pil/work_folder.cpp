@@ -30,15 +30,17 @@ constexpr std::string_view kPrefix = "awmr-pil-";
 constexpr int kEndingSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM,
                                   SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ};
 
-/// Locked while the folder is created or removed. The thread that ends the program locks it and
-/// never unlocks it, so that no folder is created after the clean-up.
+/// Locked while the folder is created or removed. When a signal ends the program, the thread that
+/// handles it locks this mutex for ever. No folder can then be created after the clean-up.
 std::mutex folder_mutex;
-/// Folder of this run; empty if there is none. Never destroyed, because a signal may arrive during
-/// exit.
+/// Path of this run's folder; empty if there is none. The object is never destroyed, because a
+/// signal may arrive while the program exits.
 fs::path& folder = *new fs::path;
 
-bool can_end = false;  ///< true: the thread that ends the program at a signal was started
-sem_t not_ending;      ///< posted by that thread in answer to question(): no signal is pending
+/// True: the thread that handles signals was started.
+bool can_end = false;
+/// The signal thread posts this semaphore in answer to question(), if no other signal is pending.
+sem_t not_ending;
 
 /// True for `awmr-pil-NUMBER-XXXXXX`, where NUMBER is a process ID.
 bool is_run_folder(std::string_view name) {
@@ -48,8 +50,8 @@ bool is_run_folder(std::string_view name) {
   return digits > 0 && name.substr(digits).starts_with('-');
 }
 
-/// Locks the folder itself until the returned descriptor is closed or the process ends; -1 if
-/// another process holds the lock.
+/// Locks the folder itself. The lock is held until the returned descriptor is closed or the process
+/// ends. Returns -1 if another process holds the lock.
 int lock_folder(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0) return file;
@@ -57,9 +59,9 @@ int lock_folder(const fs::path& path) {
   return -1;
 }
 
-/// True for a folder of this user (no link) that no process has locked. The process ID in its name
-/// is not used: by now it may belong to another process, also in another container with the same
-/// TMPDIR.
+/// True for a folder that a killed run left: it belongs to this user, is no link, and no process
+/// has locked it. The process ID in its name proves nothing. It may belong to another process by
+/// now, also in another container with the same TMPDIR.
 bool is_left_over(const fs::path& path) {
   if (!is_run_folder(path.filename().string())) return false;
   struct stat status {};
@@ -70,8 +72,8 @@ bool is_left_over(const fs::path& path) {
   return lock >= 0;
 }
 
-/// Removes the folder. Repeats this if the main thread, or the compiler of a killed run, is still
-/// writing into the folder.
+/// Removes the folder. Tries again if that fails, because the main thread, or the compiler of a
+/// killed run, may still be writing into the folder.
 void remove_folder(const fs::path& path) {
   for (int attempt = 0; attempt < 20; ++attempt) {
     std::error_code error;
@@ -100,12 +102,13 @@ sigset_t handled_signals() {
   return signals;
 }
 
-/// Signal that asks the ending thread whether the program is about to end. Of the pending signals
-/// the lowest number is delivered first, so the thread answers only if no other signal is pending.
+/// Signal by which the main thread asks the signal thread whether the program is about to end. Of
+/// several pending signals the lowest number is delivered first. The thread therefore answers only
+/// if no signal that ends the program is pending.
 int question() { return SIGRTMIN; }
 
-/// Discards all further output on stderr, because errors (a killed compiler, a missing file) are
-/// now consequences of the shutdown. The emulator's library writes to stderr, too.
+/// Discards all further output on stderr. From here on, errors such as a killed compiler or a
+/// missing file are consequences of the shutdown. The emulator's library writes to stderr, too.
 void silence_errors() {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
@@ -113,7 +116,8 @@ void silence_errors() {
   ::close(nowhere);
 }
 
-/// Waits for a signal, cleans up, and then lets the signal take effect.
+/// Body of the signal thread: waits for a signal, cleans up, and then ends the program by that
+/// signal.
 void* end_at_signal(void*) {
   sigset_t signals = handled_signals();
   ::sigaddset(&signals, question());
@@ -154,7 +158,8 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::make() {
   std::unique_ptr<WorkFolder> made(new WorkFolder);
   made->path_ = name;
   made->lock_ = lock_folder(name);
-  // Renamed only after locking, because other runs remove unlocked folders of this name.
+  // Gives the folder its final name only after locking it, because other runs remove unlocked
+  // folders with such names.
   const std::string suffix = name.substr(name.size() - 6);
   const fs::path locked = directory / fmt::format("{}{}-{}", kPrefix, ::getpid(), suffix);
   if (::rename(name.c_str(), locked.c_str()) == 0) folder = made->path_ = locked;

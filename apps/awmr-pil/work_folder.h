@@ -1,4 +1,4 @@
-// Private temporary folder for one run, which is removed however the run ends.
+// Private temporary folder for one run. It is removed however the run ends.
 #pragma once
 
 #include <filesystem>
@@ -32,8 +32,8 @@ class WorkFolder {
 /// any other thread exists. Signals that were ignored (nohup) stay ignored.
 void clean_up_at_signals();
 
-/// Never returns if a signal is about to end the program, so that errors caused by the signal are
-/// not reported. Returns at once otherwise.
+/// Returns at once if no signal is about to end the program. Otherwise never returns, so that
+/// errors caused by that signal are not reported.
 void exit_if_interrupted();
 
 }  // namespace awmr::pil

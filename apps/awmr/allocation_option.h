@@ -14,7 +14,9 @@
 
 namespace awmr::cli {
 
-/// Allocation form that overrides those of the vehicle and the scenarios; empty: no override.
+/// Form of the equations that compute wheel forces and steering angle (exact, or for small angles),
+/// if given on the command line. Overrides the form in the vehicle and the scenarios. Empty: no
+/// override.
 using AllocationChoice = std::optional<AllocationForm>;
 
 inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
@@ -24,19 +26,21 @@ inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
   command
       .add_option_function<std::string>(
           "--allocation", set,
-          "Compute wheel forces and steering angle from thrust and yaw moment exactly, or by the "
-          "paper's equations for small angles (default: from scenario or vehicle, else exact)")
+          "How the controller computes wheel forces and steering angle from thrust and yaw moment: "
+          "exactly, or by the paper's equations for small angles (default: as the scenario or "
+          "vehicle selects, else exact)")
       ->check(one_of(names_in(kAllocationFormNames)));
 }
 
-/// Returns the choice for the list of options in an output file; empty without a choice.
+/// Returns the option and its value, for the list of options in an output file; empty if the option
+/// is not given.
 inline std::vector<std::pair<std::string, std::string>> options_of(const AllocationChoice& choice) {
   if (!choice) return {};
   return {{"allocation", std::string(name_in(kAllocationFormNames, *choice))}};
 }
 
-/// Sets the chosen form in the model's vehicle, and removes the scenarios' own forms, so that it
-/// applies everywhere. Does nothing without a choice.
+/// Makes the chosen form apply everywhere: sets it in the model's vehicle, and removes the forms in
+/// the scenarios, which would have precedence. Does nothing without a choice.
 inline void choose(const AllocationChoice& choice, Model& model, std::span<Scenario> scenarios) {
   if (!choice) return;
   model.vehicle.allocation = *choice;

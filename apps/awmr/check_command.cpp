@@ -25,7 +25,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Results of checking a project, in the order in which the user should act on them.
+/// Problems found in a project, in the order in which the user should deal with them.
 struct Check {
   std::vector<Finding> missing;      ///< values and trials not provided yet
   std::vector<Finding> implausible;  ///< contradictory or impossible values
@@ -37,15 +37,16 @@ void take(const Error& error, std::vector<Fault>& faults) {
   faults.insert(faults.end(), error.faults.begin(), error.faults.end());
 }
 
-/// True if the value at a fault's place, `FILE:/json/pointer`, is null.
+/// True if the value that a fault refers to is null. `place`: the fault's place,
+/// `FILE:/json/pointer`.
 bool is_null_at(const Json& document, const std::string& file, const std::string& place) {
   if (!place.starts_with(file + ":/")) return false;
   const Json::json_pointer pointer(place.substr(file.size() + 1));
   return document.contains(pointer) && document.at(pointer).is_null();
 }
 
-/// Reads a JSON file of the project. Null values count as missing: the user still has to fill them
-/// in.
+/// Reads a JSON file of the project. A null value is reported as missing, not as an error of the
+/// file, because the user still has to fill it in.
 template <class T>
 std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::path&),
                              Check& check) {
@@ -64,7 +65,7 @@ std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::p
   return std::nullopt;
 }
 
-/// True for a table or log with at least one row. Adds a fault for an unreadable file.
+/// True if the table or log has at least one row. Adds a fault if the file cannot be read.
 bool has_rows(const fs::path& path, Check& check) {
   const auto sample = sample_of(path);
   if (!sample) {
@@ -76,8 +77,8 @@ bool has_rows(const fs::path& path, Check& check) {
          std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
 }
 
-/// Returns one of the parameters that this kind of trial identifies. Messages describe the trial by
-/// trial_of() of this parameter.
+/// Returns one of the parameters that this kind of trial identifies. For this parameter, trial_of()
+/// returns the description of the trial that messages need.
 ParameterId shown_by(TrialKind kind) {
   switch (kind) {
     case TrialKind::kTurning:
@@ -89,7 +90,8 @@ ParameterId shown_by(TrialKind kind) {
   }
 }
 
-/// Returns the files that contain at least one recorded row.
+/// Returns those trial files of the project that have at least one row. Reports the others as
+/// missing.
 TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check) {
   TrialFiles files{
       .vehicle = vehicle, .steady_from_logs = project.steady_from_logs, .options = project.trials};
@@ -117,8 +119,9 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
   return files;
 }
 
-/// Adds `missing-trial` for each parameter that no trial identifies (a driving log identifies all),
-/// and `assumed-sway` if the sway resistance is not given.
+/// Adds the error `missing-trial` for each parameter that no trial of the project identifies (a
+/// driving log identifies all of them). Adds the note `assumed-sway` if nothing gives the sway
+/// resistance.
 void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Check& check) {
   if (!project.logs.empty()) return;
   const auto nothing_shows = [&](ParameterId id) {
@@ -141,8 +144,8 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
            info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 
-/// If the file `path` already has a fault, adds another one whose message suggests column mappings,
-/// guessed from the file's column names.
+/// If a fault of the file `path` is in the list, adds another fault whose message suggests column
+/// mappings. They are guessed from the file's column names.
 void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& options,
                       std::vector<Fault>& faults) {
   const std::string place = path.string() + ":";
@@ -182,8 +185,8 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
-  // Files without rows are not read. A column mapping that no file uses is a fault only if all
-  // files have rows; otherwise it may belong to one of the files that were not read.
+  // A column mapping that no file uses is usually a fault. It is none while some files have no
+  // rows: these files are not read, and the mapping may belong to one of them.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;
@@ -199,7 +202,7 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const std::vector<Finding>& found = trials->findings;
   check.notes.insert(check.notes.end(), found.begin(), found.end());
   if (as_is || std::none_of(found.begin(), found.end(), contradicts)) return;
-  // Reads the trials again without `as_is`, which reports each contradiction as a fault with the
+  // Reads the trials again without `as_is`. Each contradiction is then reported as a fault with the
   // column mapping that corrects it.
   std::erase_if(check.notes, contradicts);
   files.options.as_is = false;

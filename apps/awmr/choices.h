@@ -1,4 +1,4 @@
-/// Command-line options whose value is one name from a table.
+/// Command-line options whose value is one of several fixed names.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,8 +27,8 @@ inline CLI::Validator one_of(std::vector<std::string> names) {
   return {check, std::move(shown), ""};
 }
 
-/// Sets `value` to the entry of `names` with the given name. `value` and `names` must outlive
-/// `command`. Any other name is a command-line error; the help lists the names.
+/// Adds an option that sets `value` to the entry of `names` with the given name. Any other name is
+/// a command-line error. The help lists the names. `value` and `names` must outlive `command`.
 template <class Value, std::size_t N>
 CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& value,
                         const NameTable<Value, N>& names, const std::string& meaning) {

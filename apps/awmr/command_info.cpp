@@ -8,7 +8,8 @@
 namespace awmr::cli {
 namespace {
 
-/// The names between the braces of "TEXT:{a,b}", as written by one_of(); empty without braces.
+/// Returns the names a and b of a type text "TEXT:{a,b}", which one_of() writes; empty if the text
+/// has no braces.
 std::vector<std::string> choices_in(const std::string& type) {
   std::vector<std::string> names;
   const std::size_t open = type.find('{');
@@ -33,7 +34,7 @@ OptionInfo info_of(const CLI::Option& option) {
   info.meaning = option.get_description();
   info.required = option.get_required();
   if (option.get_items_expected_max() == 0) return info;
-  // CLI11's type names, with range or choices: "INT:in [0, 1000]", "TEXT:{a,b}", "FILE".
+  // CLI11 returns the type with its range or its choices: "INT:in [0, 1000]", "TEXT:{a,b}", "FILE".
   const std::string type = option.get_type_name();
   const std::size_t colon = type.find(':');
   info.value = type.substr(0, colon);

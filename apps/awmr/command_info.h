@@ -21,7 +21,8 @@ enum class ValueKind {
 };
 
 struct OptionInfo {
-  std::string name;        ///< "--output"; for a positional argument "PROJECT"
+  /// Name as on the command line: "--output"; for a positional argument "PROJECT".
+  std::string name;
   std::string short_name;  ///< "-o", or empty
   ValueKind kind = ValueKind::kNone;
   std::string value;                 ///< placeholder of the value: "FILE", "INT", ...
@@ -40,7 +41,7 @@ struct CommandInfo {
   std::vector<OptionInfo> options;
 };
 
-/// Returns the program itself, then its commands in the order of the help.
+/// Describes the program itself, and after it each command, in the order of the help.
 std::vector<CommandInfo> commands_of(const CLI::App& app);
 
 }  // namespace awmr::cli

@@ -17,8 +17,8 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// `--NAME` of each option, to find the closest one. One-letter names are left out, because they
-/// are close to every short word.
+/// Returns `--NAME` of each option of the command, among which the closest to a misspelt one is
+/// searched. One-letter options are left out, because they are close to every short word.
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
@@ -27,7 +27,8 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-/// Returns the first argument that looks like an option but is unknown, without its value.
+/// Returns the first argument that looks like an option but is unknown. In `--NAME=VALUE`, only
+/// `--NAME` is returned.
 std::optional<std::string> unknown_option(const CLI::App& command) {
   const std::vector<std::string> words = command.remaining();
   const auto found = std::find_if(words.begin(), words.end(), [](const std::string& word) {

@@ -11,8 +11,9 @@ namespace awmr::cli {
 /// Returns "; did you mean 'NAME'?" with the closest name; empty if none is close.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
-/// Describes the command-line error: CLI11's message, the unknown command or option, and the
-/// closest known name. Precondition: `app` is as the failed parse left it.
+/// Describes an error of the command line: CLI11's message, the unknown command or option, and the
+/// known name that is closest to it. Precondition: `app` has not changed since the parse that
+/// failed.
 std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error, int argc,
                              char** argv);
 

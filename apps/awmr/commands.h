@@ -1,5 +1,6 @@
-/// The commands of the program. For each: its options, execute(), which runs it, and add_NAME(),
-/// which adds it to the command line. `run` calls the same execute() functions.
+/// The commands of the program. A struct has the options of each command, execute() runs it, and
+/// add_NAME() adds it to the command line. The command `run` calls the execute() functions of the
+/// other commands.
 #pragma once
 
 #include <filesystem>
@@ -53,25 +54,29 @@ struct IdentifyCommand {
   IdentifyOptions identify;
   TrialOptions trials;
   fs::path output;
-  InputNames names = {};  ///< names of the inputs in the output file; only `run` sets them
+  /// Names under which the output file lists its inputs. Only `run` sets them; empty: the file
+  /// names.
+  InputNames names = {};
 };
 Result<Outcome> execute(const IdentifyCommand& command);
 void add_identify(CLI::App& app, Session& session);
 
-/// Records a drive, checks and fits it while it is recorded, and identifies the model at its end.
+/// Records a drive. Meanwhile checks the data and fits the model repeatedly, and at the end
+/// identifies the final model.
 struct LiveCommand {
   IdentifyCommand identify;  ///< options of the identification; execute() sets `logs`
   StreamSource source = {};
   std::optional<fs::path> record = {};  ///< file of the recording; default: next to the model
   double every_s = 5.0;                 ///< interval between two updates of the display, > 0
   double budget_s = 5.0;                ///< time limit of an interim fit, > 0
-  double enough = 0.1;                  ///< largest half width of a 95 % interval that is small
-                                        ///< enough (Precision::half_width), > 0
-  bool until_enough = false;            ///< end the recording when every half width is at most
-                                        ///< `enough`
-  double duration_s = 0.0;              ///< end the recording after this time; 0: no limit
-  double idle_s = 0.0;                  ///< end the recording after this time without data; 0: no
-                                        ///< limit
+  /// Half width of a 95 % interval, > 0, that is small enough for a parameter
+  /// (Precision::half_width).
+  double enough = 0.1;
+  /// True: the recording ends as soon as every half width is at most `enough`.
+  bool until_enough = false;
+  double duration_s = 0.0;  ///< end the recording after this time; 0: no limit
+  /// The recording ends after this time without data; 0: no limit.
+  double idle_s = 0.0;
 };
 Result<Outcome> execute(const LiveCommand& command);
 void add_live(CLI::App& app, Session& session);
@@ -80,7 +85,8 @@ struct RecoverCommand {
   fs::path model;
   RecoverOptions recover;
   ShardChoice shard = {};
-  std::optional<fs::path> output = {};  ///< recover.json; with a shard, the shard's directory
+  /// File recover.json; if `shard` is given, the directory for that part of the runs.
+  std::optional<fs::path> output = {};
 };
 Result<Outcome> execute(const RecoverCommand& command);
 void add_recover(CLI::App& app, Session& session);
@@ -103,8 +109,8 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
-  /// true: tune a disturbance observer; false: tune none. Absent: `observer` and `no_observer` of
-  /// tune.json apply.
+  /// true: tune a disturbance observer; false: tune none. If absent, the keys `observer` and
+  /// `no_observer` of tune.json decide.
   std::optional<bool> observer = {};
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
@@ -122,15 +128,19 @@ struct ValidateCommand {
   fs::path output;
   AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
-  TrialOptions trials = {};    ///< column mappings and used time spans of the logs
-  bool other_columns = false;  ///< true: column mappings for files that are not among `logs` are
-                               ///< ignored; false: they are errors
-  double horizon_s = 10.0;     ///< length of the windows over which logs are predicted
-  double log_tolerance = 0.3;  ///< largest accepted NRMSE of a channel over a window
-  bool tyres = false;          ///< also fit the tyres of the four-wheel plant to the logs
+  TrialOptions trials = {};  ///< column mappings and used time spans of the logs
+  /// True: column mappings for files that are not in `logs` are ignored. False: such mappings are
+  /// errors.
+  bool other_columns = false;
+  double horizon_s = 10.0;  ///< length of the windows over which logs are predicted
+  /// Largest accepted normalised RMS error (NRMSE) of the prediction of a channel over a window.
+  double log_tolerance = 0.3;
+  /// True: also fit the tyres of the four-wheel model to the logs.
+  bool tyres = false;
   bool claims = false;  ///< print the paper's fourteen claims, each with its criterion and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown file for the claims
-  std::optional<fs::path> scenario = {};      ///< if given: the logs are drives of this scenario
+  /// If given: the logs are drives of this scenario under the controller.
+  std::optional<fs::path> scenario = {};
   AcceptanceOptions acceptance = {};
   InputNames names = {};
 };
@@ -159,7 +169,9 @@ struct CompareCommand {
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
   PlantChoice plant = {.checks_other = true};
-  ShardChoice shard = {};  ///< the part of `--shard`, the same as in `compare`; empty: all runs
+  /// Part of the runs that this call computes (`--shard`), a copy of that in `compare`; empty: all
+  /// runs.
+  ShardChoice shard = {};
   InputNames names = {};
 };
 Result<Outcome> execute(const CompareCommand& command);

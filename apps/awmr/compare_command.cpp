@@ -26,7 +26,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Names each gains file by its file name, or by its path as given if two file names are equal.
+/// Reads the gains files. Each set of gains is named by its file name, or by its path as given if
+/// two file names are equal.
 Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& paths,
                                                  const Model& model) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<Gains<double>> gains,
@@ -43,7 +44,7 @@ Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& pa
   return all;
 }
 
-/// Inputs of a comparison, with the options of the command line applied.
+/// Inputs of a comparison, after the command-line options have been applied to them.
 struct ComparedInputs {
   Model model;
   std::vector<NamedGains> gains;
@@ -99,7 +100,7 @@ Result<Provenance> provenance_of(const CompareCommand& command, const ComparedIn
   return Provenance{"compare", std::move(options), std::move(inputs)};
 }
 
-/// Runs the comparison with a progress bar until it ends or Ctrl-C is pressed.
+/// Runs the comparison with a progress bar, until it ends or the user presses Ctrl-C.
 Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, CompareOptions options) {
   const StopOnInterrupt interrupt;
   Working bar("comparing");
@@ -108,7 +109,7 @@ Result<Comparison> compare_until_interrupted(const ComparedInputs& inputs, Compa
   return compare(inputs.model, inputs.gains, inputs.scenarios, options);
 }
 
-/// Option values that read_texts() parses when the command runs.
+/// Values of options as text, which read_texts() parses when the command runs.
 struct Texts {
   std::optional<std::string> shard;
   std::vector<std::string> weights;
@@ -143,17 +144,18 @@ void add_samples(CLI::App& command, CompareOptions& options) {
 void add_preferences(CLI::App& command, Texts& texts) {
   command.add_option(
       "--weight", texts.weights,
-      "NAME=WEIGHT of a metric in the ranking, 0 to 1000, may be repeated: finish_time_s=3, "
-      "energy_electric=1 (default 1 for heading_iae_degs, cross_track_rms_m, settling_time_s, "
+      "NAME=WEIGHT: weight of a metric in the ranking, 0 to 1000, such as finish_time_s=3; may be "
+      "repeated (default 1 for heading_iae_degs, cross_track_rms_m, settling_time_s, "
       "finish_time_s, speed_drop_mps, energy_mech and tyre_work, 0 for the others)");
   command
       .add_option("--relevance", texts.relevance,
                   "Relative difference of a metric or score below which modes are equivalent, at "
-                  "least 0.001 (default 0.05); 0 is excluded, as rounding could then decide a rank")
+                  "least 0.001, so that rounding decides no rank (default 0.05)")
       ->check(within(kRelevance.min, kRelevance.max));
 }
 
-/// Describes the heading-rate limit; for 'measured', with the rate from the model.
+/// Describes the heading-rate limit. If the choice is 'measured', the text has the rate from the
+/// model.
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
@@ -162,8 +164,8 @@ std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
-/// Returns the findings of the inputs, then those of the comparison. Also for a part of a
-/// comparison (--shard).
+/// Returns the findings about the inputs, followed by those about the comparison. The comparison
+/// may also be a part (--shard).
 Result<std::vector<Finding>> findings_of(const CompareCommand& command,
                                          const ComparedInputs& inputs,
                                          const Comparison& comparison) {
@@ -179,7 +181,8 @@ Result<std::vector<Finding>> findings_of(const CompareCommand& command,
   return findings;
 }
 
-/// Table of a whole comparison, followed by the heading-rate limit and the plant.
+/// Returns the table of a whole comparison (no --shard), followed by the heading-rate limit and the
+/// simulated vehicle model.
 std::string table_of(const CompareCommand& command, const ComparedInputs& inputs,
                      const Comparison& comparison) {
   std::string table =
@@ -212,8 +215,8 @@ Result<Outcome> whole_outcome(const CompareCommand& command, const ComparedInput
   return outcome;
 }
 
-/// Checks the outputs before the work begins. Errors (input): an output cannot be written, or is an
-/// input.
+/// Checks the output files, so that an error is found before the long computation. Errors (input):
+/// an output cannot be written, or is an input.
 Status check_outputs_of(const CompareCommand& command) {
   return cli::check_outputs(command.output,
                             command.shard
@@ -266,10 +269,10 @@ void add_compare(CLI::App& app, Session& session) {
   add_file(*sub, "--scenario", command->scenarios, "scenario.json, one or more")->required();
   add_samples(*sub, command->compare);
   add_preferences(*sub, *texts);
-  sub->add_flag(
-      "--break-even", command->compare.break_even,
-      "Also compute the break-even tyre scrub of differential turns (a constant yaw moment against "
-      "the turn): the scrub at which a mode with smaller force differences becomes as good");
+  sub->add_flag("--break-even", command->compare.break_even,
+                "Also compute the break-even tyre scrub. Scrub is a constant yaw moment against "
+                "differential turns; at the break-even value, a mode with smaller differences "
+                "between left and right force becomes as good as the best one");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit, "measured, if the model has that rate");

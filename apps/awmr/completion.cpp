@@ -8,7 +8,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Single-quotes a string for bash, zsh and fish; an inner quote closes and reopens the quotes.
+/// Single-quotes a string for bash, zsh and fish. A quote within the string ends the quoted part,
+/// is escaped, and a new quoted part begins.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
@@ -21,7 +22,8 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// Shortens a description for a list: the text before the first colon, semicolon or bracket.
+/// Shortens the description of an option for a list: returns the text before its first colon,
+/// semicolon or bracket.
 std::string brief(const std::string& meaning) {
   const std::size_t end = meaning.find_first_of(":;(");
   std::string text = meaning.substr(0, end);
@@ -47,7 +49,7 @@ std::vector<std::string> names_of(const std::vector<CommandInfo>& commands) {
   return names;
 }
 
-// ---- bash: the previous word determines the candidates for the current word
+// ---- bash: the word before the current one determines the candidates for completion
 
 std::string bash_action(const OptionInfo& option) {
   switch (option.kind) {
@@ -104,9 +106,10 @@ std::string bash_text(const std::vector<CommandInfo>& commands) {
   return text + "  esac\n}\ncomplete -F _awmr awmr\n";
 }
 
-// ---- zsh: a specification for _arguments per option
+// ---- zsh: one specification for each option, which the zsh function _arguments reads
 
-/// Escapes the colons and brackets that delimit the parts of a specification.
+/// Escapes the colons and brackets in a text, because they separate the parts of a zsh
+/// specification.
 std::string zsh_part(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -209,7 +212,7 @@ std::string fish_line(const std::string& condition, const OptionInfo& option) {
     if (!option.short_name.empty()) line += " -s " + option.short_name.substr(1);
   }
   std::string values = fish_values(option);
-  // fish's `-r` (the option requires a value) does not apply to positional arguments.
+  // The flag `-r` of fish (the option requires a value) has no effect on positional arguments.
   if (option.positional && values.starts_with(" -r")) values = " -F";
   return line + values + " -d " + quoted(brief(option.meaning)) + "\n";
 }

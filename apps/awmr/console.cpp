@@ -33,7 +33,7 @@ bool print(std::FILE* stream, const std::string& text) {
          std::fflush(stream) == 0;
 }
 
-/// Output options of a command: `--quiet`, `--verbose`, `--json`.
+/// Options of a command that change its output on the terminal: `--quiet`, `--verbose`, `--json`.
 struct Manner {
   bool quiet = false;
   bool verbose = false;
@@ -47,8 +47,8 @@ int to_stdout(const std::string& text, int exit_code) {
   return 2;
 }
 
-/// Makes the titles of the summary bold. A title is a line without indent that is one word, or that
-/// precedes an indented line.
+/// Makes the titles in the summary bold. A line is a title if it is not indented and either has one
+/// word only or is followed by an indented line.
 std::string styled(const std::string& summary, const Style& style) {
   std::istringstream lines(printable_lines(summary));
   std::string text;
@@ -60,8 +60,9 @@ std::string styled(const std::string& summary, const Style& style) {
   return text;
 }
 
-/// Prints the findings. `--verbose`: all of them. `--quiet`: only the errors that explain a
-/// refusal. Otherwise: findings_text(), which shortens long lists.
+/// Prints the findings on stderr. With `--verbose` all of them; with `--quiet` only the errors that
+/// explain why a request was refused; otherwise the text of findings_text(), which shortens long
+/// lists.
 void print_findings(const Outcome& outcome, Manner manner) {
   const Style style(stderr);
   std::string text;
@@ -95,8 +96,8 @@ int report(const std::string& command, const Result<Outcome>& result, Manner man
   return exit_code;
 }
 
-/// Executes the command and shows its name as progress, until the command reports its own. `live`
-/// has its own screen.
+/// Executes the command. Shows the command's name as progress until the command reports its own
+/// progress. The command `live` is excepted, because it has its own screen.
 Result<Outcome> watched(const std::string& name, const std::function<Result<Outcome>()>& execute) {
   if (name == "live") return execute();
   const Working working("awmr " + name);
@@ -144,7 +145,8 @@ CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
       ->excludes(quiet);
   command
       ->add_flag("--json", manner->json,
-                 "Print the result and its findings as one JSON object, errors as one on stderr")
+                 "Print the result and its findings as one JSON object on stdout; print errors as "
+                 "one JSON object on stderr")
       ->excludes(quiet);
   command->callback([&session, name, manner, execute = std::move(execute)] {
     show_progress({.on_terminal = !manner->quiet, .in_lines = !manner->quiet && !manner->json});

@@ -1,5 +1,5 @@
-/// Functions that all commands use: their outcome, registration on the command line, terminal
-/// output.
+/// Functions that all commands use: for their result, their place on the command line and their
+/// output on the terminal.
 #pragma once
 
 #include <filesystem>
@@ -25,22 +25,23 @@ struct Outcome {
   std::string summary = {};  ///< text for stdout: results first, at most one screen
   /// printed below the summary with `--verbose`; the output files contain the same numbers
   std::string details = {};
-  std::string closing = {};            ///< last line of the output, which names the files written
-  std::string brief = {};              ///< short summary that `run` prints instead
+  std::string closing = {};  ///< last line of the output, which names the files written
+  /// Short summary that the command `run` prints in place of `summary`.
+  std::string brief = {};
   std::vector<Finding> findings = {};  ///< printed on stderr
-  bool refused = false;                ///< true: the command ran, with a negative result (exit code
-                                       ///< 1)
-  std::string document = {};           ///< content of the output file, for `--json`
+  /// True: the command ran, but its result is negative (exit code 1).
+  bool refused = false;
+  std::string document = {};                        ///< content of the output file, for `--json`
   std::vector<std::filesystem::path> written = {};  ///< files written by the command
 };
 
-/// Result of the executed command for main().
+/// Result of the executed command, which main() returns.
 struct Session {
   int exit_code = 0;
 };
 
-/// Adds a subcommand with the options `--quiet`, `--verbose`, `--json` and `--version`, and with an
-/// example below its help. `execute` runs the command.
+/// Adds a command to the command line. It gets the options `--quiet`, `--verbose`, `--json` and
+/// `--version`, and its help ends with the example. `execute` is called to run the command.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description, const std::string& example,
                       std::function<Result<Outcome>()> execute);
@@ -51,22 +52,24 @@ CLI::Option* add_output(CLI::App& command, std::filesystem::path& path, const st
 CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path,
                                   const std::string& meaning);
 
-/// Copies the outcome's findings into its JSON document. Call it once all findings are known and
-/// before writing the document.
+/// Copies the findings of the outcome into its JSON document. Call this function once, after all
+/// findings are known and before the document is written.
 void put_findings_into_document(Outcome& outcome);
 
-/// Adds the findings to the outcome's JSON document. With a path, also writes the document and adds
-/// the file to the summary.
+/// Adds the findings to the outcome's JSON document. If a path is given, also writes the document
+/// to it and names the file in the summary.
 Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome);
 
-/// Applies check_output() to each of `names` in a directory that may not exist yet. Creates
-/// nothing.
+/// Checks by check_output() that each of the files `names` can be written into a directory. The
+/// directory need not exist. Creates nothing.
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
                      std::span<const std::filesystem::path> inputs);
 
-/// One line per identified quantity: value, standard error, 95 % interval, unit, origin.
+/// Returns a table of the identified parameters: value, standard error, 95 % interval, unit and
+/// origin, one line each.
 std::string parameter_table_text(const Model& model);
-/// One line per identified quantity in N, N m, kg and kg m^2; empty if m' is unknown.
+/// Returns a table of the identified parameters in N, N m, kg and kg m^2, one line each; empty if
+/// m' is unknown.
 std::string si_table_text(const Model& model);
 
 }  // namespace awmr::cli

@@ -30,8 +30,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Writes each file to `DIR/PATH` and creates directories as needed. Writes all files or none.
-/// Errors: those of make_directory(), check_output() and write_files().
+/// Writes each file to its path below the directory of `-o`, and creates directories as needed.
+/// Writes all files or none. Errors: those of make_directory(), check_output() and write_files().
 Status write_emitted(const EmitCommand& command, const std::vector<EmittedFile>& files,
                      const std::string& manifest) {
   const fs::path inputs[] = {command.model, command.gains};
@@ -72,8 +72,8 @@ Json table_json(const EmittedTable& table) {
           {"worst_relative_error", table.worst_relative_error}};
 }
 
-/// Adds a warning if the error of a resistance table is above the default bound, unless a bound was
-/// requested.
+/// Adds a warning if a resistance table is less accurate than the default bound. Adds none if the
+/// user gave a bound, because a table that misses it is an error.
 void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& command,
                 Outcome& outcome) {
   if (command.emit.table_error || table.largest_relative_error() <= kTableError) return;
@@ -86,8 +86,9 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
            name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
 }
 
-/// Warns if motors that differ by 16 % cause a steady heading error above kMaxOnCourse_rad/2. At an
-/// error above kMaxOnCourse_rad, the sketches report a failure (fault 17).
+/// Warns of gains that are too weak to hold a heading. The test case are motors whose forces differ
+/// by 16 %. The warning is given if their steady heading error is above kMaxOnCourse_rad/2, half of
+/// the error at which the sketches report a failure (fault 17).
 void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
                       Outcome& outcome) {
   if (2.0 * parameters.steady_error_rad <= kMaxOnCourse_rad) return;
@@ -100,8 +101,8 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
            degrees(parameters.steady_error_rad))});
 }
 
-/// Warns if the sample time is shorter than the chip's longest step, or longer than half of the
-/// heading timeout.
+/// Warns if the sample time is shorter than the chip's longest step, longer than the permitted time
+/// between two steps, or longer than half of the heading timeout.
 std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& command) {
   constexpr double kLongestStep_s = 20000.0 / 16e6;
   const double oldest_s = 1e-3 * command.emit.heading_timeout_ms;
@@ -134,8 +135,8 @@ std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& comman
   return findings;
 }
 
-/// Checks the dimensions of the vehicle. Errors (input): implausible values, each with its place in
-/// the model's file.
+/// Checks the dimensions of the vehicle, unless --as-is is given. Errors (input): each implausible
+/// value, with its place in the model's file.
 Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
   if (command.as_is) return {};
   return check_plausible(
@@ -143,8 +144,8 @@ Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
       "Correct vehicle.json and identify again, or give " + option_text("as-is"));
 }
 
-/// Warns of weak gains, and reports the accuracy of the resistance tables. With powf there are no
-/// tables.
+/// Warns of weak gains, and adds the accuracy of the resistance tables to the output. With
+/// --resistance powf there are no tables.
 Status add_parameters(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
                       const EmitCommand& command, Outcome& outcome) {
   AWMR_ASSIGN_OR_RETURN(const auto parameters,

@@ -16,16 +16,16 @@ namespace awmr::cli {
 namespace {
 
 void add_resistance_options(CLI::App& command, EmitOptions& options) {
-  add_choice(
-      command, "--resistance", options.resistance, kResistanceFormNames,
-      "Resistance on the chip: by an interpolated table in flash, or by the C library's powf")
+  add_choice(command, "--resistance", options.resistance, kResistanceFormNames,
+             "How the chip computes resistances: by an interpolated table in flash, or by the C "
+             "library's powf")
       ->default_str("table");
   command
       .add_option("--table-error", options.table_error,
-                  "Largest permitted error of a table, relative to the resistance; relative to a "
-                  "tenth of the largest force (yaw: moment) where the resistance is below that. It "
-                  "is an error if no table is that accurate [5e-4, or the error of the most "
-                  "accurate table]")
+                  "Largest permitted error of a resistance table, as a fraction of the resistance. "
+                  "For a resistance below a tenth of the largest force (yaw: moment), it is a "
+                  "fraction of that tenth. It is an error if no table is that accurate [5e-4, or "
+                  "the error of the most accurate table]")
       ->check(within(1e-7, 0.1));
 }
 
@@ -72,10 +72,10 @@ void add_timeouts(CLI::App& command, EmitOptions& options) {
 void add_emit_options(CLI::App& command, EmitOptions& options) {
   add_resistance_options(command, options);
   add_parts_option(command, options);
-  add_choice(
-      command, "--split", options.split, kCombinedSplitNames,
-      "Combined mode, when steering or wheel forces reach their limit: redistribute gives the "
-      "rest of the yaw moment to the other one; with fixed_half the rest is lost")
+  add_choice(command, "--split", options.split, kCombinedSplitNames,
+             "Split of the yaw moment in combined mode between steering and wheel forces. When one "
+             "of them reaches its limit, redistribute gives the rest of the moment to the other; "
+             "with fixed_half the rest is lost")
       ->default_str("redistribute");
   add_timeouts(command, options);
 }

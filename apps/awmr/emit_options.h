@@ -15,8 +15,9 @@ namespace awmr::cli {
 /// Adds `--resistance`, `--table-error`, `--with`, `--split` and the four `--...-timeout-ms`.
 void add_emit_options(CLI::App& command, EmitOptions& options);
 
-/// Returns the hashes of the two input files, the name of the gains file, and the robustness
-/// certificate in it. Errors: those of input_file() and read_certificate().
+/// Returns the origin of the firmware's parameters: the hashes of model and gains file, the name of
+/// the gains file, and the robustness certificate in it. Errors: those of input_file() and
+/// read_certificate().
 Result<EmitInputs> emit_inputs(const std::filesystem::path& model,
                                const std::filesystem::path& gains);
 

@@ -1,4 +1,5 @@
-/// Files of `awmr init --example`: unmodified copies of the source's configs and datasets.
+/// Files that `awmr init --example` writes: unmodified copies of the configs and datasets in the
+/// source tree.
 #pragma once
 
 #include <vector>
@@ -7,7 +8,7 @@
 
 namespace awmr {
 
-/// Each file has its path in the source tree: "configs/paper/project.json".
+/// Returns the files. The path of each is that in the source tree: "configs/paper/project.json".
 const std::vector<EmbeddedFile>& example_files();
 
 }  // namespace awmr

@@ -15,7 +15,7 @@
 namespace awmr::cli {
 namespace {
 
-/// A code of a finding or an error, as explained by FINDINGS.md.
+/// Explanation of the code of a finding or an error, from a row of FINDINGS.md.
 struct Explanation {
   std::string code;
   std::string group;     ///< heading of its table
@@ -24,7 +24,7 @@ struct Explanation {
   std::string remedy;
 };
 
-/// Cells of a Markdown table row, without backticks.
+/// Returns the cells of a row of a Markdown table, without backticks.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::string cell;
@@ -52,8 +52,8 @@ std::vector<std::string> parts_of(const std::string& list) {
   return parts;
 }
 
-/// The rows of FINDINGS.md: `| codes | severity of all, or of each | meaning | remedy |`, as
-/// tests/cli/findings.py checks.
+/// Reads the rows of FINDINGS.md, `| codes | severity | meaning | remedy |`. A row has one severity
+/// for all its codes, or one for each; tests/cli/findings.py checks this.
 std::vector<Explanation> explanations() {
   std::vector<Explanation> all;
   std::string group;
@@ -72,8 +72,8 @@ std::vector<Explanation> explanations() {
   return all;
 }
 
-/// Breaks a text into lines of at most `width` bytes. All lines but the first begin with `indent`
-/// spaces.
+/// Breaks a text into lines of at most `width` bytes. Each line but the first is indented by
+/// `indent` spaces.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
   std::string result;
   std::size_t column = indent;
@@ -115,8 +115,8 @@ std::string list_of(const std::vector<Explanation>& all) {
   return text;
 }
 
-/// Suggestions for a misspelt or shortened code, at most five: the nearest by spelling, then those
-/// that contain it.
+/// Returns at most five codes that the user may have meant by a misspelt or shortened code: first
+/// those of similar spelling, then those that contain the text.
 std::vector<std::string> near_codes(const std::string& code, std::vector<std::string> codes) {
   constexpr std::size_t kShortest = 3, kMax = 5;
   std::vector<std::string> near;

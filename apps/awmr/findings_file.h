@@ -1,4 +1,5 @@
-/// FINDINGS.md, embedded: meaning and remedy of each finding code.
+/// The page FINDINGS.md, embedded in the program. It has the meaning and the remedy of each finding
+/// code.
 #pragma once
 
 #include <vector>
@@ -7,7 +8,7 @@
 
 namespace awmr {
 
-/// Returns a list with FINDINGS.md as its only file.
+/// Returns a list whose only file is FINDINGS.md.
 const std::vector<EmbeddedFile>& findings_file();
 
 }  // namespace awmr

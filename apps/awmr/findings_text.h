@@ -12,9 +12,9 @@ namespace awmr::cli {
 /// Formats a finding as `warning: FILE:LINE: MESSAGE [CODE]`, like a compiler.
 std::string to_text(const Finding& finding, const Style& style);
 
-/// Text of the findings, those with the largest effect on the results first. The first three, or as
-/// many as there are errors, have a line each. If two or more others remain, a last line gives
-/// their number by code.
+/// Returns the text of the findings, those with the largest effect on the results first. The first
+/// three have a line each; if there are more than three errors, every error has a line. If two or
+/// more findings remain, a last line counts them by code.
 std::string findings_text(const std::vector<Finding>& findings, const Style& style);
 
 }  // namespace awmr::cli

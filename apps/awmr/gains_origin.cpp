@@ -14,7 +14,8 @@ namespace awmr::cli {
 
 namespace {
 
-/// The mode that the gains were tuned for; empty: all modes. Errors (input): no name of a mode.
+/// Returns the mode that the gains were tuned for; empty if they were tuned for all modes. Errors
+/// (input): the gains file has an unknown mode.
 Result<std::optional<YawMode>> tuned_mode(const Json& json, const std::filesystem::path& gains) {
   std::vector<Fault> faults;
   JsonObject root(json, gains.string(), "", faults);
@@ -55,7 +56,8 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
 
 void note_unstable(const Gains<double>& gains, double sample_time_s,
                    const std::filesystem::path& gains_file, std::vector<Finding>& findings) {
-  // A sampled first-order loop is unstable if its rate times the sample time is 2 or more.
+  // Limit of a loop's rate times the sample time. A sampled first-order loop is unstable from this
+  // value on.
   constexpr double kMax = 2.0;
   const double heading = gains.heading.lambda + gains.heading.mu / gains.heading.epsilon;
   const double speed = gains.speed.mu / gains.speed.epsilon;

@@ -1,5 +1,5 @@
-/// Warnings about gains that are used with another model or mode than they were tuned for, or that
-/// are unstable at the model's sample time.
+/// Warnings about gains that were tuned for another model or mode, or that are unstable at the
+/// model's sample time.
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,17 @@
 namespace awmr::cli {
 
 /// Adds a warning if the gains were tuned for another model or another mode.
-/// `gains-of-another-model`: the gains file lists the SHA-256 of its inputs, and that of the model
-/// is not among them. `gains-of-another-mode`: the gains were tuned for one mode and are used in
-/// another. `mode`: the mode in which they are used; absent: all modes. No warning for gains that
-/// were written by hand, because they list no inputs, and for gains from a pipe, which can be read
+/// `gains-of-another-model`: the SHA-256 of the model is not among those of the inputs that the
+/// gains file lists. `gains-of-another-mode`: the gains were tuned for one mode only, and are used
+/// in another.
+/// `mode`: the mode in which the gains are used; absent: all modes. There is no warning for gains
+/// that were written by hand, which list no inputs, or that come from a pipe, which can be read
 /// only once. Errors: those of read_json_file().
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings, std::optional<YawMode> mode = {});
 
 /// Adds the warning `unstable-gains` for each loop (heading, speed) that is unstable at this sample
-/// time with any vehicle. `gains_file`: the file that the warnings name.
+/// time, whatever the vehicle. `gains_file`: name of the file in the warnings.
 void note_unstable(const Gains<double>& gains, double sample_time_s,
                    const std::filesystem::path& gains_file, std::vector<Finding>& findings);
 

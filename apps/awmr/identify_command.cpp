@@ -59,8 +59,8 @@ std::string names_of(const EstimatorReport& report) {
   return report.family.empty() ? name : name + " " + report.family;
 }
 
-/// Describes the tyre scrub: the yaw moment that differential turns need in addition to the yaw
-/// resistance. Empty if the trials do not determine it.
+/// Describes the tyre scrub, which is the yaw moment that differential turns need in addition to
+/// the yaw resistance. Empty if the trials do not determine it.
 std::string scrub_text(const Model& model) {
   if (!model.yaw_scrub) return {};
   const YawScrub& scrub = *model.yaw_scrub;

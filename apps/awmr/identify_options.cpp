@@ -59,7 +59,7 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
 
 namespace {
 
-/// Error for a name that --fit does not accept. `names`: the names that it accepts.
+/// Returns the error for a name that --fit does not accept. `names`: all names that --fit accepts.
 tl::unexpected<Error> unknown_request(std::string_view name,
                                       const std::vector<std::string>& names) {
   const std::vector<std::string> automatic = automatic_terms();

@@ -1,4 +1,5 @@
-/// Parses and describes options of `identify`, for both the command line and the project file.
+/// Parses options of `identify`, from the command line and from the project file, and describes
+/// them as text.
 #pragma once
 
 #include <string>
@@ -11,13 +12,14 @@
 
 namespace awmr::cli {
 
-/// Parses a resistance family: `NAME` (for surge and yaw), `surge=NAME` or `yaw=NAME`. NAME is a
-/// family or `auto`. Errors: an unknown name (the message lists the known ones); surge or yaw given
-/// twice; `yaw=dead-zone`.
+/// Parses a choice of the resistance family: `NAME` (for surge and yaw), `surge=NAME` or
+/// `yaw=NAME`, where NAME is a family or `auto`. Errors: an unknown name (the message lists the
+/// known ones); surge or yaw given twice; `yaw=dead-zone`.
 Status add_family(std::string_view text, IdentifyOptions& options);
 
-/// Adds a parameter to fit: its name, `all`, `input_delay_s` or `bias.CHANNEL`
-/// (`bias.yaw_rate_radps`, ...). Errors (input): an unknown name; the message lists the known ones.
+/// Adds a parameter that is to be fitted: the name of a parameter, `all`, `input_delay_s`, or
+/// `bias.CHANNEL` for the bias of a sensor channel (`bias.yaw_rate_radps`). Errors (input): an
+/// unknown name; the message lists the known ones.
 Status add_requested(std::string_view name, IdentifyOptions& options);
 
 /// Largest absolute value of a time in a log (column t_s), s.
@@ -27,21 +29,22 @@ inline constexpr double kMaxTime_s = 1e12;
 /// the text is not of this form.
 Status add_excluded(std::string_view text, TrialOptions& trials);
 
-/// Checks the span of time in which the logs are used. Errors (input): `--until` is not after
-/// `--from`.
+/// Checks the limits --from and --until of the part of the logs that is used. Errors (input):
+/// `--until` is not after `--from`.
 Status check_used(const TrialOptions& trials);
-/// Calls check_used(), and add_excluded() for each text of `excluded`. Errors: those of both.
+/// Calls check_used(), and then add_excluded() for each text of `excluded`. Errors: those of the
+/// two functions.
 Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials);
 
-/// Returns the options as pairs of name and value for the model's provenance.
+/// Returns the options as pairs of name and value, for the record of the model's origin.
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);
 
-/// Appends the options `--from`, `--until` and `--exclude` to `words`, unless the whole logs are
-/// used.
+/// Appends the options `--from`, `--until` and `--exclude`, as pairs of name and value, to `words`.
+/// Appends nothing if the logs are used as a whole.
 void describe_parts(const TrialOptions& trials,
                     std::vector<std::pair<std::string, std::string>>& words);
 
-/// Appends the options with which the trials were read to `words`, as text.
+/// Appends the options with which the trials were read, as pairs of name and value, to `words`.
 void describe_reading(const TrialOptions& trials, bool steady_from_logs,
                       std::vector<std::pair<std::string, std::string>>& words);
 

@@ -40,7 +40,7 @@ void add_table_files(CLI::App& sub, IdentifyCommand& command) {
 
 void add_fit_options(CLI::App& sub, IdentifyWords& words) {
   sub.add_option("--method", words.method,
-                 "Estimator for the main values: log-linear (default for tables), nonlinear, "
+                 "Estimator of the model's parameters: log-linear (default for tables), nonlinear, "
                  "trajectory (default with --log)")
       ->check(one_of(names_in(kMethodNames)));
   sub.add_option("--noise", words.noise,
@@ -74,8 +74,8 @@ void add_log_options(CLI::App& sub, IdentifyCommand& command) {
                  "Number of random initial guesses of a log fit without tables (default 6)")
       ->check(within(0, 1000));
   sub.add_option("--bootstrap", command.identify.bootstrap,
-                 "Number of block bootstrap resamples from which a log fit takes the shape of its "
-                 "intervals (default 0: intervals from the covariance alone)")
+                 "Number of block-bootstrap resamples of the logs, from which the shape of the "
+                 "intervals is computed (default 0: intervals from the covariance alone)")
       ->check(within(0, 1000000));
   sub.add_option("--time-limit", command.identify.time_limit_s,
                  "Time limit for log fits, s (default: none). Fits that have not converged by then "
@@ -109,10 +109,10 @@ void add_reading_options(CLI::App& sub, IdentifyWords& words) {
       "--as-is", words.command.trials.as_is,
       "Accept trials that appear to have wrong units or signs, or left and right exchanged, "
       "and keep gross outliers");
-  sub.add_option(
-         "--prefer", words.prefer,
-         "If a row's speed or yaw rate disagrees with the one computed from its time: use the "
-         "value printed in the row (default) or the timed one, computed from the time")
+  sub.add_option("--prefer", words.prefer,
+                 "Value to use if a row gives its speed or yaw rate twice and the two disagree: "
+                 "printed (the number in the row, default) or timed (computed from the distance or "
+                 "turns and the elapsed time)")
       ->check(one_of(names_in(kPreferenceNames)));
   sub.add_option("--column", words.columns.columns, kColumnHelp);
   add_file(sub, "--columns-file", words.columns.file, kColumnsFileHelp);

@@ -10,7 +10,8 @@
 
 namespace awmr::cli {
 
-/// A command as CLI11 fills it in, and the texts of those options that command_of() has to parse.
+/// Options of a fit as they come from the command line. CLI11 writes most of them into a command;
+/// the others are kept as texts, which command_of() parses.
 struct IdentifyWords {
   IdentifyCommand command;
   ColumnWords columns;

@@ -16,8 +16,8 @@
 namespace awmr::cli {
 namespace {
 
-/// True if a marked line applies to this drive. "@four_wheel " marks lines for that drive alone,
-/// "@steered " lines for drives with steering.
+/// True if a line of a template belongs into a project with this drive. The mark "@four_wheel " at
+/// the begin of a line means: for that drive only; "@steered " means: for drives with steering.
 bool is_for(std::string_view mark, Drive drive) {
   if (mark == "steered") return drive != Drive::kDifferential;
   return mark == name_in(kDriveNames, drive);
@@ -40,8 +40,8 @@ std::string for_drive(std::string_view text, Drive drive) {
   return lines;
 }
 
-/// Returns the files of the new project. Errors (input): each file that already exists, or whose
-/// path cannot be looked up.
+/// Returns the files of the new project. Errors (input): a file exists already (one error for
+/// each), or its path cannot be looked up.
 Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
   std::vector<OutputFile> files;
   std::vector<Fault> faults;
@@ -65,7 +65,7 @@ Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
   return files;
 }
 
-/// Returns the directories that do not exist yet, outer ones first.
+/// Returns the directories of the files that do not exist yet, each parent before its children.
 Result<std::vector<fs::path>> new_directories(const std::vector<OutputFile>& files) {
   std::set<fs::path> found;
   for (const OutputFile& file : files) {
@@ -78,7 +78,8 @@ Result<std::vector<fs::path>> new_directories(const std::vector<OutputFile>& fil
   return std::vector<fs::path>(found.begin(), found.end());
 }
 
-/// Writes all files or none. If writing fails, removes the directories that it created.
+/// Writes all files or none. If writing fails, removes those directories that this function
+/// created.
 Status write_all(const std::vector<OutputFile>& files) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> made, new_directories(files));
   Status written;
@@ -87,8 +88,8 @@ Status write_all(const std::vector<OutputFile>& files) {
   }
   if (written) written = write_files(files);
   if (written) return written;
-  std::error_code ignored;  // errors are ignored: directories that are not empty, or were not
-                            // created, remain
+  // Errors are ignored: a directory that is not empty, or that was not created, remains.
+  std::error_code ignored;
   // Clang 14 cannot compile std::views::reverse of GCC 12's library.
   for (auto directory = made.rbegin(); directory != made.rend(); ++directory) {
     fs::remove(*directory, ignored);
@@ -140,10 +141,9 @@ void add_init(CLI::App& app, Session& session) {
       *sub, "--drive", command->drive, kDriveNames,
       "four_wheel (default): four driven wheels, steered in front; "
       "differential: without steering; front_wheel: only the front wheels are driven, and steered");
-  sub->add_flag(
-         "--example", command->example,
-         "Write the files of the examples in every command's help instead: the paper's vehicle, "
-         "its tables, scenarios, synthetic drives")
+  sub->add_flag("--example", command->example,
+                "Instead of a project, write the files that the examples in the help of the "
+                "commands use: the paper's vehicle, its tables, scenarios, synthetic drives")
       ->excludes(drive);
 }
 

@@ -13,8 +13,8 @@ InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project) {
   InputNames names;
   for (const std::filesystem::path& path : paths) {
-    // Empty if one path is absolute and the other is relative; output files then name the file
-    // without its directory.
+    // The relative path is empty if only one of the two paths is absolute. Output files then give
+    // the name of the file without its directory.
     const auto relative =
         path.lexically_normal().lexically_relative(project.parent_path().lexically_normal());
     if (!relative.empty()) names[path] = relative.generic_string();
@@ -40,7 +40,7 @@ namespace {
 
 std::vector<ColumnMapping> columns_from_json(JsonObject& json) {
   json.schema(kColumnsSchema);
-  // Informational keys written by `awmr map` are ignored.
+  // Ignores the keys by which `awmr map` informs the user.
   for (const char* key : {"guesses", "open", "names", "command", "version", "options", "inputs"}) {
     json.ignore(key);
   }

@@ -20,17 +20,17 @@ inline constexpr const char* kColumnHelp =
     "(V*0.2778), from several ((left + right)/2*0.1; names with other characters in backticks) "
     "or from a constant (steering_deg=0); may be repeated";
 
-/// The names with which output files list their input files, by the path of the input file.
+/// Names under which output files list their input files. The key is the path of an input file.
 using InputNames = std::map<std::filesystem::path, std::string>;
 
-/// Returns for each path its name relative to the directory of the project file, as in the project
-/// file itself.
+/// Returns the names for these paths: each path relative to the directory of the project file, as
+/// it is written in the project file.
 InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project);
 
-/// Returns name and hash of each file, in the order of `paths`. A directory stands for the log
-/// files in it. A file that is not in `names` is named without its directory. Errors: those of
-/// input_file() and files_of() for the first file that fails.
+/// Returns name and SHA-256 of each file, in the order of `paths`. A directory in `paths` stands
+/// for the log files in it. A file that is not in `names` gets its file name without directory.
+/// Errors: those of input_file() and files_of() for the first file that fails.
 Result<std::vector<InputFile>> input_files(const std::vector<std::filesystem::path>& paths,
                                            const InputNames& names = {});
 
@@ -46,19 +46,19 @@ std::string columns_schema();
 /// has written. Errors: those of column_mappings().
 Status check_columns_text(std::string_view text, const std::string& file);
 
-/// Sources of column mappings on the command line.
+/// Column mappings as given on the command line.
 struct ColumnWords {
   std::vector<std::string> columns = {};           ///< values of `--column`
   std::optional<std::filesystem::path> file = {};  ///< `--columns-file`
 };
 
-/// Returns the mappings of both sources. A `--column` that applies to every file overrides the
-/// file's mapping of that column. Errors: those of parse_column() for the first mapping that fails;
-/// those of read_json_file(); an unknown key.
+/// Returns the mappings of `--column` and of the columns file. A `--column` that applies to all
+/// files replaces the mapping of the same column in the columns file. Errors: those of
+/// parse_column() for the first mapping that fails; those of read_json_file(); an unknown key.
 Result<std::vector<ColumnMapping>> column_mappings(const ColumnWords& words);
 
-/// Returns the results of `read(path)` in the order of `paths`. Error: the faults of all files that
-/// fail.
+/// Calls `read(path)` for each path and returns the results in the same order. Errors: the faults
+/// of all files that cannot be read.
 template <class Read>
 auto read_each(const std::vector<std::filesystem::path>& paths, const Read& read)
     -> Result<std::vector<typename decltype(read(paths[0]))::value_type>> {

@@ -23,24 +23,25 @@ struct JsonResult {
   std::string document = {};  ///< JSON content of the output file; empty: none
 };
 
-/// Text of the object `{"schema", "command", "version", "exit_code", "written", "findings",
-/// "result"}`. The findings are as in model.json; `result` is JsonResult::document, or null if that
-/// is empty.
+/// Returns the text of the object `{"schema", "command", "version", "exit_code", "written",
+/// "findings", "result"}`. The value of `findings` is as in model.json; that of `result` is
+/// JsonResult::document, or null if the document is empty.
 std::string result_text(const JsonResult& result);
 
-/// Text of the object `{"schema", "version", "exit_code", "errors": [{"code", "place",
-/// "message"}]}`, with one entry of `errors` for each fault.
+/// Returns the text of the object `{"schema", "version", "exit_code", "errors": [{"code", "place",
+/// "message"}]}`. Each fault of `error` is an entry of `errors`.
 std::string error_text(const Error& error);
 
 // JSON Schemas of the objects of result_text() and error_text().
 std::string result_schema();
 std::string error_schema();
 
-/// Combines pairs of name and JSON text into one object: each text under its name, empty ones
-/// omitted.
+/// Combines JSON texts into one object. `documents`: pairs of name and text; the name becomes the
+/// key, and pairs with an empty text are omitted.
 std::string joined(const std::vector<std::pair<std::string, std::string>>& documents);
 
-/// True if `--json` is among the arguments, even if other arguments are invalid.
+/// True if `--json` is among the arguments. It must be found even if other arguments are invalid,
+/// because errors are then printed as JSON.
 bool requests_json(int argc, char** argv);
 
 }  // namespace awmr::cli

@@ -37,8 +37,8 @@ constexpr NameTable<LiveEnd, 6> kLiveEndWords{
      {"enough was recorded", LiveEnd::kEnough},
      {"the recording has reached its maximum size", LiveEnd::kFull}}};
 
-/// In the first kAtFirst_s seconds, the display is updated every second, so that a wrong unit is
-/// reported early.
+/// Length of the first part of a recording, in which the display is updated every second. A wrong
+/// unit is then reported early.
 constexpr double kAtFirst_s = 20.0;
 
 std::vector<fs::path> inputs_of(const LiveCommand& command) {
@@ -50,8 +50,9 @@ std::vector<fs::path> inputs_of(const LiveCommand& command) {
   return paths;
 }
 
-/// Returns the file of the recording: the requested one, or a new one next to the model. Errors
-/// (input): the new one exists; the requested one is not a regular file or is the model's.
+/// Returns the path of the recording: the requested one, or a new file next to the model. Errors
+/// (input): the new file exists already; the requested one is not a regular file, or is the model's
+/// file.
 Result<fs::path> record_of(const LiveCommand& command) {
   fs::path record =
       command.record.value_or(fs::path(command.identify.output).replace_extension("csv"));
@@ -83,8 +84,8 @@ Status check(const LiveCommand& command) {
   return check_output(command.identify.output, inputs_of(command));
 }
 
-/// Time of the next update. The pause is at least as long as the last update took, so updates use
-/// at most half of the time.
+/// Returns the time of the next update. The pause before it is at least as long as the last update
+/// took. Updates therefore use at most half of the time.
 Clock::time_point next_look(Clock::time_point begin, Clock::time_point looked, double every_s) {
   const Clock::time_point now = Clock::now();
   const bool early = Seconds(now - begin).count() < kAtFirst_s;
@@ -99,8 +100,8 @@ struct Followed {
   LiveEnd end = LiveEnd::kStream;
 };
 
-/// The end condition that is met; empty if there is none. `begin`: begin of the recording.
-/// `last_byte`: time of the last input.
+/// Returns the condition by which the recording ends now; empty if it goes on. `begin`: start of
+/// the recording. `last_byte`: time of the last input.
 std::optional<LiveEnd> end_condition(const LiveCommand& command, RecorderStream& stream,
                                      const Followed& followed, Clock::time_point begin,
                                      Clock::time_point last_byte) {
@@ -117,7 +118,7 @@ std::optional<LiveEnd> end_condition(const LiveCommand& command, RecorderStream&
   return std::nullopt;
 }
 
-/// Fits the recording up to now. If the time is not sufficient, the last model remains.
+/// Fits the data recorded so far. If the fit exceeds its time limit, the previous model is kept.
 void update_fit(const LiveFit& fit, Followed& followed) {
   LiveUpdate update = fit.update(followed.recording);
   if (update.out_of_time) {
@@ -127,8 +128,8 @@ void update_fit(const LiveFit& fit, Followed& followed) {
   followed.last = std::move(update);
 }
 
-/// Records the source, and fits and shows the recording at intervals, until an end condition is
-/// met.
+/// Records the data of the source until an end condition is met. At intervals, fits the recording
+/// and shows the result.
 Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream source,
                 Recording recording, LiveScreen& screen) {
   const Interruption interruption;
@@ -140,8 +141,8 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   bool is_new = false;
   std::optional<LiveEnd> end;
   while (!end) {
-    // Adds the data that arrived during an update before any end condition is checked, so that none
-    // are lost.
+    // Data may have arrived during the last update. They are added before the end conditions are
+    // checked, so that none are lost.
     const std::string bytes = stream.take(std::chrono::milliseconds(100));
     followed.recording.add(bytes);
     if (!bytes.empty()) last_byte = Clock::now();
@@ -159,7 +160,8 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   return followed;
 }
 
-/// Writes the final recording, and the model that `identify` fits to it.
+/// Writes the complete recording. Also writes the model, which is the one that `identify` fits to
+/// this recording.
 Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   const fs::path& record = command.identify.logs.front();
   AWMR_RETURN_IF_ERROR(write_file(record, followed.recording.text()));
@@ -194,10 +196,10 @@ void add_source(CLI::App& sub, LiveCommand& live) {
   sub.add_option("--baud", live.source.baud, "Baud rate of --port (default 115200)")
       ->check(within(300U, 4000000U));
   add_file(sub, "--log", live.source.log,
-           "CSV of the driving log as it is written; - for standard input");
+           "CSV of a driving log that another program is writing; - for standard input");
   add_file(sub, "--record", live.record,
-           "CSV for all received rows (default: the model's name with .csv, if that file does not "
-           "exist)");
+           "CSV file to which all received rows are written (default: the model's name with .csv; "
+           "that file must not exist)");
 }
 
 void add_updates_and_end(CLI::App& sub, LiveCommand& live) {

@@ -42,7 +42,8 @@ LiveFit::LiveFit(const LiveCommand& command, Vehicle vehicle)
              .options = command.identify.trials},
       options_(command.identify.identify),
       enough_(command.enough) {
-  // Diagnostics that do not change the estimates are computed only by the final fit.
+  // The diagnostics that do not change the estimates are left out here, to save time. The final fit
+  // computes them.
   options_.time_limit_s = command.budget_s;
   options_.bootstrap = 0;
   options_.side_by_side = false;

@@ -13,7 +13,7 @@ namespace awmr::cli {
 /// Describes the manoeuvre that would improve the model most; empty if there is no recommendation.
 std::string next_manoeuvre(const Model& model);
 
-/// True if there is a model without faults, and the half width of every requested parameter's
+/// True if the update has a model and no faults, and the half width of each requested parameter's
 /// interval is at most LiveUpdate::enough.
 bool has_enough(const LiveUpdate& update);
 
@@ -22,8 +22,8 @@ class LiveFit {
  public:
   LiveFit(const LiveCommand& command, Vehicle vehicle);
 
-  /// Returns the interim result. Writes the recording first, so that the file remains if the
-  /// program is killed.
+  /// Writes the recording to its file, so that it remains if the program is killed. Then returns
+  /// the interim result.
   LiveUpdate update(const Recording& recording) const;
 
  private:

@@ -17,8 +17,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Text of a half width: "+-1.2 %" if it is relative, "+-0.012" for an exponent, "-" if it is
-/// unknown.
+/// Returns the half width of an interval as text: "+-1.2 %" if it is relative to the value,
+/// "+-0.012" for an exponent, "-" if it is unknown.
 std::string half_width_text(const Precision& precision) {
   if (!precision.half_width) return "-";
   const double half = *precision.half_width;
@@ -26,8 +26,8 @@ std::string half_width_text(const Precision& precision) {
                                                   : fmt::format("+-{:.2g} %", 100.0 * half);
 }
 
-/// Bar for the half width of an interval, on a logarithmic scale: full at 1 (100 %) or more, empty
-/// at `enough` or less.
+/// Returns a bar that shows the half width of an interval on a logarithmic scale. The bar is full
+/// if the half width is 1 (100 %) or more, and empty if it is `enough` or less.
 std::string bar_of(const Precision& precision, double enough) {
   constexpr int kWidth = 10;
   const double half = std::clamp(precision.half_width.value_or(1.0), 1e-9, 1.0);
@@ -128,7 +128,8 @@ void LiveScreen::draw(const LiveUpdate& update) {
   drawn_ = lines.size();
 }
 
-/// Prints a line per update, above it the faults if they have changed since the last update.
+/// Prints one line for an update. If the faults have changed since the last update, prints them
+/// first.
 void LiveScreen::print_lines(const LiveUpdate& update) {
   std::string faults;
   for (const Fault& fault : shown_faults(update.faults)) faults += text_of(fault) + "\n";

@@ -16,18 +16,22 @@ namespace awmr::cli {
 struct LiveUpdate {
   double span_s = 0.0;  ///< duration of the recording by its time column
   std::size_t rows = 0;
-  std::size_t set_aside = 0;        ///< damaged lines
-  std::vector<Fault> faults = {};   ///< reasons why the log cannot be used yet
+  std::size_t set_aside = 0;  ///< damaged lines
+  /// Reasons why the recording cannot be used as a log yet.
+  std::vector<Fault> faults = {};
   std::optional<Model> model = {};  ///< result of the last completed fit
-  bool out_of_time = false;         ///< true: the fit was too slow; `model` is the previous one
-  std::string next = {};            ///< the manoeuvre that would improve the model most
-  double enough = 0.1;              ///< sufficient half width of the intervals
-  std::vector<ParameterId> requested = {};  ///< parameters whose intervals must be sufficient;
-                                            ///< empty: all
+  /// True: the last fit exceeded its time limit, and `model` is the result of the fit before.
+  bool out_of_time = false;
+  std::string next = {};  ///< the manoeuvre that would improve the model most
+  /// Half width of a 95 % interval that is small enough.
+  double enough = 0.1;
+  /// Parameters whose intervals must be small enough; empty: all.
+  std::vector<ParameterId> requested = {};
 };
 
-/// Half widths of the 95 % intervals as text: "surge.alpha +-0.12 %, yaw.beta +-0.012", or "-" if
-/// unknown. Those of exponents are absolute, others are relative to the value.
+/// Returns the half widths of the 95 % intervals as text: "surge.alpha +-0.12 %, yaw.beta +-0.012".
+/// For exponents they are absolute, for other parameters relative to the value. An unknown half
+/// width is "-".
 std::string widths_text(const LiveUpdate& update);
 /// Returns "enough: ..." if every interval is narrow enough, else the next manoeuvre to drive.
 std::string verdict_text(const LiveUpdate& update);

@@ -18,10 +18,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Interval at which the reader checks for a stop request and for growth of the file.
+/// Interval, ms, at which the reading thread checks whether it must stop and whether the file has
+/// grown.
 constexpr int kPause_ms = 50;
-/// Largest number of bytes received but not yet taken. Beyond it reading pauses, and the writer of
-/// a pipe waits.
+/// Largest number of bytes that may wait to be taken by take(). Beyond it, the thread stops
+/// reading, and the writer of a pipe has to wait.
 constexpr std::size_t kMaxAhead = std::size_t{1} << 24U;
 
 bool is_regular(int file) {
@@ -29,7 +30,7 @@ bool is_regular(int file) {
   return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/// True if another program truncated the file.
+/// True if another program made the file shorter than the part that was already read.
 bool became_shorter(int file) {
   struct stat status {};
   return ::fstat(file, &status) == 0 && status.st_size < ::lseek(file, 0, SEEK_CUR);
@@ -140,7 +141,7 @@ Interruption::Interruption() {
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     ::sigaction(kSignals[i], nullptr, &before_[i]);
-    // Under nohup, SIGHUP is ignored; it stays ignored.
+    // A program that was started by nohup ignores SIGHUP. This must remain so.
     if (kSignals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN) continue;
     ::sigaction(kSignals[i], &action, nullptr);
   }

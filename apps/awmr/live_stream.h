@@ -1,4 +1,5 @@
-/// Reads the data of a recorder in a separate thread, so that nothing is lost during a fit.
+/// Reads the data of a recorder in a thread of its own, so that no data are lost while the model is
+/// fitted.
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@ namespace awmr::cli {
 struct StreamSource {
   std::optional<std::filesystem::path> port = {};  ///< a serial port
   unsigned baud = 115200;
-  /// a file, which may still grow; "-": standard input
+  /// a file to which another program may append; "-": standard input
   std::optional<std::filesystem::path> log = {};
 };
 
@@ -34,7 +35,7 @@ struct OpenStream {
 /// serial port.
 Result<OpenStream> open_stream(const StreamSource& source);
 
-/// Reads a source in a separate thread from construction to destruction.
+/// Reads a source in a thread of its own, as long as the object exists.
 class RecorderStream {
  public:
   explicit RecorderStream(OpenStream source);
@@ -42,7 +43,8 @@ class RecorderStream {
   RecorderStream(const RecorderStream&) = delete;
   RecorderStream& operator=(const RecorderStream&) = delete;
 
-  /// Returns the bytes received since the last call; waits up to `longest` for them.
+  /// Returns the bytes that arrived since the last call. If there are none, waits for them, at most
+  /// for the time `longest`.
   std::string take(std::chrono::milliseconds longest);
   /// True if no more data will come.
   bool is_over();
@@ -57,12 +59,14 @@ class RecorderStream {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::atomic<bool> stop_ = false;
-  std::thread reader_;  ///< last member: it uses all of the above
+  /// Last member, because the thread uses all members above.
+  std::thread reader_;
 };
 
-/// During its lifetime SIGINT, SIGTERM and SIGHUP (terminal closed) do not end the program; came()
-/// returns true after one arrived. After a SIGHUP, further ones are ignored, because kernel and
-/// shell each send one and the results must still be written. Only one object may exist at a time.
+/// While an object exists, SIGINT, SIGTERM and SIGHUP (terminal closed) do not end the program;
+/// came() returns true after one of them arrived. After the first SIGHUP, further ones are ignored:
+/// kernel and shell send one each, and the results must still be written. Only one object may exist
+/// at a time.
 class Interruption {
  public:
   Interruption();

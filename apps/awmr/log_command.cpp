@@ -32,7 +32,7 @@ std::string document_of(const AwlLog& log) {
   return awmr::to_text(json);
 }
 
-/// Comment above the table that names its source.
+/// Returns a comment for the first lines of the table, which names the source of the data.
 std::string origin_of(const AwlLog& log, const InputFile& input) {
   return fmt::format("# awmr {} log: {} SHA-256 {}, firmware with parameters of SHA-256 {}\n",
                      version(), input.name, input.sha256, log.parameters_sha256);

@@ -51,14 +51,14 @@ void add_commands(CLI::App& app, awmr::cli::Session& session) {
   awmr::cli::add_man(app, session);
 }
 
-/// Handles parse errors and help requests; returns the exit code.
+/// Prints the help if it was requested, else the error of the command line. Returns the exit code.
 int end_of_parsing(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (error.get_exit_code() == 0) {
     app.exit(error);
     return std::cout.flush() ? 0 : 2;
   }
-  // Without arguments, shows the commands and returns the exit code of a usage error, so that a
-  // script with an empty variable fails.
+  // Without arguments, the commands are shown, but the exit code is that of a usage error. A script
+  // whose variable is empty by mistake then fails.
   const std::string what = awmr::printable(awmr::cli::usage_error_text(app, error, argc, argv));
   if (awmr::cli::requests_json(argc, argv)) {
     std::fputs(
@@ -98,8 +98,8 @@ int fail(const awmr::Error& error, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // With SIGXFSZ ignored, exceeding the file-size limit fails the write instead of ending the
-  // program.
+  // Exceeding the limit of the file size raises SIGXFSZ, which would end the program. If this
+  // signal is ignored, the write fails instead, and the error is reported.
   std::signal(SIGXFSZ, SIG_IGN);
   awmr::remove_temporaries_on_signals();
   try {

@@ -33,7 +33,7 @@ std::string roff(const std::string& text) {
   return result;
 }
 
-/// Escapes a leading dot, which would be a roff request.
+/// Escapes a line that begins with a dot, because roff would read it as a request.
 std::string roff_line(const std::string& text) {
   return (text.starts_with(".") ? "\\&" : "") + roff(text) + "\n";
 }
@@ -41,7 +41,7 @@ std::string roff_line(const std::string& text) {
 std::string bold(const std::string& text) { return "\\fB" + roff(text) + "\\fR"; }
 std::string italic(const std::string& text) { return "\\fI" + roff(text) + "\\fR"; }
 
-/// Returns the first line without its full stop.
+/// Returns the first line of a text, without a full stop at its end.
 std::string first_line(const std::string& text) {
   std::string line = text.substr(0, text.find('\n'));
   while (line.ends_with('.')) line.pop_back();
@@ -51,7 +51,7 @@ std::string first_line(const std::string& text) {
 std::string head(const CommandInfo& command, const std::string& purpose) {
   std::string title = page_name(command);
   for (char& c : title) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  // Without a date, so that the same program writes the same bytes.
+  // The header has no date, so that the same program always writes the same bytes.
   return fmt::format(".TH {} 1 \"\" \"awmr {}\" \"awmr manual\"\n.SH NAME\n{} \\- {}\n",
                      roff(title), version(), roff(page_name(command)), roff(purpose));
 }

@@ -8,10 +8,12 @@
 
 namespace awmr::cli {
 
-/// Page name without section: "awmr" for the program, "awmr-identify" for a command.
+/// Returns the name of the command's manual page, without the section: "awmr" for the program,
+/// "awmr-identify" for a command.
 std::string page_name(const CommandInfo& command);
 
-/// Returns the page of a command; the page of the program lists the commands.
+/// Returns the manual page of a command. If `command` is the program itself, the page lists all
+/// commands.
 std::string man_page(const CommandInfo& command, const std::vector<CommandInfo>& commands);
 
 }  // namespace awmr::cli

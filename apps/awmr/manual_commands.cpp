@@ -17,8 +17,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Outcome of a command whose only result is a text on stdout; with `--json` the result is that
-/// text as a JSON string.
+/// Returns the outcome of a command that only prints a text on stdout. With `--json`, the result is
+/// this text as a JSON string.
 Outcome text_outcome(std::string text) {
   std::string document = awmr::to_text(Json(text));
   return Outcome{.summary = std::move(text), .document = std::move(document)};
@@ -52,11 +52,12 @@ Result<Outcome> show_page(const std::vector<CommandInfo>& commands, const std::s
 
 void add_completion(CLI::App& app, Session& session) {
   auto shell = std::make_shared<Shell>(Shell::kBash);
-  CLI::App* sub = add_command(app, session, "completion",
-                              "Print the shell completion of commands, options and files",
-                              "source <(awmr completion bash)", [&app, shell]() -> Result<Outcome> {
-                                return text_outcome(completion_text(*shell, commands_of(app)));
-                              });
+  CLI::App* sub =
+      add_command(app, session, "completion",
+                  "Print a script by which a shell completes commands, options and files",
+                  "source <(awmr completion bash)", [&app, shell]() -> Result<Outcome> {
+                    return text_outcome(completion_text(*shell, commands_of(app)));
+                  });
   sub->group(kServiceGroup);
   add_choice(*sub, "SHELL", *shell, kShellNames, "Shell of the completions")->required();
 }

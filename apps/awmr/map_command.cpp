@@ -22,7 +22,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Alternative sets of columns for one quantity of a trial; each set is sufficient.
+/// Alternative sets of columns that give the same quantity of a trial. Each set is sufficient.
 using Ways = std::vector<std::vector<const char*>>;
 std::vector<Ways> needs_of(TrialKind kind) {
   const Ways speed{{"speed_mps"}, {"distance_m", "elapsed_s"}};
@@ -43,8 +43,9 @@ std::vector<Ways> needs_of(TrialKind kind) {
   return {};
 }
 
-/// Returns the required columns for which no column of the file was guessed. If one of several sets
-/// of columns is sufficient, the columns missing from the most complete set are returned.
+/// Returns the required columns of the trial for which the file seems to have no column. For a
+/// quantity that several sets of columns can give, returns the missing columns of the most complete
+/// set.
 std::vector<std::string> open_columns(const std::vector<ColumnGuess>& guesses, TrialKind kind) {
   std::set<std::string> found;
   for (const ColumnGuess& guess : guesses) found.insert(guess.column);
@@ -84,7 +85,7 @@ std::string text_of(const MapCommand& command, const std::vector<ColumnGuess>& g
   const std::vector<ColumnGuess> used = likely_columns(guesses);
   json["columns"] = Json::object();
   for (const ColumnGuess& guess : used) {
-    // A column that already has the required name needs no mapping.
+    // Writes a mapping only if the column of the file does not have the required name already.
     if (guess.expression != guess.column) json["columns"][guess.column] = guess.expression;
   }
   json["open"] = open_columns(used, command.trial);
@@ -146,9 +147,10 @@ void add_map(CLI::App& app, Session& session) {
            "A log: CSV, ULog, DataFlash, SysId's JSON, a ROS 2 bag, or a directory of tables")
       ->required();
   add_choice(*sub, "--trial", command->trial, kTrialKindNames,
-             "What the file is: log (default), or a table with one row per run");
-  add_file(*sub, "-o,--output", command->output,
-           "JSON to write, for --columns-file or a vehicle's columns")
+             "Kind of the file: log (default), or the kind of a table with one row per run");
+  add_file(
+      *sub, "-o,--output", command->output,
+      "JSON file to write, with the mapping for --columns-file or the key columns of a vehicle")
       ->check(not_standard_output());
 }
 

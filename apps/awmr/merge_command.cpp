@@ -14,8 +14,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Checks the outputs before the work begins. Errors (input): an output cannot be written, or is a
-/// file of a part.
+/// Checks the output files, so that an error is found before the work begins. Errors (input): an
+/// output cannot be written, or is a file of one of the parts.
 Status check_outputs_of(const MergeCommand& command, const ShardKind& kind,
                         const std::vector<std::string>& outputs) {
   std::vector<fs::path> inputs;

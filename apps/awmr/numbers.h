@@ -1,4 +1,4 @@
-/// Validation of numbers on the command line.
+/// Checks numbers that are given on the command line.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,9 +17,9 @@ namespace awmr::cli {
 /// Largest random seed.
 inline constexpr std::uint64_t kAnySeed = std::numeric_limits<std::uint64_t>::max();
 
-/// Accepts a finite number from `min` to `max` that fits the option's type: a whole number for
-/// integers, without minus sign for unsigned ones, with no text after it. CLI11 itself converts -1
-/// and 10^23 to 2^64 - 1 and accepts nan in every range.
+/// Accepts a number if it is finite and from `min` to `max`, no text follows it, and it fits the
+/// type of the option: a whole number for integers, without minus sign for unsigned ones. CLI11
+/// alone does not check this. It converts -1 and 10^23 to 2^64 - 1, and accepts nan in every range.
 template <class Number>
 CLI::Validator within(Number min, Number max) {
   static_assert(std::is_arithmetic_v<Number>);

@@ -15,7 +15,8 @@ inline CLI::Validator not_empty() {
       [](const std::string& path) { return path.empty() ? "is empty: give a path" : ""; }, "");
 }
 
-/// Refuses "-" for an output, which other programs take as standard output.
+/// Refuses the output path "-", because many programs understand it as standard output, which awmr
+/// does not support.
 inline CLI::Validator not_standard_output() {
   return CLI::Validator(
       [](const std::string& path) {

@@ -14,7 +14,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Returns the given options as a command line for another program.
+/// Returns the options that the user gave, as arguments for the program awmr-pil.
 std::vector<std::string> arguments_of(const CLI::App& command) {
   std::vector<std::string> arguments;
   for (const CLI::Option* option : command.get_options()) {
@@ -37,8 +37,8 @@ std::optional<fs::path> awmr_pil() {
   return find_program("awmr-pil");
 }
 
-/// Replaces this process with the program awmr-pil (exec), so that its output and exit code are
-/// those of the command. Returns only if that fails.
+/// Replaces this process with the program awmr-pil (exec). The output and the exit code are then
+/// those of awmr-pil. Returns only if awmr-pil cannot be started.
 Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
   const auto program = awmr_pil();
   int reason = ENOENT;
@@ -62,7 +62,8 @@ Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
 }  // namespace
 
 void add_pil(CLI::App& app, Session& session) {
-  // The command owns the option variables because CLI11 writes to them after this function returns.
+  // Variables into which CLI11 writes the options. The command keeps them, because CLI11 writes to
+  // them after this function has returned.
   struct Held {
     PilOptions options;
     CLI::App* command = nullptr;

@@ -26,7 +26,8 @@ void add_inputs(CLI::App& command, PilOptions& options) {
 
 void add_link(CLI::App& command, PilOptions& options) {
   add_choice(command, "--link", options.link, kPilLinkNames,
-             "Data exchange through the chip's RAM (fast), or through its UART in frames")
+             "How data are exchanged with the chip: memory: through its RAM (fast); uart: in "
+             "frames over its serial line")
       ->default_str("memory");
   add_file(command, "--port", options.port,
            "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "
@@ -52,15 +53,14 @@ void add_bounds(CLI::App& command, PilOptions& options) {
       ->capture_default_str();
   command
       .add_option("--difference-max", options.difference_max,
-                  "Largest permitted difference of any signal from the same run in float on this "
-                  "computer [0 with resistance tables, 1e-6 with powf]")
+                  "Largest permitted difference of any signal between the chip's run and the same "
+                  "run in float on this computer [0 with resistance tables, 1e-6 with powf]")
       ->check(within(0.0, 1e9));
   command
-      .add_option(
-          "--heading-max-deg", options.heading_max_deg,
-          "Largest permitted difference of the heading from the same run in double on this "
-          "computer, at the same or a neighbouring sample, deg [0.05; 2 if obstacles are avoided "
-          "or sensors simulated]")
+      .add_option("--heading-max-deg", options.heading_max_deg,
+                  "Largest permitted heading difference, deg, between the chip's run and the same "
+                  "run in double on this computer, at the same or a neighbouring sample [0.05; 2 "
+                  "if obstacles are avoided or sensors simulated]")
       ->check(within(0.0, 360.0));
 }
 
@@ -76,8 +76,8 @@ void add_pil_options(CLI::App& command, PilOptions& options) {
           [&options](const std::string& name) {
             options.optimize = *value_in(kOptimizeNames, name);
           },
-          "Compile the firmware for few cycles or for little flash [size for a timed path, "
-          "obstacles, or two optional parts or more; else speed]")
+          "Compile the firmware for few clock cycles (speed) or for little flash (size) [size for "
+          "a timed path, obstacles, or two optional parts or more; else speed]")
       ->check(one_of(names_in(kOptimizeNames)));
   add_bounds(command, options);
   command

@@ -25,25 +25,27 @@ enum class Optimize { kSpeed, kSize };
 inline constexpr NameTable<Optimize, 2> kOptimizeNames{
     {{"speed", Optimize::kSpeed}, {"size", Optimize::kSize}}};
 
-/// Faults that `--inject` can cause in one run: in the controller's inputs or parameters, the
-/// sensors, the motors and the servo, or the operator's serial line.
+/// Faults that `--inject` can cause, one in each run: in the inputs or parameters of the
+/// controller, the sensors, the motors, the servo, or the line on which the operator sends
+/// commands.
 enum class Injection {
   kNone,
   kNaN,             ///< measured yaw rate is NaN
   kInfinite,        ///< measured speed is infinite
-  kRange,           ///< measured speed beyond the largest that the vehicle can have
-  kMode,            ///< a mode that is none of the three
+  kRange,           ///< measured speed beyond any that the vehicle can reach
+  kMode,            ///< yaw-control mode is none of the three
   kHeadingStale,    ///< the time of the last heading is 10 s old
   kSpeedStale,      ///< the time of the last speed is 10 s old
   kCommandTimeout,  ///< the time of the last command is 10 s old
   kStepLate,        ///< a pause of 10 s before a step
   kParameters,      ///< a bit flipped in the parameters in flash, before the start
   kReset,           ///< the chip is reset, as after a drop of its supply, and starts again
-  // Sensor failures, detected by the checks of the sketches (control/heading_check.h, gps_check.h).
+  // Sensor failures. The checks of the emitted sketches detect them (control/heading_check.h,
+  // gps_check.h).
   kCompassSilent,      ///< no new field measurement
   kCompassFrozen,      ///< raw values repeat
   kCompassJump,        ///< offset of 57 deg
-  kCompassStuck,       ///< the heading at the start of the failure is kept, with noise
+  kCompassStuck,       ///< heading stays at its value, with noise
   kGyroSilent,         ///< no reading arrives
   kGyroFrozen,         ///< raw value repeats
   kGyroRange,          ///< the sensor switches to another measuring range
@@ -52,7 +54,7 @@ enum class Injection {
   kGpsNoFix,           ///< sentences without a fix
   kGpsEmpty,           ///< sentences with empty fields
   kGpsDamaged,         ///< sentences with a wrong checksum
-  kGpsRepeated,        ///< the last sentence, over and over
+  kGpsRepeated,        ///< the last sentence again and again
   kGpsLate,            ///< sentences with 2 s latency
   kGpsJump,            ///< the position is off by 20 m
   kGpsSpeedZero,       ///< a speed that is stuck at 0
@@ -63,11 +65,12 @@ enum class Injection {
   kSteeringStuck,      ///< the servo is stuck straight
   kServoReversed,      ///< the servo turns the wrong way
   kCompassTurning,     ///< the measured heading drifts by 2.5 deg/s
-  // Failures of the operator's line, read as the sketches do (control/command_line.h).
+  // Failures of the operator's line, whose characters are read as the sketches do
+  // (control/command_line.h).
   kCommandSilence,        ///< no command arrives
   kCommandNoise,          ///< characters without a line end
   kCommandUnknown,        ///< unknown commands
-  kCommandRepeatedFrame,  ///< one command frame, over and over
+  kCommandRepeatedFrame,  ///< one command frame again and again
   kStop,                  ///< the operator sends STOP
   kStopInNoise            ///< STOP within other characters, without a line end
 };
@@ -135,8 +138,9 @@ struct PilOptions {
   /// on the host. Absent: 0 with resistance tables, 1e-6 with powf.
   std::optional<double> difference_max;
   /// Largest permitted difference of the heading from the same run computed in double on the host,
-  /// at the same or a neighbouring sample, deg. Absent: 0.05, or 2 if obstacles are avoided or
-  /// sensors simulated, because one of the runs can then change its path one sensor sample earlier.
+  /// deg; it may be met at the same or a neighbouring sample. Absent: 0.05, or 2 if obstacles are
+  /// avoided or sensors simulated. In these cases one of the runs may change its path one sensor
+  /// sample before the other.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
   unsigned hostile_steps = 6000;  ///< steps with hostile inputs after the scenario; 0: none

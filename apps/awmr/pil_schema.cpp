@@ -1,4 +1,4 @@
-// Schema of pil.json, which awmr-pil writes.
+// JSON Schema of pil.json, the result file of awmr-pil.
 #include <limits>
 #include <string>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr long kAnyCount = std::numeric_limits<int>::max();
 
-/// Differences by signal; null if not finite.
+/// Object with the difference of two runs for each signal; null if the difference is not finite.
 void describe_difference(JsonObject json) {
   for (const std::string& signal : json.keys()) json.nullable_number(signal);
 }
@@ -74,8 +74,9 @@ void describe_pil(JsonObject& json) {
 }  // namespace
 
 std::string pil_schema() {
-  return json_schema_text("awmr.pil/1", "Comparison of the firmware on the chip with the host",
-                          describe_pil);
+  return json_schema_text(
+      "awmr.pil/1", "Comparison of a run of the firmware on the chip with the same run on the host",
+      describe_pil);
 }
 
 }  // namespace awmr::cli

@@ -1,4 +1,5 @@
-/// `--plant` and `--tyres`, shared by commands that simulate scenarios.
+/// Options `--plant` and `--tyres` of the commands that simulate scenarios: the simulated vehicle
+/// model, and its tyres.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,21 +23,23 @@
 namespace awmr::cli {
 
 struct PlantChoice {
-  std::optional<PlantKind> kind = {};  ///< plant of every scenario; empty: each scenario's own
-  /// validation.json whose tyres override the scenarios' and the defaults.
+  /// Simulated vehicle model for all scenarios; empty: as each scenario selects.
+  std::optional<PlantKind> kind = {};
+  /// A validation.json. Its fitted tyres replace those of the scenarios and the default ones.
   std::optional<std::filesystem::path> tyres_file = {};
-  bool checks_other = false;  ///< true (only `compare`): if `kind` is empty, the ranking is also
-                              ///< tested on the other plant
+  /// True (only for `compare`): if `kind` is empty, the ranking is also computed with the other
+  /// vehicle model.
+  bool checks_other = false;
   bool runs_other() const { return checks_other && !kind; }
 };
 
 inline constexpr const char* kPlantOption = "--plant";
 inline constexpr const char* kTyresOption = "--tyres";
-/// Name of the plant in the list of options in an output file.
+/// Name of this option in the list of options in an output file.
 inline constexpr const char* kPlantName = "plant";
 
-/// Value of `--plant` for `compare`: each scenario on its own plant, with a check of the ranking on
-/// the other plant.
+/// Value of `--plant` for `compare`: each scenario runs with its own vehicle model, and the ranking
+/// is checked with the other model.
 inline constexpr const char* kBothPlants = "both";
 
 inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std::string> names,
@@ -45,12 +48,12 @@ inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std
     choice.kind = value_in(kPlantKindNames, name);
   };
   command
-      .add_option_function<std::string>(kPlantOption, set,
-                                        "Simulated plant in every scenario: the model's 3-DOF "
-                                        "equations, or the body on four tyres with a friction "
-                                        "circle, with the scenario's tyres or their defaults "
-                                        "(default: " +
-                                            by_default + ")")
+      .add_option_function<std::string>(
+          kPlantOption, set,
+          "Simulated vehicle in every scenario. model: the 3-DOF equations of the model; "
+          "four-wheel: the body on four tyres with a friction circle, whose parameters are in the "
+          "scenario or default ones (default: " +
+              by_default + ")")
       ->check(one_of(std::move(names)));
   add_file(command, kTyresOption, choice.tyres_file,
            "validation.json of validate --tyres: the tyres of the four-wheel plant");
@@ -71,15 +74,17 @@ inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
       "check of the ranking on the other plant and with slower and faster gains");
 }
 
-/// Reads the tyres from the file and adds a finding on their prediction errors (`tyres-simulated`).
-/// Without a file, returns the default tyres. Errors: those of read_tyres().
+/// Returns the tyres in the file of `--tyres`, or the default tyres without such a file. For a
+/// file, also adds the finding `tyres-simulated` about their prediction errors. Errors: those of
+/// read_tyres().
 inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Finding>& findings) {
   if (!choice.tyres_file) return Tyres<double>{};
   AWMR_ASSIGN_OR_RETURN(const TyreFit fit, read_tyres(*choice.tyres_file));
   findings.push_back(
       {choice.tyres_file->string(), 0, Severity::kNote, "tyres-simulated",
-       fmt::format("the four-wheel plant has fitted tyres (friction {:.3g}, {:.3g} per rad); on "
-                   "the parts of the logs that were held out from the fit, {}",
+       fmt::format("the four-wheel plant has fitted tyres (friction coefficient {:.3g}, cornering "
+                   "stiffness {:.3g} per rad); on the parts of the logs that were held out from "
+                   "the fit, {}",
                    fit.tyres.friction, fit.tyres.cornering_per_rad,
                    fit.better ? fmt::format("the {} plant predicts better: rely on results of it",
                                             name_in(kPlantKindNames, *fit.better))
@@ -87,8 +92,8 @@ inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Fin
   return fit.tyres;
 }
 
-/// Applies the choice to every scenario. Errors (input): a scenario uses a feature that the
-/// four-wheel plant does not support; no run uses the tyres of the file.
+/// Applies the options to every scenario. Errors (input): a scenario uses a feature that the
+/// four-wheel model does not support; a tyre file is given, but no run uses tyres.
 inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
                      std::span<Scenario> scenarios) {
   std::vector<Fault> faults;
@@ -116,7 +121,8 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
   return {};
 }
 
-/// Describes the plant: once if it is the same for all scenarios, else for each scenario.
+/// Describes the simulated vehicle model: once if all scenarios have the same, else for each
+/// scenario.
 inline std::string plants_text(std::span<const Scenario> scenarios) {
   std::vector<std::string> plants;
   for (const Scenario& scenario : scenarios) plants.push_back(plant_text(scenario));
@@ -130,8 +136,8 @@ inline std::string plants_text(std::span<const Scenario> scenarios) {
   return text;
 }
 
-/// Returns the plant for the list of options in an output file. Empty if `--plant` is not given and
-/// all scenarios use the 3-DOF model.
+/// Returns name and description of the vehicle model, for the list of options in an output file.
+/// Empty if `--plant` is not given and all scenarios use the 3-DOF model.
 inline std::vector<std::pair<std::string, std::string>> options_of(
     const PlantChoice& choice, std::span<const Scenario> scenarios) {
   const bool is_model = std::none_of(scenarios.begin(), scenarios.end(),

@@ -17,7 +17,7 @@ namespace {
 
 std::atomic<bool> drawn_on_terminal = true;
 std::atomic<bool> progress_in_lines = true;
-/// The Working object whose line is displayed; null: none.
+/// Working object whose progress line is on the terminal; null if there is none.
 std::atomic<const Working*> seen = nullptr;
 
 bool is_terminal() {

@@ -1,4 +1,5 @@
-/// Progress display of long work: one line on a terminal, shown after the first second.
+/// Progress display of long computations: a line on the terminal, which appears after the first
+/// second.
 #pragma once
 
 #include <chrono>
@@ -14,24 +15,30 @@ namespace awmr::cli {
 /// The kinds of progress display that are enabled.
 struct ProgressManner {
   bool on_terminal = true;  ///< a redrawn line on a terminal; false with `--quiet`
-  bool in_lines = true;     ///< lines of `live` without a terminal; false with `--quiet`, `--json`
+  /// Progress as printed lines, which only `live` has, if stderr is no terminal; false with
+  /// `--quiet` or `--json`.
+  bool in_lines = true;
 };
 void show_progress(ProgressManner manner);
 
-/// True if progress is shown on a terminal, that is, enabled and stderr is a terminal.
+/// True if progress is drawn on a terminal: this is enabled, and stderr is a terminal.
 bool draws_progress();
-/// True if progress is printed as lines, that is, enabled and stderr is not a terminal (`live`).
+/// True if progress is printed as lines (only by `live`): this is enabled, and stderr is not a
+/// terminal.
 bool prints_progress_lines();
-/// Prints a line on stderr, such as why the next step takes long; not with `--quiet` or `--json`.
+/// Prints a line on stderr, for example why the next step takes long. Prints nothing with `--quiet`
+/// or `--json`.
 void print_notice(std::string_view text);
 
-/// Width of the terminal; longer lines would wrap and could not be redrawn.
+/// Returns the width of the terminal. A progress line must not be longer: it would wrap and could
+/// not be redrawn.
 std::size_t terminal_columns();
 
-/// During its lifetime the terminal's last line shows the current work and the elapsed time. With
-/// reported parts it also shows the fraction done and the time left, else the longest expected
-/// duration, if known. Nothing is drawn if stderr is not a terminal. Of several objects the latest
-/// is displayed; they must be destroyed in reverse order.
+/// Shows a progress line at the bottom of the terminal as long as the object exists: the current
+/// work and the elapsed time. If the work reports its parts, the line also shows the fraction done
+/// and the time left. Otherwise it shows the longest expected duration, if that is known. If stderr
+/// is not a terminal, nothing is shown. If several objects exist, the latest is shown; objects must
+/// be destroyed in reverse order.
 class Working {
  public:
   /// `most_s`: approximate longest duration, s; 0 if unknown.
@@ -40,7 +47,7 @@ class Working {
   Working(const Working&) = delete;
   Working& operator=(const Working&) = delete;
 
-  /// Sets the current work and restarts the count of its parts.
+  /// Sets the description of the current work. The count of its parts begins again.
   void doing(std::string_view what);
   /// Reports that `done` of `total` parts of the current work are done.
   void operator()(std::size_t done, std::size_t total);
@@ -60,7 +67,8 @@ class Working {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::thread drawer_;
-  const Working* covered_ = nullptr;  ///< displayed again when this one ends
+  /// Object whose line this one covers. It is shown again when this one ends.
+  const Working* covered_ = nullptr;
 };
 
 }  // namespace awmr::cli

@@ -17,8 +17,8 @@ fs::path resolved(const fs::path& project, const std::string& name) {
   return (project.parent_path() / name).lexically_normal();
 }
 
-/// Reads file names, and resolves them relative to the project file. `faults`: those found so far
-/// in the whole project file.
+/// Reads the file names in a project file, and resolves them relative to the directory of that
+/// file. `faults`: list to which the faults of the whole project file are added.
 class FileNames {
  public:
   FileNames(const fs::path& project, const std::vector<Fault>& faults)
@@ -56,7 +56,7 @@ class FileNames {
   const std::vector<Fault>& faults_;
 };
 
-/// Reads the mappings for one file, or for every file if the name is empty.
+/// Reads the column mappings for one file. If the name `file` is empty, they apply to all files.
 void read_columns(JsonObject json, const std::string& file, Project& project) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
@@ -152,7 +152,8 @@ void read_compare(JsonObject json, const FileNames& files, Project& project) {
 
 constexpr std::string_view kProjectSchema = "awmr.project/1";
 
-/// `path` is the project file; its file names are relative to it.
+/// Converts the JSON content of a project file. `path`: the project file, to whose directory the
+/// file names in it are relative.
 Project project_from_json(JsonObject& json, const fs::path& path,
                           const std::vector<Fault>& faults) {
   Project project;

@@ -14,7 +14,7 @@
 
 namespace awmr::cli {
 
-/// Content of the file. Paths in the file are relative to the file; here they are resolved.
+/// Content of a project file. The paths are relative to that file in the file itself, but not here.
 struct Project {
   std::filesystem::path vehicle;
   std::optional<std::filesystem::path> surge;

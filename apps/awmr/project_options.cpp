@@ -10,8 +10,8 @@
 namespace awmr::cli {
 namespace {
 
-/// An option of a command, and the key with the same effect in project.json (for `tune`: in
-/// tune.json).
+/// An option of a command, and the key of project.json that has the same effect (for the command
+/// `tune`: the key of tune.json).
 struct ProjectKey {
   std::string_view command;
   std::string_view option;
@@ -47,9 +47,10 @@ constexpr ProjectKey kKeys[] = {
     {"compare", "scenario", "compare/scenarios"},
 };
 
-/// Text that replaces an option in messages for a user of project.json. `option`: name of the
-/// option and possibly a value, as given to option_text(): "family surge=...". The text is the key
-/// with the same effect and its file or, without such a key, the command with the option.
+/// Returns the text that replaces an option in messages to a user of project.json: the key with the
+/// same effect and its file. If there is no such key, the text is the command with the option.
+/// `option`: name of the option, possibly followed by its value, as given to option_text(): "family
+/// surge=...".
 std::string project_text(std::string_view command, std::string_view option) {
   std::string name(option.substr(0, option.find(' ')));
   std::ranges::replace(name, '_', '-');

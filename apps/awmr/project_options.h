@@ -1,5 +1,6 @@
-/// Replaces the command-line options that messages name by the keys of project.json and tune.json
-/// with the same effect. Commands that read a project (`run`, `check`) do not have these options.
+/// Adapts messages of other commands for users of `run` and `check`. Messages name command-line
+/// options that `run` and `check` do not have. Such an option is replaced by the key of
+/// project.json or tune.json that has the same effect.
 #pragma once
 
 #include <string_view>
@@ -8,9 +9,9 @@
 
 namespace awmr::cli {
 
-/// Replaces each option in the findings or errors of `command` (option_text()) by its key:
-/// "--as-is" of identify by "`identify/as_is` of project.json". An option without a key is named
-/// with its command: "awmr compare --break-even".
+/// Replaces the options that findings and errors of `command` name (by option_text()). For example,
+/// "--as-is" of identify becomes "`identify/as_is` of project.json". An option without such a key
+/// becomes the command with the option: "awmr compare --break-even".
 Result<Outcome> for_project(std::string_view command, Result<Outcome> step);
 
 }  // namespace awmr::cli

@@ -36,7 +36,7 @@ Provenance provenance_of(const RecoverOptions& options, const std::vector<InputF
   return provenance;
 }
 
-/// Executes the runs of a shard, or all of them, with a progress bar.
+/// Executes the runs of one part (shard), or all runs, with a progress bar.
 Result<RecoverPart> recovered(const Model& model, const RecoverOptions& options,
                               const Shard& shard) {
   Working bar("simulating and fitting");
@@ -54,7 +54,7 @@ Result<Outcome> whole_outcome(const RecoverCommand& command, const RecoverPart& 
   return outcome;
 }
 
-/// Checks before the work begins that the output can be written.
+/// Checks that the output can be written, so that an error is found before the long computation.
 Status check_output_of(const RecoverCommand& command) {
   if (!command.output) return {};
   const std::span inputs(&command.model, 1);
@@ -62,7 +62,8 @@ Status check_output_of(const RecoverCommand& command) {
                        : check_output(*command.output, inputs);
 }
 
-/// A command as CLI11 fills it in, and the texts of those options that command_of() has to parse.
+/// Options as they come from the command line. CLI11 writes most of them into a command; the others
+/// are kept as texts, which command_of() parses.
 struct RecoverWords {
   RecoverCommand command;
   std::string plan = "tables";
@@ -73,7 +74,8 @@ struct RecoverWords {
   std::vector<std::string> requested;
 };
 
-/// Parses the options that are text. Errors (input): an unknown parameter, or an invalid shard.
+/// Parses the options that are kept as texts. Errors (input): an unknown parameter, or an invalid
+/// part (shard).
 Result<RecoverCommand> command_of(const RecoverWords& words) {
   RecoverCommand command = words.command;
   RecoverOptions& options = command.recover;
@@ -100,9 +102,10 @@ void add_runs(CLI::App& sub, RecoverCommand& command) {
 }
 
 void add_estimator(CLI::App& sub, RecoverWords& words) {
-  sub.add_option("--plan", words.plan,
-                 "Simulated trials. tables (default): those of the model; curve: these, with a "
-                 "coast-down curve instead of stop times; log: only a driving log")
+  sub.add_option(
+         "--plan", words.plan,
+         "Trials to simulate. tables (default): those that the model was fitted to; curve: the "
+         "same, but with a coast-down curve instead of stop times; log: only a driving log")
       ->check(one_of(names_in(kPlans)));
   sub.add_option("--method", words.method, "Estimator under test, as in identify")
       ->check(one_of(names_in(kMethodNames)));

@@ -14,8 +14,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Writes the data of all figures, or nothing. Adds a note for each figure without data. An
-/// existing plot.py is kept, because the user may have edited it.
+/// Writes the data of all figures, or nothing if a file cannot be written. A figure without data is
+/// not an error; a note names it. An existing plot.py is kept, because the user may have edited it.
 Status write_figures(FigureSet figures, const fs::path& directory, Outcome& outcome) {
   AWMR_RETURN_IF_ERROR(make_directory(directory));
   const fs::path plot = directory / kPlotName;

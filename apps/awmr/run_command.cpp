@@ -23,8 +23,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Combined outcome of the steps, and the JSON document of each under the name of its file
-/// ("model").
+/// Results of the steps of `run`: their combined outcome, and the JSON document of each step under
+/// the name of its file ("model").
 struct Steps {
   Outcome total;
   std::vector<std::pair<std::string, std::string>> documents;
@@ -34,8 +34,8 @@ void add_written(Outcome& total, const std::vector<fs::path>& written) {
   total.written.insert(total.written.end(), written.begin(), written.end());
 }
 
-/// Adds the outcome of a step to the total. The summary shows only the step's short text
-/// (Outcome::brief) under `title`.
+/// Adds the outcome of a step to the combined one. The summary gets only the short text of the step
+/// (Outcome::brief), below the line `title`.
 void add_step(Steps& steps, const char* title, Outcome step) {
   Outcome& total = steps.total;
   steps.documents.emplace_back(step.written.front().stem().string(), std::move(step.document));
@@ -77,7 +77,7 @@ Result<Outcome> validate_step(const Project& project, const InputNames& names,
                                                          .names = names}));
 }
 
-/// Returns every file that the project names, and the project file itself.
+/// Returns the paths of all files that the project names, and of the project file itself.
 std::vector<fs::path> inputs_of(const RunCommand& command, const Project& project,
                                 const TuneConfig& tune) {
   std::vector<fs::path> inputs{command.project, project.vehicle};
@@ -108,9 +108,9 @@ Result<Trials> read_trials(const Project& project) {
                       .options = project.trials});
 }
 
-/// Checks inputs and outputs before anything is written. Returns every input file. Errors: an
-/// invalid file; an implausible vehicle; two scenario files of the same name; an output file that
-/// is also an input, or that exists and was not written by awmr.
+/// Checks inputs and outputs before anything is written, and returns the paths of all input files.
+/// Errors: an invalid file; an implausible vehicle; two scenario files of the same name; an output
+/// file that is also an input, or that exists and was not written by awmr.
 Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Project& project) {
   TuneConfig tune;
   std::vector<Fault> faults;
@@ -155,8 +155,8 @@ Status report_step(const RunCommand& command, Outcome& total) {
   return {};
 }
 
-/// Writes the Arduino library. If this fails, for example because the firmware does not support the
-/// vehicle, adds the warning `no-library` instead of an error.
+/// Writes the Arduino library. If that fails, for example because the firmware does not support the
+/// vehicle, adds the warning `no-library`. It is no error, because the other results are valid.
 void emit_library(const fs::path& model, const fs::path& gains, const fs::path& output, bool as_is,
                   Outcome& total) {
   const Result<Outcome> emitted = for_project(
@@ -171,15 +171,16 @@ void emit_library(const fs::path& model, const fs::path& gains, const fs::path& 
        "there is no Arduino library for this vehicle: " + emitted.error().faults.front().message});
 }
 
-/// True if `tune` would refuse the model because it lacks a parameter. A parameter that `identify`
-/// refused may still have a given or an assumed value.
+/// True if the model lacks a parameter that `tune` needs. This is not the same as a parameter that
+/// `identify` refused, because such a parameter may still have a given or an assumed value.
 Result<bool> lacks_parameters(const Outcome& identified, const fs::path& model) {
   if (!identified.refused) return false;
   AWMR_ASSIGN_OR_RETURN(const Model fitted, read_model(model));
   return !fitted.plant();
 }
 
-/// The steps that need an identified model: tune, validate, emit, compare, simulate and report.
+/// Executes the steps that need an identified model: tune, validate, emit, compare, simulate and
+/// report.
 Status steps_after_identify(const RunCommand& command, const Project& project,
                             const InputNames& names, Steps& steps) {
   const fs::path model = command.output / "model.json";

@@ -26,7 +26,7 @@ namespace {
 constexpr const char* kTuned = "tuned";
 constexpr const char* kPaper = "paper";
 
-/// Gains of a run, with their name in the run's file name: "tuned" or "paper".
+/// A set of gains, and its name in the file name of a run: "tuned" or "paper".
 struct NamedSet {
   const char* name;
   Gains<double> gains;
@@ -40,8 +40,8 @@ std::string scenario_name(const fs::path& scenario) {
   return fmt::format("scenario_{}.json", scenario.stem().string());
 }
 
-/// Simulates one run and writes it to `csv`, and its origin to the side file (.csv.json). Returns
-/// the paths of both files.
+/// Simulates one run. Writes the run to the file `csv`, and its origin (inputs and options) to a
+/// second file with the name `csv` + ".json". Returns the paths of both files.
 Result<std::vector<fs::path>> write_run(const Model& model, const NamedSet& gains,
                                         const Scenario& scenario, YawMode mode,
                                         const std::vector<fs::path>& inputs,

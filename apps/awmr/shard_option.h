@@ -1,4 +1,4 @@
-/// `--shard` of the commands whose work can be split across machines.
+/// Option `--shard` of the commands whose work can be divided among machines.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -13,7 +13,7 @@
 
 namespace awmr::cli {
 
-/// Part (shard) of the work to run; empty: all work.
+/// Part of the work that this call executes; empty: all work.
 using ShardChoice = std::optional<Shard>;
 
 inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& text) {
@@ -21,11 +21,11 @@ inline CLI::Option* add_shard(CLI::App& command, std::optional<std::string>& tex
                             "I/N: run part I of N, for N machines; awmr merge combines the parts");
 }
 
-/// Parses I/N. Errors (input): the text is not of this form.
+/// Parses the text I/N, which stands for part I of N. Errors (input): the text is not of this form.
 Result<ShardChoice> shard_of(const std::optional<std::string>& text);
 
-/// Writes a part into the directory. `content` describes the part: "5 runs". Errors: those
-/// of write_part().
+/// Writes the results of one part into the directory. `content`: description of these results, such
+/// as "5 runs". Errors: those of write_part().
 Result<Outcome> written_part(const ShardKind& kind, const Shard& shard,
                              const std::filesystem::path& directory, const PartText& part,
                              const std::string& content, std::vector<Finding> findings = {});

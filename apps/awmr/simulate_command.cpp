@@ -26,7 +26,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Describes whether the run reached the end of its path; empty if its guidance has no end.
+/// Returns a text that says whether the run reached the end of its path; empty if the scenario's
+/// guidance has no end.
 std::string end_of(const Run& run, const Scenario& scenario) {
   if (run.end == RunEnd::kNoPassage) {
     return "  no passage: obstacles block the way to the guidance target; stopped\n";
@@ -40,7 +41,8 @@ std::string end_of(const Run& run, const Scenario& scenario) {
                      run.missed_waypoints);
 }
 
-/// Describes how often the position estimate was reset to a GPS fix; empty if never.
+/// Returns a text with the number of times that the position estimate was reset to a GPS fix; empty
+/// if it was never reset.
 std::string resets_of(const Run& run) {
   if (run.position_resets == 0) return "";
   return fmt::format(
@@ -81,8 +83,8 @@ constexpr NameTable<RunEnd, 4> kRunEndNames{{{"duration", RunEnd::kDuration},
                                              {"no-passage", RunEnd::kNoPassage},
                                              {"failed", RunEnd::kFailed}}};
 
-/// JSON of the run: metrics under their names in comparison.csv, last row under the names in
-/// run.csv.
+/// Returns the results of the run as JSON: the metrics under their names in comparison.csv, and the
+/// last row under the column names of run.csv.
 std::string document_of(const Run& run, const Scenario& scenario, YawMode mode,
                         const Metrics& metrics) {
   Json json;
@@ -117,15 +119,16 @@ Result<Provenance> provenance_of(const SimulateCommand& command, const Scenario&
   return Provenance{"simulate", std::move(options), std::move(inputs)};
 }
 
-/// True if a side file (.csv.json, with the origin of the run) is written too: if the output is
-/// neither a pipe nor a device.
+/// True if a second file with the origin of the run (.csv.json) is written. None is written if the
+/// output is a pipe or a device.
 bool has_side_file(const fs::path& output) {
   std::error_code ignored;
   const fs::file_status status = fs::status(output, ignored);
   return !fs::exists(status) || fs::is_regular_file(status);
 }
 
-/// The input files. Errors (input): an output cannot be written, or is an input.
+/// Returns the paths of the input files, after checking the outputs. Errors (input): an output
+/// cannot be written, or is an input.
 Result<std::vector<fs::path>> checked_inputs(const SimulateCommand& command) {
   std::vector<fs::path> inputs{command.model, command.scenario};
   if (command.gains) inputs.push_back(*command.gains);
@@ -138,8 +141,9 @@ Result<std::vector<fs::path>> checked_inputs(const SimulateCommand& command) {
   return inputs;
 }
 
-/// Returns the gains in the file of `--gains`. Without `--gains`, an open-loop scenario, which does
-/// not use gains, gets the paper's; any other scenario is an error (input).
+/// Returns the gains in the file of `--gains`. Without that option, an open-loop scenario gets the
+/// paper's gains, which it does not use. For any other scenario, the missing option is an error
+/// (input).
 Result<Gains<double>> gains_for(const SimulateCommand& command, const Scenario& scenario,
                                 const Model& model) {
   if (command.gains) return read_gains_for(*command.gains, model.vehicle.sample_time_s);
@@ -148,7 +152,8 @@ Result<Gains<double>> gains_for(const SimulateCommand& command, const Scenario& 
                      "the controller of this scenario needs gains: give --gains GAINS.json");
 }
 
-/// Adds the findings about the run, except those that tyres_of() has added for `--tyres`.
+/// Adds the findings about the run. The finding about `--tyres` is left out, because tyres_of() has
+/// added it already.
 Status note_run(const SimulateCommand& command, const Scenario& scenario, const Model& model,
                 const Gains<double>& gains, const Metrics& metrics,
                 std::vector<Finding>& findings) {
@@ -164,10 +169,10 @@ Status note_run(const SimulateCommand& command, const Scenario& scenario, const 
   return {};
 }
 
-/// Writes the run and its side file, if the output has one.
+/// Writes the run and, if the output has one, the file with its origin (.csv.json).
 Status write_run(const fs::path& output, const std::string& csv, Outcome& outcome) {
   if (!has_side_file(output)) return write_file(output, csv, check_run_text);
-  // The side file is last because it contains the hash of the run.
+  // The file with the origin comes last, because it contains the hash of the run.
   const OutputFile files[] = {{output, csv, check_run_text},
                               {run_side_path(output), outcome.document, check_json_text}};
   AWMR_RETURN_IF_ERROR(write_files(files));

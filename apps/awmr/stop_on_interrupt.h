@@ -1,4 +1,5 @@
-/// Stops a long computation by Ctrl-C (SIGINT), so that its finished part can be written.
+/// Lets Ctrl-C (SIGINT) stop a long computation in such a way that the finished part of the results
+/// can be written.
 #pragma once
 
 #include <atomic>
@@ -6,20 +7,20 @@
 
 namespace awmr::cli {
 
-/// Handles SIGINT during its lifetime. The first signal requests a stop; a second one ends the
-/// program at once, as without this object.
+/// Handles SIGINT as long as the object exists. The first signal requests a stop. A second one ends
+/// the program at once, as it would without this object.
 class StopOnInterrupt {
  public:
   StopOnInterrupt();
   ~StopOnInterrupt();
   StopOnInterrupt(const StopOnInterrupt&) = delete;
   StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
-  /// Set by the first signal. Runs in progress finish, no new run starts.
+  /// True after the first signal. Runs in progress are then finished, but no new run is started.
   static std::atomic<bool>& requested();
 };
 
-/// Prints the notice (not with --json), then ends the program by SIGINT, so that the caller sees
-/// the exit status of a program that Ctrl-C has ended.
+/// Prints the notice (not with --json). Then ends the program by the signal SIGINT itself, so that
+/// the calling program or shell sees that Ctrl-C ended it.
 void end_interrupted(const std::string& notice);
 
 }  // namespace awmr::cli

@@ -7,8 +7,9 @@
 
 namespace awmr::cli {
 
-/// Adds terminal colours to text for a stream. Leaves text unchanged if the stream is not a
-/// terminal, if the environment variable NO_COLOR is not empty [no-color.org] or if TERM is "dumb".
+/// Adds terminal colours to text for a stream. Leaves the text unchanged in three cases: the stream
+/// is not a terminal, the environment variable NO_COLOR is not empty [no-color.org], or TERM is
+/// "dumb".
 class Style {
  public:
   explicit Style(std::FILE* stream);

@@ -20,11 +20,11 @@
 namespace awmr::cli {
 namespace {
 
-/// Largest number of trials on the printed sheet; the file has all.
+/// Largest number of trials on the printed sheet. The output file contains all trials.
 constexpr std::size_t kSheetTrials = 8;
 
-/// Metric of a simulated closed loop. Its derivatives by the plant's parameters are computed
-/// without changing the controller.
+/// A metric of a simulated closed loop, such as the heading error. Its sensitivity to the
+/// parameters of the vehicle is computed with an unchanged controller.
 struct LoopMetric {
   const char* name;
   std::optional<double> Metrics::*value;
@@ -33,7 +33,8 @@ constexpr LoopMetric kLoopMetrics[] = {{"heading_iae_degs", &Metrics::heading_ia
                                        {"overshoot_deg", &Metrics::overshoot_deg},
                                        {"speed_drop_mps", &Metrics::speed_drop_mps}};
 
-/// Adds the metrics of the closed loop given by `--gains` and `--scenario`; none without them.
+/// Adds the metrics of the closed loop that `--gains` and `--scenario` define. Adds none if both
+/// are absent.
 Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOptions& options) {
   if (!command.gains && !command.scenario) return {};
   if (!command.gains || !command.scenario) {
@@ -118,9 +119,9 @@ void add_suggest(CLI::App& app, Session& session) {
   SuggestCommand& command = *held;
   add_file(*sub, "--model", command.model, "model.json from identify")->required();
   sub->add_option("--parameter", command.parameter,
-                  "Parameter to improve, or with --gains and --scenario one of the metrics "
-                  "heading_iae_degs, overshoot_deg, speed_drop_mps (default: all parameters "
-                  "together)");
+                  "Parameter whose uncertainty the trials are to reduce (default: all parameters "
+                  "together). With --gains and --scenario it may be a metric: heading_iae_degs, "
+                  "overshoot_deg or speed_drop_mps");
   add_file(*sub, "--gains", command.gains, "gains.json of the closed loop");
   add_file(*sub, "--scenario", command.scenario, "scenario.json of the closed loop");
   add_choice(*sub, "--mode", command.mode, kYawModeNames,

@@ -7,9 +7,9 @@
 
 namespace awmr {
 
-/// Returns the files, sorted by path. A line that begins with `@NAME ` is written only for that
-/// kind of drive, without the mark: NAME is a drive (model/vehicle.h), or `steered` for drives with
-/// steering.
+/// Returns the files, sorted by path. A line of a file may begin with the mark `@NAME `. Such a
+/// line is written, without the mark, only for that kind of drive: NAME is a drive
+/// (model/vehicle.h), or `steered` for all drives with steering.
 const std::vector<EmbeddedFile>& project_templates();
 
 }  // namespace awmr

@@ -33,8 +33,8 @@ Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
   return tune(model, options);
 }
 
-/// Reads tune.json (`--config`) and applies the other command-line options, which override it.
-/// `--allocation` also changes `model`.
+/// Reads the tune.json of `--config`. Then applies the other command-line options, which override
+/// the values in that file. `--allocation` also changes `model`.
 Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
   TuneConfig config;
   if (command.config) {
@@ -151,20 +151,21 @@ Result<Outcome> execute(const TuneCommand& command) {
 
 void add_tune(CLI::App& app, Session& session) {
   auto command = std::make_shared<TuneCommand>();
-  CLI::App* sub = add_command(
-      app, session, "tune",
-      "Tune the gains of the heading and speed laws, under the reaching condition T2 < T1",
-      "awmr tune --model model.json -o gains.json", [command] { return execute(*command); });
+  CLI::App* sub = add_command(app, session, "tune",
+                              "Tune the gains of the heading and speed laws, with sliding surfaces "
+                              "that are reached faster (T2) than errors decay on them (T1)",
+                              "awmr tune --model model.json -o gains.json",
+                              [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
-           "tune.json: mode, form, margin, limits, baseline, weights, goals, open, observer, "
-           "no_observer, global_evaluations, local_evaluations, seed, scenarios");
+           "tune.json, with any of the keys mode, form, margin, limits, baseline, weights, goals, "
+           "open, observer, no_observer, global_evaluations, local_evaluations, seed, scenarios");
   CLI::Option* nominal = add_search(*sub, *command);
   add_draws(*sub, *command, nominal);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit,
-                         "none for --config scenarios; of the two default scenarios one is limited "
-                         "to the measured rate");
+                         "scenarios of --config have no further limit; one of the two default "
+                         "scenarios is limited to the highest measured yaw rate");
   add_output(*sub, command->output, "gains.json to write");
 }
 

@@ -17,8 +17,9 @@ std::string gains_line(const char* name, const Gains<double>& gains, double obje
       gains.heading.reaching_time_constant_s(), objective);
 }
 
-/// Describes the active constraints, whose limits keep the objective from improving, and the ranges
-/// of mu and mu_s with practically the same objective.
+/// Describes the active constraints, that is, those whose limits keep the search from a better
+/// objective. Also gives the ranges of the gains mu and mu_s in which the objective is practically
+/// the same.
 std::string active_text(const Tuning& tuning) {
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
@@ -33,7 +34,8 @@ std::string active_text(const Tuning& tuning) {
       tuning.speed_mu_as_good.lo, tuning.speed_mu_as_good.hi);
 }
 
-/// Describes the unmodelled variation that the gains account for; empty without any.
+/// Describes the variation of mass and wheel forces for which the gains were tuned in addition to
+/// the model's uncertainty; empty if there is none.
 std::string open_text(const UnmodelledVariation& open) {
   if (!open.any()) return {};
   std::string text = "  variation     ";
@@ -48,8 +50,8 @@ std::string open_text(const UnmodelledVariation& open) {
   return text + '\n';
 }
 
-/// Describes, by mode, the smallest damping ratio and delay margin of the heading loop over the
-/// confidence set of the model's parameters.
+/// Describes the worst case of the heading loop in each mode: the smallest damping ratio and delay
+/// margin over the confidence set of the model's parameters.
 std::string certificate_text(const Certificate& certificate) {
   std::string by_mode;
   for (const ModeCertificate& one : certificate.modes) {
@@ -63,7 +65,8 @@ std::string certificate_text(const Certificate& certificate) {
       certificate.latency_s, by_mode);
 }
 
-/// Note on the last column of evaluation_table(); empty if the servo never moves.
+/// Returns a note that explains the last column of evaluation_table(), the rate of the steering;
+/// empty if the servo never moves.
 std::string steering_note(const std::vector<EvaluatedGains>& all) {
   const bool steers = std::ranges::any_of(all, [](const EvaluatedGains& one) {
     return std::ranges::any_of(one.figures, [](const EvaluatedFigure& figure) {
@@ -71,13 +74,14 @@ std::string steering_note(const std::vector<EvaluatedGains>& all) {
     });
   });
   if (!steers) return {};
-  return "  steer: rate of the steering command in the whole run, turns included; "
-         "limits/steering_rate_rms_degps\n  applies to the share due to noise while a heading is "
-         "held\n";
+  return "  steer: rate of the steering command in the whole run, turns included. The limit of "
+         "tune.json,\n  limits/steering_rate_rms_degps, applies only to the part caused by noise "
+         "while a heading is held\n";
 }
 
-/// Table of the gains' metrics on fresh draws (newly drawn vehicles that were not used for tuning);
-/// if there are several scenarios, also by scenario. Empty if no fresh draws were made.
+/// Returns a table of the metrics of each set of gains. They are computed on fresh draws: newly
+/// drawn vehicles that were not used for tuning. If there are several scenarios, the table has a
+/// part for each. Empty if no fresh draws were made.
 std::string evaluation_table(const std::vector<EvaluatedGains>& all,
                              const std::vector<EvaluatedGains>& by_scenario) {
   if (all.empty()) return {};
@@ -104,7 +108,8 @@ std::string evaluation_table(const std::vector<EvaluatedGains>& all,
   return text + steering_note(rows);
 }
 
-/// States for each goal how many fresh draws meet it with the tuned gains; empty without goals.
+/// States for each goal in which fraction of the fresh draws (vehicles not used for tuning) the
+/// tuned gains meet it; empty without goals.
 std::string goals_text(const std::vector<EvaluatedGoal>& all) {
   std::string text;
   for (const EvaluatedGoal& evaluated : all) {

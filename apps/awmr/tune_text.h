@@ -14,7 +14,8 @@ std::string gains_table(const Tuning& tuning);
 /// All tables of a tuning.
 std::string tuning_summary(const Tuning& tuning, const TuneOptions& options);
 
-/// Objective by scenario and mode, constraints, and why the search ended, for `--verbose`.
+/// Returns the text for `--verbose`: the objective by scenario and mode, the constraints, and why
+/// the search ended.
 std::string tuning_details(const Tuning& tuning);
 
 }  // namespace awmr::cli

@@ -35,7 +35,8 @@ Result<Validation> validate_with_progress(const Model& model,
   return validate(model, gains, options);
 }
 
-/// Text of the verdict, and of the paper's claims that are reproduced and not reproduced.
+/// Returns a short text with the verdict, the paper's claims that are reproduced, and those that
+/// are not.
 std::string brief_of(const Validation& validation) {
   std::vector<std::string> reproduced;
   std::vector<std::string> others;
@@ -47,8 +48,8 @@ std::string brief_of(const Validation& validation) {
                      others.empty() ? "none" : fmt::format("{}", fmt::join(others, " ")));
 }
 
-/// Reads the logs of the command, each of which can contain several runs. Returns the result of
-/// `evaluate` for each run.
+/// Reads the logs of the command and calls `evaluate` for each run; a log can contain several runs.
+/// Returns the results of all runs.
 template <class Evaluate>
 auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const Evaluate& evaluate,
                    std::vector<Finding>& findings)
@@ -75,7 +76,8 @@ auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const
   return all;
 }
 
-/// Validates the logs against the model alone or, with a scenario, as drives under the controller.
+/// Evaluates the logs. Without a scenario, the model predicts their motion. With a scenario, they
+/// are compared with simulated drives of this scenario under the controller.
 Status add_evaluated_logs(const ValidateCommand& command, const Model& model,
                           const std::optional<Gains<double>>& gains, Validation& validation,
                           std::vector<Finding>& findings) {
@@ -103,8 +105,8 @@ Status add_evaluated_logs(const ValidateCommand& command, const Model& model,
   return {};
 }
 
-/// Returns the gains of the file; without a file, the paper's gains if claims are checked, else
-/// none.
+/// Returns the gains in the file of `--gains`. Without that option, returns the paper's gains if
+/// claims are checked, else none.
 Result<std::optional<Gains<double>>> gains_of(const ValidateCommand& command, const Model& model) {
   if (command.gains) return read_gains_for(*command.gains, model.vehicle.sample_time_s);
   if (command.claims) return kPaperGains;
@@ -140,8 +142,9 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
-/// Adds the warning `log-of-the-fit` for each log that the model was fitted to: its SHA-256 is
-/// among those of the model's inputs. The first input of the validation is the model itself.
+/// Adds the warning `log-of-the-fit` for each log that the model was fitted to. Such a log is
+/// recognised by its SHA-256, which is among those of the model's inputs. The first input of the
+/// validation is skipped, because it is the model itself.
 void note_fitted_logs(const Model& model, const Provenance& provenance,
                       std::vector<Finding>& findings) {
   for (const InputFile& input : provenance.inputs) {
@@ -155,7 +158,8 @@ void note_fitted_logs(const Model& model, const Provenance& provenance,
   }
 }
 
-/// Lists the claims if requested; else the verdict and the prediction of each log.
+/// Returns the list of the claims if it was requested, else the verdict and the prediction errors
+/// of each log.
 std::string summary_of(const ValidateCommand& command, const Validation& validation) {
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
   const char* const title = validation.trials.empty()
@@ -206,23 +210,23 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
   add_choice(sub, "--mode", command.acceptance.mode, kYawModeNames,
              "Yaw-control mode of the drives (default combined)")
       ->needs(scenario);
-  sub.add_option("--draws", command.acceptance.draws, "Predicted drives (default 200)")
+  sub.add_option("--draws", command.acceptance.draws, "Number of predicted drives (default 200)")
       ->check(within(39, 10000))
       ->needs(scenario);
   sub.add_option("--seed", command.acceptance.seed, "Random seed of the draws (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed))
       ->needs(scenario);
   sub.add_option("--from", command.acceptance.from_s,
-                 "Use each log from this time on, s; with --scenario: the time at which the "
-                 "scenario begins (default: first row with a non-zero command)")
+                 "Use each log from this time on, s. With --scenario, this is the time in the log "
+                 "at which the scenario begins (default: first row with a non-zero command)")
       ->check(within(-kMaxTime_s, kMaxTime_s));
 }
 
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {
-  auto* claims =
-      sub.add_flag("--claims", command.claims,
-                   "Check the paper's fourteen claims: result, criterion, and the settings not "
-                   "given in the paper that decide it (without --gains: the paper's gains)");
+  auto* claims = sub.add_flag("--claims", command.claims,
+                              "Check the paper's fourteen claims. For each, print the result, the "
+                              "criterion, and the settings that decide the result but are not "
+                              "given in the paper (without --gains: the paper's gains)");
   add_file(sub, "--claims-table", command.claims_table, "Also write the claims as a Markdown table")
       ->needs(claims);
   add_allocation(sub, command.allocation);

@@ -21,7 +21,8 @@ namespace awmr::python {
 
 namespace py = pybind11;
 
-/// C++ exception with an Error; errors.cpp converts it to a Python exception.
+/// C++ exception that carries an Error of the library. errors.cpp converts it to a Python
+/// exception.
 class Raised : public std::exception {
  public:
   explicit Raised(Error error) : error_(std::move(error)) {}
@@ -39,8 +40,8 @@ T value_or_raise(Result<T> result) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-/// Returns the value for a name, for the argument `what`. Raises InputError for an unknown name;
-/// the message lists the known ones.
+/// Returns the value with a given name. `what`: the Python argument that has the name. Raises
+/// InputError for an unknown name; the message lists the known names.
 template <class Value, std::size_t N>
 Value value_of(const NameTable<Value, N>& names, const std::string& name, const char* what) {
   if (const auto value = value_in(names, name)) return *value;
@@ -56,7 +57,7 @@ py::array_t<T> to_array(const std::vector<T>& values) {
   return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// Returns one field of all rows as an array.
+/// Returns one field of all rows as a NumPy array.
 template <class Row, class Member>
 py::array to_column(const std::vector<Row>& rows, Member member) {
   using T = decltype(member(rows.front()));
@@ -66,7 +67,8 @@ py::array to_column(const std::vector<Row>& rows, Member member) {
   return to_array(values);
 }
 
-/// Defines module.read_NAME(path), which raises InputError. `read` is read_NAME of the library.
+/// Defines the Python function module.read_NAME(path), which raises InputError if reading fails.
+/// `read`: the function read_NAME of the C++ library.
 template <class Read>
 void bind_read(py::module_& module, const char* name, Read read, const char* text) {
   module.def(
@@ -74,8 +76,8 @@ void bind_read(py::module_& module, const char* name, Read read, const char* tex
       py::arg("path"), text);
 }
 
-/// A vehicle and the file from which it was read. A model that is identified for it records name
-/// and hash of this file.
+/// A vehicle, with the file from which it was read. A model that is identified for this vehicle
+/// records the name and the hash of the file.
 struct VehicleOfFile : Vehicle {
   InputFile file;
 };

@@ -24,7 +24,8 @@ NamedComparison compared(const Model& model, const Gains<double>& gains,
   return {std::move(comparison), std::move(options)};
 }
 
-/// Columns of comparison.csv as a dict of arrays; NaN where a metric does not apply.
+/// Returns the columns of comparison.csv as a dict of arrays. A value is NaN where a metric does
+/// not apply.
 py::dict comparison_columns(const NamedComparison& named) {
   const std::vector<ComparisonRow>& rows = named.comparison.rows;
   py::dict columns;

@@ -11,7 +11,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Raises InputError if the value is outside [least, most], the range of the command-line option.
+/// Raises InputError if the value is outside [least, most], the range of the corresponding
+/// command-line option.
 void check_within(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return;
   throw Raised(input_error(ErrorCode::kOutOfRange, name,

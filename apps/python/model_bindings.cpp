@@ -50,26 +50,27 @@ void bind_vehicle(py::module_& module) {
   py::class_<Vehicle>(module, "Vehicle",
                       "The vehicle's data that are known before any trial (vehicle.json).")
       .def_readonly("name", &Vehicle::name)
-      .def_readonly("mass_kg", &Vehicle::mass_kg, "m, kg, ready to drive")
-      .def_readonly("length_m", &Vehicle::length_m, "along the body's x, m")
-      .def_readonly("width_m", &Vehicle::width_m, "along the body's y, m")
+      .def_readonly("mass_kg", &Vehicle::mass_kg, "mass of the vehicle, ready to drive, kg")
+      .def_readonly("length_m", &Vehicle::length_m, "length of the body (forward axis x), m")
+      .def_readonly("width_m", &Vehicle::width_m, "width of the body (lateral axis y), m")
       .def_readonly("front_axle_m", &Vehicle::front_axle_m,
-                    "l_f, from the centre of gravity to the front axle, m")
+                    "l_f, distance from the centre of gravity to the front axle, m")
       .def_readonly("half_track_m", &Vehicle::half_track_m,
-                    "d, from the centre line to the middle of a wheel, m")
+                    "d, distance from the centre line to the middle of a wheel, m")
       .def_readonly("steering_max_deg", &Vehicle::steering_max_deg,
                     "largest steering angle to either side, deg; 0 without steering")
       .def_readonly("steering_max_rate_degps", &Vehicle::steering_max_rate_degps,
                     "largest rate of the steering servo, deg/s; 0 without steering")
-      .def_readonly("steering_time_constant_s", &Vehicle::steering_time_constant_s,
-                    "T, first-order lag of the steering servo, s; 0 without steering")
+      .def_readonly(
+          "steering_time_constant_s", &Vehicle::steering_time_constant_s,
+          "T, time constant of the steering servo (first-order lag), s; 0 without steering")
       .def_readonly("sample_time_s", &Vehicle::sample_time_s,
                     "T_s, time between two steps of the controller, s")
       .def_property_readonly(
           "wheel_force",
           [](const Vehicle& v) { return py::make_tuple(v.wheel_force.lo, v.wheel_force.hi); },
-          "(least, largest) force F' of one wheel over F_max; the least is negative if the motors "
-          "reverse")
+          "(smallest, largest) force of one wheel, divided by F_max; the smallest is negative if "
+          "the motors can reverse")
       .def_property_readonly("drive",
                              [](const Vehicle& v) { return name_in(kDriveNames, v.drive); })
       .def_property_readonly("inertia_kgm2", &Vehicle::inertia_kgm2,
@@ -220,14 +221,15 @@ void bind_gains(py::module_& module) {
       module, "Gains",
       "The controller's gains, all > 0. Heading law: slope lambda_ of the sliding surface (1/s), "
       "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary layer "
-      "(rad/s), and the friction width, the yaw rate (rad/s) below which Coulomb friction is fed "
-      "forward only in part. It is friction_width_radps in steering mode, "
-      "combined_friction_width_radps in combined mode (default: half of friction_width_radps, at "
-      "least 0.02), and 0.02 in differential mode; with an observer, it is friction_width_radps in "
-      "all modes. Speed law: largest corrective acceleration speed_mu (m/s^2), half width "
-      "speed_epsilon of the boundary layer (m/s). Disturbance observer (all three 0: no observer): "
-      "observer_bandwidth_radps, and the largest compensated yaw moment observer_yaw_max_m (m) and "
-      "force observer_surge_max, both over F_max.");
+      "(rad/s), and a friction width (rad/s). At yaw rates below the friction width, Coulomb "
+      "friction is fed forward only in part. The friction width depends on the mode: "
+      "friction_width_radps in steering mode, combined_friction_width_radps in combined mode "
+      "(default: half of friction_width_radps, at least 0.02), 0.02 in differential mode. With an "
+      "observer, it is friction_width_radps in all modes. Speed law: largest corrective "
+      "acceleration speed_mu (m/s^2), half width speed_epsilon of the boundary layer (m/s). "
+      "Disturbance observer (all three 0: no observer): observer_bandwidth_radps, and the largest "
+      "compensated yaw moment observer_yaw_max_m (m) and force observer_surge_max, both over "
+      "F_max.");
   bound.def(py::init(&gains_from), py::kw_only(), py::arg("lambda_"), py::arg("mu"),
             py::arg("epsilon"), py::arg("speed_mu"), py::arg("speed_epsilon"),
             py::arg("friction_width_radps") = kFrictionWidth_radps.min,

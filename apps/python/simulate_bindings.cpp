@@ -12,7 +12,7 @@ constexpr NameTable<RunEnd, 4> kRunEnds{{{"duration", RunEnd::kDuration},
                                          {"no-passage", RunEnd::kNoPassage},
                                          {"failed", RunEnd::kFailed}}};
 
-/// A run with the inputs needed to compute its metrics.
+/// A simulated run, with the inputs from which its metrics are computed.
 struct EvaluatedRun {
   Run run;
   Scenario scenario;
@@ -94,9 +94,9 @@ void bind_simulate(py::module_& module) {
   module.def("simulate", simulated, py::arg("model"), py::arg("gains"), py::arg("scenario"),
              py::kw_only(), py::arg("mode") = "combined",
              "Simulates one run of the model in a scenario. The controller has the model's "
-             "parameters and these gains. `mode`: source of the yaw moment, \"differential\", "
-             "\"steering\" or \"combined\". Raises InputError if the model lacks a parameter or "
-             "the run diverges.");
+             "parameters and these gains. `mode`: how the yaw moment is made: by the wheel forces "
+             "(\"differential\"), by the \"steering\" or by both (\"combined\"). Raises InputError "
+             "if the model lacks a parameter or the run diverges.");
 }
 
 }  // namespace awmr::python

@@ -10,8 +10,8 @@
 namespace awmr::python {
 namespace {
 
-/// Arguments of load_trials(): an optional path; for kinds of trials with several files, also a
-/// list of paths.
+/// Types of the arguments of load_trials(): a path or nothing. For kinds of trials that may have
+/// several files, also a list of paths.
 using Path = std::optional<std::filesystem::path>;
 using Paths =
     std::variant<std::monostate, std::filesystem::path, std::vector<std::filesystem::path>>;
@@ -22,7 +22,7 @@ std::vector<std::filesystem::path> all_of(const Paths& paths) {
   return {};
 }
 
-/// Returns one optional field of all rows as an array, NaN where it is absent.
+/// Returns one optional field of all rows as an array. The array is NaN in rows without this field.
 template <class Row>
 py::array optional_column(const std::vector<Row>& rows, std::optional<double> Row::*field) {
   return to_column(rows, [field](const Row& row) {
@@ -87,8 +87,8 @@ py::list curves_of(const TrialsOfFiles& trials) {
   return all;
 }
 
-/// Columns of a log as a dict of arrays: time, commands and channels in SI units. NaN in rows in
-/// which a channel was not measured.
+/// Returns a log as a dict of arrays in SI units: time, commands and sensor channels. A channel is
+/// NaN in rows in which it was not measured.
 py::dict columns_of(const DrivingLog& log) {
   py::dict columns;
   columns["line"] = to_array(log.line);
@@ -115,11 +115,13 @@ py::list logs_of(const TrialsOfFiles& trials) {
   return all;
 }
 
-/// A vehicle as returned by read_vehicle(), or the vehicle of a model, which has no file.
+/// Argument `vehicle` of load_trials(): the result of read_vehicle(), or the vehicle of a model,
+/// which has no file.
 using AnyVehicle = std::variant<VehicleOfFile, Vehicle>;
 
-/// Vehicle file (if there is one) and trial files with their hashes, in the order of the command
-/// line's record. Errors (input): a file cannot be read.
+/// Returns the input files with their hashes: the vehicle's file, if there is one, and the trial
+/// files. Their order is the one in which the command line records them. Errors (input): a file
+/// cannot be read.
 Result<std::vector<InputFile>> inputs_of(const AnyVehicle& vehicle, const TrialFiles& files) {
   std::vector<InputFile> inputs;
   if (const auto* read = std::get_if<VehicleOfFile>(&vehicle)) inputs.push_back(read->file);
@@ -164,10 +166,10 @@ TrialsOfFiles load(const AnyVehicle& vehicle, const Path& surge, const Path& tur
 }  // namespace
 
 void bind_trials(py::module_& module) {
-  py::class_<TrialsOfFiles>(
-      module, "Trials",
-      "Trials in SI units. A table is a dict from column to NumPy array, with NaN for an empty "
-      "cell; its column `line` is each row's line in the file. None if there is no such table.")
+  py::class_<TrialsOfFiles>(module, "Trials",
+                            "Trials in SI units. Each table is a dict from the name of a column to "
+                            "a NumPy array, with NaN for an empty cell. Its column `line` has the "
+                            "line number of each row in the file. A table without a file is None.")
       .def_readonly("vehicle", &TrialsOfFiles::vehicle)
       .def_readonly("findings", &TrialsOfFiles::findings)
       .def_property_readonly("surge", surge_of,
@@ -181,22 +183,21 @@ void bind_trials(py::module_& module) {
       .def_property_readonly("curves", curves_of, "list of coast-down curves: t_s, speed_mps")
       .def_property_readonly(
           "logs", logs_of,
-          "list of driving logs: t_s, force_left and force_right (of each wheel of a side, over "
-          "F_max), and, if logged, steering_cmd_rad and the sensor channels, which are NaN in rows "
-          "without a reading");
-  module.def(
-      "load_trials", load, py::arg("vehicle"), py::kw_only(), py::arg("surge") = py::none(),
-      py::arg("turning") = py::none(), py::arg("coastdown") = std::monostate{},
-      py::arg("log") = std::monostate{}, py::arg("columns") = std::vector<std::string>{},
-      py::arg("prefer") = "printed", py::arg("as_is") = false, py::arg("steady_from_logs") = false,
-      "Reads the trial files of one vehicle, given as paths; `coastdown` and `log` may be lists of "
-      "paths. `columns`: column mappings as in --column, such as \"speed_mps=V*0.2778\". `prefer`: "
-      "which speed or yaw rate to use if a row gives it twice, the \"printed\" one or the "
-      "\"timed\" "
-      "one (distance or turns over elapsed time). `as_is`: accept trials that contradict "
-      "themselves or the vehicle, with a warning. `steady_from_logs`: also use steady stretches of "
-      "the logs as surge and "
-      "turning runs. Raises InputError with all faults of all files.");
+          "list of driving logs, each a dict of columns: t_s, force_left and force_right (force of "
+          "each wheel of that side over F_max), and, if logged, steering_cmd_rad and the sensor "
+          "channels. A channel is NaN in rows without a reading");
+  module.def("load_trials", load, py::arg("vehicle"), py::kw_only(), py::arg("surge") = py::none(),
+             py::arg("turning") = py::none(), py::arg("coastdown") = std::monostate{},
+             py::arg("log") = std::monostate{}, py::arg("columns") = std::vector<std::string>{},
+             py::arg("prefer") = "printed", py::arg("as_is") = false,
+             py::arg("steady_from_logs") = false,
+             "Reads the trial files of one vehicle, given as paths; `coastdown` and `log` may be "
+             "lists of paths. `columns`: column mappings as in --column, such as "
+             "\"speed_mps=V*0.2778\". `prefer`: the value to use if a row gives its speed or yaw "
+             "rate twice: \"printed\" (the number in the row) or \"timed\" (distance or turns over "
+             "elapsed time). `as_is`: accept trials that contradict themselves or the vehicle, "
+             "with a warning. `steady_from_logs`: also use steady stretches of the logs as surge "
+             "and turning runs. Raises InputError with all faults of all files.");
 }
 
 }  // namespace awmr::python

@@ -53,7 +53,8 @@ py::list scores_of(const Tuning& tuning) {
   return all;
 }
 
-/// Results of each set of gains on new draws of the plant, as a list of dicts; empty if `nominal`.
+/// Returns the results of each set of gains on newly drawn vehicles, as a list of dicts; empty if
+/// `nominal`.
 py::list evaluated_gains_of(const Tuning& tuning) {
   py::list all;
   if (!tuning.robust) return all;

@@ -20,20 +20,22 @@ constexpr uint8_t kMaxPayload = 140;
 constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // bytes after the start byte
 
 // Types of the requests, with the payloads of request and answer. An answer has the type of its
-// request. Hello: starts the controller anew. Request: empty. Answer: the fault bits of awmr_init()
-// (8 bit), then AWMR_PARAMETERS_CRC32 xor kPilMission (32 bit), by which the host detects firmware
-// made for other inputs. kPilMission is the checksum of the generated mission.h, 0 if the mission
-// adds nothing.
+// request.
+// Hello: starts the controller anew. Request: empty. Answer: the fault bits of awmr_init() (8 bit),
+// then AWMR_PARAMETERS_CRC32 xor kPilMission (32 bit). The second number lets the host detect
+// firmware that was made for other inputs. kPilMission is the checksum of the generated mission.h;
+// it is 0 if that header has the defaults only.
 constexpr uint8_t kHello = 'H';
-// Follow points. Request: acceptance_m, then x_m and y_m of each point. Answer: empty.
+// Follow points. Request: the acceptance radius in m, then x_m and y_m of each point. Answer:
+// empty.
 constexpr uint8_t kFollow = 'F';
-// Control step. Request: awmr_input. Answer: awmr_output, then the clock cycles of the step (16
-// bit).
+// Execute a control step. Request: awmr_input. Answer: awmr_output, then the clock cycles of the
+// step (16 bit).
 constexpr uint8_t kStep = 'S';
 
-/// Reads frames byte by byte. take() returns true when its byte completes a valid frame, which can
-/// be read until the next call. When a frame is damaged, the reader searches the bytes received so
-/// far for the start byte of the next frame.
+/// Reads frames byte by byte. take() adds one byte and returns true if this byte completes a valid
+/// frame. The frame can be read until the next call. If a frame is damaged, the reader searches its
+/// bytes for the start byte of the next frame.
 struct FrameReader {
   uint8_t bytes[kMaxFrame];  // received bytes of the present frame, after its start byte
   uint8_t count;             // number of bytes in `bytes`
@@ -72,8 +74,8 @@ struct FrameReader {
     if (count < kHeadBytes) return true;
     return length() <= kMaxPayload && count < kHeadBytes + length() + 2;
   }
-  /// True for a complete frame with the right CRC. take() then drops the bytes after it; such bytes
-  /// exist only if a damaged frame came before.
+  /// True if the bytes begin with a complete frame and its CRC is right. take() then drops all
+  /// bytes after this frame; such bytes exist only if a damaged frame came before.
   bool is_whole() const {
     if (length() > kMaxPayload) return false;
     const uint8_t covered = static_cast<uint8_t>(kHeadBytes + length());

@@ -1,5 +1,6 @@
-// Firmware for `awmr pil --link memory`: the control step runs in a timer interrupt, and the chip
-// sleeps in between. The host accesses inputs and outputs in RAM by these symbols.
+// Firmware for `awmr pil --link memory`. The control step runs in a timer interrupt, and the chip
+// sleeps in between. The host finds the inputs and outputs in RAM by the names of the variables
+// below.
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>
@@ -11,7 +12,7 @@ extern "C" {
 awmr_input pil_input;
 awmr_output pil_output;
 awmr_point pil_points[kPilPoints];
-int16_t pil_point_count;  // above 0: follow these points from the next step on
+int16_t pil_point_count;  // above 0: number of points to follow from the next step on
 float pil_acceptance_m;
 uint8_t pil_init_fault;
 volatile uint8_t pil_steps;  // steps executed, modulo 256
@@ -19,7 +20,8 @@ volatile uint8_t pil_steps;  // steps executed, modulo 256
 
 namespace {
 
-// Sample time in counts of timer 1, which has 16 bits and counts at F_CPU/8 (so at most 32 ms).
+// Sample time in counts of timer 1. The timer counts at F_CPU/8 and has 16 bits, so the sample time
+// may be 32 ms at most.
 const uint32_t kTimerCounts = static_cast<uint32_t>(AWMR_SAMPLE_TIME_S * (F_CPU / 8) + 0.5f);
 static_assert(kTimerCounts >= 2 && kTimerCounts <= 65536,
               "the sample time has to be between 1 us and 32 ms");

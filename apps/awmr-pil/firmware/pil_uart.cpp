@@ -1,5 +1,6 @@
-// Firmware for `awmr pil --link uart`: executes the control step on request over USART0 (the USB
-// serial of a Mega 2560) and sleeps in between. `--port` needs the same firmware on a real board.
+// Firmware for `awmr pil --link uart`, for the emulated chip and for a real board (`--port`).
+// Executes a control step whenever a request arrives at USART0 (the USB serial of a Mega 2560), and
+// sleeps in between.
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>
@@ -16,20 +17,21 @@
 namespace {
 
 const uint8_t kRingMask = 31;
-volatile uint8_t ring[kRingMask + 1];  // received bytes; main() removes each before 32 more arrive
+// Received bytes that main() has not read yet. main() must read each byte before 32 more arrive.
+volatile uint8_t ring[kRingMask + 1];
 volatile uint8_t ring_head;
 uint8_t ring_tail;
 
-// Pause on the line after which an incomplete frame is discarded: 20 ms plus the time of 20 bytes,
-// in counts of timer 3 (F_CPU/64). USB makes shorter pauses inside a frame; the host waits longer
-// before it repeats a request.
+// Pause on the line after which an incomplete frame is discarded, in counts of timer 3 (F_CPU/64):
+// 20 ms plus the time of 20 bytes. The pauses that USB makes within a frame are shorter. The host
+// waits longer before it repeats a request.
 const uint16_t kPause =
     static_cast<uint16_t>(F_CPU / 64UL / 50UL + 20UL * 10UL * (F_CPU / 64UL) / PIL_BAUD);
 
 pil::FrameReader reader;
 awmr_point points[kPilPoints];
 
-/// The last answer, repeated if its request is repeated.
+/// The last answer. It is sent again if the host repeats the request.
 struct {
   uint8_t type;
   uint8_t sequence;
@@ -37,7 +39,8 @@ struct {
   uint8_t payload[sizeof(awmr_output) + sizeof(uint16_t)];
 } reply;
 bool is_answered;  // true: `reply` is the answer to the last request
-bool is_greeted;   // true: kHello came since the reset; only then others are answered
+// True: a start request (kHello) came since the reset. Before that, no other request is answered.
+bool is_greeted;
 
 void send(uint8_t byte) {
   while ((UCSR0A & _BV(UDRE0)) == 0) {
@@ -62,7 +65,8 @@ void answer(const void* payload, uint8_t length) {
   reply.sequence = reader.sequence();
   reply.length = length;
   memcpy(reply.payload, payload, length);
-  is_answered = reply.type != pil::kHello;  // every hello restarts the controller
+  // The answer to kHello is not kept, because a repeated kHello must restart the controller.
+  is_answered = reply.type != pil::kHello;
   send_reply();
 }
 
@@ -87,8 +91,8 @@ void follow() {
   answer(points, 0);
 }
 
-// Executes a control step. Timer 1 (16 bits) counts its clock cycles; the result 65535 means 65535
-// cycles or more.
+// Executes a control step and sends its outputs and its clock cycles. Timer 1 (16 bits) counts the
+// cycles; if it overflows, 65535 is sent.
 void step() {
   awmr_input input;
   struct {
@@ -98,7 +102,7 @@ void step() {
   if (reader.length() != sizeof input) return;
   memcpy(&input, reader.payload(), sizeof input);
   TCNT1 = 0;
-  TIFR1 = _BV(TOV1);  // clears the flag of an overflow
+  TIFR1 = _BV(TOV1);  // clears the overflow flag
   awmr_step(&input, &done.output);
   const uint16_t counted = TCNT1;
   done.cycles = (TIFR1 & _BV(TOV1)) != 0 ? 65535U : counted;
