@@ -13,6 +13,8 @@ extern "C" {
 #include <simavr/sim_irq.h>
 }
 
+#include "awmr/emit/emit.h"
+
 namespace awmr::pil {
 namespace {
 
@@ -47,7 +49,7 @@ Result<std::unique_ptr<Emulator>> Emulator::load(const std::filesystem::path& el
   avr_init(avr);
   avr->log = LOG_NONE;
   avr->run_cycle_limit = kRunCycles;
-  avr->frequency = static_cast<std::uint32_t>(kClockHz);
+  avr->frequency = static_cast<std::uint32_t>(kChipClock_Hz);
   avr_load_firmware(avr, &firmware);
   avr->sleep = [](avr_t* chip, avr_cycle_count_t cycles) { Emulator::sleep(chip, cycles); };
   emulator->flash_bytes_ = firmware.flashsize;

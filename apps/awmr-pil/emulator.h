@@ -16,8 +16,6 @@ struct avr_t;
 
 namespace awmr::pil {
 
-inline constexpr double kClockHz = 16e6;
-
 /// Clock cycles from an interrupt to the first instruction of its vector, on a chip with a 3-byte
 /// program counter. simavr 1.6 does not count these cycles. [ATmega2560 data sheet, 7.7.1]
 inline constexpr unsigned kInterruptEntryCycles = 5;

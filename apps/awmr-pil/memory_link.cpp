@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "awmr/emit/emit.h"
 #include "emulator.h"
 #include "executor.h"
 #include "wire.h"
@@ -83,11 +84,12 @@ class MemoryLink : public Chip {
     const std::uint64_t begin = emulator_->cycles();
     const Status asleep = emulator_->run_to_sleep(kStartCycles);
     if (asleep || emulator_->cycles() - begin <= kStartCycles) return asleep;
-    return input_error(ErrorCode::kTooLarge, "",
-                       fmt::format("a control step does not fit in the sample time: the chip was "
-                                   "busy for {} cycles ({:.1f} s) without a pause. Give "
-                                   "vehicle.json a longer sample_time_s and identify again",
-                                   kStartCycles, static_cast<double>(kStartCycles) / kClockHz));
+    return input_error(
+        ErrorCode::kTooLarge, "",
+        fmt::format("a control step does not fit in the sample time: the chip was "
+                    "busy for {} cycles ({:.1f} s) without a pause. Give "
+                    "vehicle.json a longer sample_time_s and identify again",
+                    kStartCycles, static_cast<double>(kStartCycles) / kChipClock_Hz));
   }
 
   void put(const std::string& symbol, const Writer& writer) {

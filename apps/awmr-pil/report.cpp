@@ -10,6 +10,7 @@
 #include "awmr/core/input_file.h"
 #include "awmr/core/json.h"
 #include "awmr/core/name_table.h"
+#include "awmr/emit/emit.h"
 #include "emulator.h"
 
 namespace awmr::pil {
@@ -128,7 +129,7 @@ Result<std::string> report_text(const PilOptions& options, const LoopSetup& setu
   json["cycles_bound"] =
       hostile ? Json(std::max(hostile->cycles, report.cycles.max)) : Json(nullptr);
   if (hostile) json["hostile"] = {{"steps", hostile->steps}, {"differing", hostile->differing}};
-  json["period_share"] = report.cycles.max / (setup.sample_time_s * kClockHz);
+  json["period_share"] = report.cycles.max / (setup.sample_time_s * kChipClock_Hz);
   json["flash_bytes"] = report.chip.figures.flash_bytes;
   json["ram_bytes"] = report.chip.figures.ram_bytes;
   if (const auto& repeats = report.chip.figures.repeats) json["repeats"] = *repeats;
@@ -156,7 +157,7 @@ std::string report_summary(const PilOptions& options, const LoopSetup& setup,
       "  flash {} bytes, RAM {} bytes, stack {}; {:.0f} times real time\n",
       setup.scenario.name, mode_name(options), report.chip.rows.size(), report.cycles.min,
       report.cycles.mean, report.cycles.max,
-      100.0 * report.cycles.max / (setup.sample_time_s * kClockHz), figures.flash_bytes,
+      100.0 * report.cycles.max / (setup.sample_time_s * kChipClock_Hz), figures.flash_bytes,
       figures.ram_bytes,
       figures.stack_bytes ? fmt::format("{} bytes", *figures.stack_bytes) : "unknown",
       report.chip.real_time_factor);

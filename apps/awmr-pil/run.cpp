@@ -53,7 +53,7 @@ Status check_sample_time(const Model& model) {
       fmt::format(
           "the emulated chip's timer allows sample times from 1 us to {:.6g} ms, found {:.6g} "
           "ms; identify the vehicle with such a sample time, or use --link uart",
-          65536.0 * 8.0 / kClockHz * 1000.0, model.vehicle.sample_time_s * 1000.0));
+          65536.0 * 8.0 / kChipClock_Hz * 1000.0, model.vehicle.sample_time_s * 1000.0));
 }
 
 /// Adds to the options `given` for the firmware those that the scenario's guidance and its split of
@@ -227,7 +227,7 @@ PilOptions resolved(PilOptions options, const Inputs& in) {
   }
   if (!options.cycles_max) {
     const bool by_table = in.emit.resistance == ResistanceForm::kTable;
-    const double period_cycles = in.setup.sample_time_s * kClockHz;
+    const double period_cycles = in.setup.sample_time_s * kChipClock_Hz;
     options.cycles_max =
         count == 0 ? (by_table ? 13000U : 24000U) : static_cast<unsigned>(0.75 * period_cycles);
   }
@@ -280,7 +280,7 @@ Result<Outcome> run_pil(const PilOptions& requested, const Watch& watch) {
   watch.doing("comparing with the host's runs");
   report.cycles = cycles_of(report.chip.rows);
   AWMR_RETURN_IF_ERROR(compare_runs(options, in, report));
-  evaluate(options, in.setup.sample_time_s * kClockHz, report);
+  evaluate(options, in.setup.sample_time_s * kChipClock_Hz, report);
   AWMR_ASSIGN_OR_RETURN(const std::string text, report_text(options, in.setup, report));
   const std::string document = with_findings(text, findings);
   AWMR_RETURN_IF_ERROR(write_file(options.output, document, check_json_text));

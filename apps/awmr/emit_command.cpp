@@ -101,22 +101,26 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
            degrees(parameters.steady_error_rad))});
 }
 
-/// Warns if the sample time is shorter than the chip's longest step, longer than the permitted time
-/// between two steps, or longer than half of the heading timeout.
-std::vector<Finding> sample_time(double sample_time_s, const EmitCommand& command) {
-  constexpr double kLongestStep_s = 20000.0 / 16e6;
+/// Warns if the sample time is shorter than the chip's longest step with the parts that are
+/// compiled in, longer than the permitted time between two steps, or longer than half of the
+/// heading timeout.
+std::vector<Finding> sample_time(double sample_time_s, bool has_observer,
+                                 const EmitCommand& command) {
+  std::set<FirmwarePart> parts = command.emit.parts;
+  if (has_observer) parts.insert(FirmwarePart::kObserver);
+  const double longest_step_s = longest_step_cycles(parts, command.emit.resistance) / kChipClock_Hz;
   const double oldest_s = 1e-3 * command.emit.heading_timeout_ms;
   std::vector<Finding> findings;
   const auto add = [&](std::string message) {
     findings.push_back({command.model.filename().string(), 0, Severity::kWarning,
                         "sample-time-of-the-chip", std::move(message)});
   };
-  if (sample_time_s < kLongestStep_s) {
+  if (sample_time_s < longest_step_s) {
     add(
-        fmt::format("sample_time_s is {:g} s, but a control step on the ATmega2560 takes up to "
-                    "{:g} s: give vehicle.json a longer sample_time_s and identify again, or use "
-                    "a faster board",
-                    sample_time_s, kLongestStep_s));
+        fmt::format("sample_time_s is {:g} s, but a control step with these parts takes up to "
+                    "{:.2g} s on the ATmega2560: give vehicle.json a longer sample_time_s and "
+                    "identify again, compile in fewer parts, or use a faster board",
+                    sample_time_s, longest_step_s));
   }
   const std::uint32_t step_ms = command.emit.step_timeout_ms;
   if (step_ms != 0 && sample_time_s > 1e-3 * step_ms) {
@@ -200,7 +204,8 @@ Result<Outcome> execute(const EmitCommand& command) {
   AWMR_RETURN_IF_ERROR(note_other_model(command.gains, command.model, outcome.findings));
   if (auto finding = missing_intervals(model)) outcome.findings.push_back(*std::move(finding));
   const double sample_time_s = model.vehicle.sample_time_s;
-  std::ranges::move(sample_time(sample_time_s, command), std::back_inserter(outcome.findings));
+  std::ranges::move(sample_time(sample_time_s, gains.observer.is_on(), command),
+                    std::back_inserter(outcome.findings));
   note_unstable(gains, sample_time_s, command.gains, outcome.findings);
   if (const auto plant = model.plant(Motion::kStraight)) {
     if (auto finding =

@@ -141,6 +141,25 @@ TEST_F(Honesty, EmitWarnsOfGainsThatHoldTheHeadingWeakly) {
   EXPECT_THAT(codes_of_slower(1.0), Not(Contains("weak-heading")));
 }
 
+/// Obstacle avoidance takes up to 7 ms on the chip, waypoints 2 ms: of two models, with samples of
+/// 5 ms and 10 ms, only the first with avoidance is too fast.
+TEST_F(Honesty, EmitWarnsOfSampleTimesShorterThanAStepWithItsParts) {
+  Json gains = Json::parse(read_all(kept("gains.json")));
+  write_all(path("gains.json"),
+            Json{{"heading", gains.at("heading")}, {"speed", gains.at("speed")}}.dump());
+  const auto codes_at = [&](double sample_time_s, const std::string& options) {
+    Json model = Json::parse(read_all(kept("model.json")));
+    model["vehicle"]["sample_time_s"] = sample_time_s;
+    write_all(path("model.json"), model.dump());
+    return codes_in(result_of(fmt::format("emit --model {} --gains {} -o {} {}", path("model.json"),
+                                          path("gains.json"), path("firmware"), options))
+                        .at("findings"));
+  };
+  EXPECT_THAT(codes_at(0.005, "--with avoidance"), Contains("sample-time-of-the-chip"));
+  EXPECT_THAT(codes_at(0.010, "--with avoidance"), Not(Contains("sample-time-of-the-chip")));
+  EXPECT_THAT(codes_at(0.005, ""), Not(Contains("sample-time-of-the-chip")));
+}
+
 TEST_F(Honesty, AReportLeavesOutWhatIsNotOfItsModel) {
   for (const char* name : {"model.json", "gains.json"}) fs::copy(kept(name), path(name));
   ASSERT_EQ(awmr(simulate_line("model.json", "run_own_combined_tuned.csv")).exit_code, 0);

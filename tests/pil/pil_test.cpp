@@ -9,11 +9,13 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "awmr/emit/emit.h"
 #include "cli/program.h"
 
 namespace awmr::testing {
@@ -209,7 +211,13 @@ void PilGuidance::expect_leads_by_itself(const std::string& scenario, const std:
   const bool is_estimated = given.contains("sensors") && given["sensors"].contains("gps");
   EXPECT_LE(json["flash_bytes"].get<int>(), is_estimated ? 20480 : 16512);
   EXPECT_LE(json["ram_bytes"].get<int>(), is_estimated ? 640 : 512);
-  EXPECT_LT(json["cycles_bound"].get<int>(), 160000);
+  std::set<FirmwarePart> parts;
+  std::istringstream with(json["options"]["with"].get<std::string>());
+  for (std::string part; std::getline(with, part, ',');) {
+    parts.insert(value_in(kFirmwarePartNames, part).value());
+  }
+  EXPECT_LE(json["cycles_bound"].get<std::uint32_t>(),
+            longest_step_cycles(parts, ResistanceForm::kTable));
   const bool heading = std::string(GetParam()).find("heading") != std::string::npos ||
                        std::string(GetParam()) == "scenarios/low_battery";
   EXPECT_EQ(json["guidance_on_chip"].get<bool>(), !heading);

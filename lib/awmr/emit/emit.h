@@ -68,6 +68,15 @@ inline constexpr NameTable<FirmwarePart, 6> kFirmwarePartNames{
      {"shaping", FirmwarePart::kShaping},
      {"observer", FirmwarePart::kObserver}}};
 
+/// Largest number of clock cycles that a control step with these parts takes on the ATmega2560: the
+/// slowest guidance, plus the parts that are computed in addition. Source: the largest
+/// `cycles_bound` of `awmr pil` over configs/ (apps/awmr-pil/README.md), rounded up; it comes from a
+/// search for slow steps and is not a proven bound.
+std::uint32_t longest_step_cycles(const std::set<FirmwarePart>& parts, ResistanceForm resistance);
+
+/// Clock frequency of the ATmega2560 on the supported boards, Hz.
+inline constexpr double kChipClock_Hz = 16e6;
+
 /// Default of EmitOptions::table_error. This error is far below the usual uncertainty of an
 /// identified law.
 inline constexpr double kTableError = 5e-4;
