@@ -22,7 +22,8 @@ void read_weights(JsonObject json, ObjectiveWeights& weights) {
   json.reject_unknown_keys();
 }
 
-/// Raises the default numbers of draws to a multiple of the combinations of `open`.
+/// Raises the default numbers of drawn vehicles to a multiple of the number of combinations of
+/// `open`.
 void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
   const auto combinations = static_cast<int>(open.combinations());
   for (int* count : {&options.draws, &options.evaluation_draws}) {
@@ -30,8 +31,8 @@ void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
   }
 }
 
-/// Rejects the options of randomly drawn vehicles together with `nominal`. A number of 0 agrees
-/// with it.
+/// Rejects options about drawn vehicles if `nominal` is set, because a nominal search draws none.
+/// The number 0 is accepted.
 void reject_draws(JsonObject& json, const TuneOptions& options) {
   if (!options.nominal) return;
   for (const auto& [key, conflicts] :
