@@ -140,7 +140,8 @@ Json scenario_json(const EvaluatedScenario& scenario, const std::vector<Change>&
   return json;
 }
 
-/// Writes the scenarios that are counted only once, because an earlier scenario has identical runs.
+/// Writes the scenarios that the summaries do not count, because an earlier scenario has identical
+/// runs.
 Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   const std::vector<std::size_t> first = first_with_same_runs(ranked);
   Json json = Json::array();
@@ -152,7 +153,7 @@ Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   return json;
 }
 
-/// For each metric and contender, the number of ranked scenarios in which the contender was best or
+/// For each metric and contender, the number of ranked scenarios in which the contender is best or
 /// tied with the best.
 Json overall_json(const std::vector<EvaluatedScenario>& ranked) {
   Json json = Json::array();

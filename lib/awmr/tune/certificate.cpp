@@ -24,8 +24,8 @@ constexpr ParameterId kLoopParameters[] = {ParameterId::kYawAlpha, ParameterId::
 /// it are a point of the unit ball and select the plant (ConfidenceSet::plant_at()).
 using SetPoint = std::vector<double>;
 
-/// Moves a point outside the ball to the surface of the ball, and clamps its yaw-rate coordinate to
-/// [0, 1].
+/// Moves a point into the search region: its plant coordinates into the unit ball, by shortening
+/// them to the surface, and its yaw-rate coordinate into [0, 1].
 SetPoint inside(SetPoint point) {
   double square = 0.0;
   for (std::size_t i = 0; i + 1 < point.size(); ++i) square += point[i] * point[i];

@@ -110,7 +110,8 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
 /// Gain and lag of the speed loop of one vehicle. The controller uses the nominal m', so the gain
 /// depends on the vehicle's own m'.
 struct SpeedLoop {
-  double gain_per_s;      ///< (mu_s/eps_s + L) m'_nominal/m', L: bandwidth of the observer
+  /// Gain (mu_s/eps_s + L) m'_nominal/m', with L the bandwidth of the observer.
+  double gain_per_s;
   const char* gain_name;  ///< formula of the gain, for messages
   double lag_s;           ///< T + latency + T_s/2
 };

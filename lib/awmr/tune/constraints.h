@@ -32,8 +32,10 @@ inline constexpr double kSlowest_radps = radians(1.0);
 /// Inputs of the constraints besides the gains: the plant, the limits of the vehicle, and the
 /// conditions of the runs.
 struct ConstraintContext {
-  ReachingForm form = ReachingForm::kStrict;  ///< form of T2 < T1 that is required
-  double margin = 0.8;       ///< largest ratio of the reaching time constant to T1, in (0, 1)
+  /// Required form of the condition T2 < T1, T1 = 1/lambda: on the decay of S^2/2 or of S.
+  ReachingForm form = ReachingForm::kStrict;
+  /// Largest ratio of the reaching time constant T2 to T1, in (0, 1).
+  double margin = 0.8;
   Plant<double> plant{};     ///< the identified plant, which the controller uses
   bool has_steering = true;  ///< false: only wheel-force differences turn the vehicle
   /// the only mode that is tuned; absent: all modes of the vehicle

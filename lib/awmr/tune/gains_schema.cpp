@@ -137,7 +137,8 @@ void describe_search(JsonObject json) {
   }
   json.string("algorithm");
   json.string("stop_reason");
-  json.optional_string("arithmetic");  // how the runs were rounded: "fused" or "scalar"
+  // Rounding of the simulated runs: "fused" (with fused multiply-add) or "scalar" (without).
+  json.optional_string("arithmetic");
   for (const char* key : {"evaluations", "simulated", "seed"}) json.number(key, kNonNegative);
   if (auto history = json.optional_object("history")) describe_history(*history);
   json.reject_unknown_keys();

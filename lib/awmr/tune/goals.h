@@ -32,9 +32,9 @@ std::vector<std::string> run_figure_names();
 struct RunOutcome {
   YawMode mode{};
   bool completed = false;  ///< true if the run settles after every heading step
-  bool broke_off = false;  ///< the run broke off; the metrics are those up to that time
-  /// In the order of run_figure_names(). The settling time of a run that does not settle is the
-  /// scenario's duration.
+  bool broke_off = false;  ///< true: the run broke off, so the metrics end there
+  /// Values of the metrics, in the order of run_figure_names(). The settling time of a run that
+  /// does not settle is the scenario's duration.
   std::array<double, kRunFigures> figures{};
 };
 /// The runs of one set of gains, sorted by drawn vehicle, then mode, then scenario.

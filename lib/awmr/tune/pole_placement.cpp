@@ -38,9 +38,9 @@ double least_mu(const ConstraintReport& dominates) {
 }
 
 /// Returns the speed gains with the fastest pole. `at_one`: the constraints, evaluated with all
-/// gains equal to 1. The speed constraints limit the sum of the rates of the speed law (mu_s/eps_s)
-/// and of the observer. Their values are proportional to this sum, so the largest sum follows by
-/// division.
+/// gains equal to 1. The constraints on the speed loop limit the sum of mu_s/eps_s and the
+/// bandwidth of the observer. Their values are proportional to this sum, so the largest sum follows
+/// by division.
 SpeedGains<double> place_speed_pole(const std::vector<ConstraintReport>& at_one,
                                     double observer_radps) {
   constexpr double kMinRate = 1e-3;

@@ -46,7 +46,8 @@ struct SampledHeadingLoop {
   double command_delay_s = 0.0;
 };
 
-/// A pole z with |z| below this decays within one sample, and damping_ratio() counts it as 1.
+/// A pole z with |z| below this decays within one sample, and damping_ratio() counts it with the
+/// damping ratio 1.
 inline constexpr double kGoneWithinASample = 0.1;
 /// Smallest damping ratio zeta = -Re(s)/|s| over the poles s = ln(z)/T_s of the closed loop, z the
 /// eigenvalues of its matrix from one sample to the next. In [-1, 1]; positive exactly if the loop

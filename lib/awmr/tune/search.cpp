@@ -255,7 +255,8 @@ namespace {
 
 /// Searches from start_point() 0, 1, ... until `problem.best` meets the constraints that are not in
 /// `relaxed`, at most from `starts` starts. The drawn vehicles are examined only if gains for the
-/// nominal vehicle are found, because with a long latency all drawn vehicles take almost a second.
+/// nominal vehicle are found, because with a long latency this takes almost a second for each
+/// point.
 void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
                      int starts) {
   if (!problem.context.draws.empty()) {

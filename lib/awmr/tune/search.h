@@ -22,7 +22,7 @@ struct SearchResult {
   std::string broken_most = {};
   double broken_by = 0.0;
   int evaluations = 0;  ///< evaluated sets of gains, on some or all drawn vehicles
-  int simulated = 0;    ///< of these, the number whose runs were simulated
+  int simulated = 0;    ///< number of evaluated sets whose runs were simulated
   SearchHistory history;
   /// Settling time and control variation of all feasible gains, on the drawn vehicles of the
   /// search.

@@ -27,7 +27,7 @@ double mean_of_product(const F& f, const G& g) {
 
 /// Lower bound of E[w(z) w(z')] for an odd function w and standard normals z, z' with the
 /// correlation rho: the terms up to k = 7 of Mehler's series, all of which are >= 0,
-///   sum over odd k of rho^k E[w He_k(z)]^2/k!
+///   sum over odd k of rho^k E[w He_k(z)]^2/k!,   He_k: Hermite polynomials
 template <class W>
 double mean_of_correlated(const W& w, double rho) {
   if (!(rho > 0.0)) return 0.0;
@@ -55,7 +55,8 @@ double mean_of_correlated(const W& w, double rho) {
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi<double>()); }
 
-/// E[sat(x)] for a normal x with the mean m and the standard deviation s > 0.
+/// E[sat(x)] for a normal x with the mean m and the standard deviation s > 0. sat limits x to -1
+/// ... 1.
 double mean_saturated(double m, double s) {
   const double above = (m + 1.0) / s;
   const double below = (m - 1.0) / s;

@@ -89,7 +89,8 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Simulates the candidates on newly drawn vehicles and adds the statistics to `robust`.
+/// Evaluates the sets of gains in `candidates` on newly drawn vehicles, and adds the statistics to
+/// `robust`.
 Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
                            const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};

@@ -75,8 +75,8 @@ struct TuningLimits {
   std::optional<double> steering_rate_rms_degps = {};
   /// Smallest damping ratio of the heading loop without latency and motor lag, [1e-6, 1].
   double damping = 0.7;
-  /// Smallest damping ratio with latency and motor lag, [1e-6, 1]. Poles that decay much faster than
-  /// the slowest one count less (dominant_damping_ratio() in sampled_loop.h).
+  /// Smallest damping ratio with latency and motor lag, [1e-6, 1]. Poles that decay much faster
+  /// than the slowest one count less (dominant_damping_ratio() in sampled_loop.h).
   double late_damping = 0.25;
   /// Smallest damping ratio with motor lag and with twice the latency plus one sample, [1e-6, 1].
   double delayed_damping = 0.05;
@@ -281,7 +281,7 @@ struct SearchHistory {
   /// equally good gains.
   std::vector<SearchStep> best;
   int global_evaluations = 0;  ///< number of evaluations by the global search
-  /// Number of evaluations by the global and the local searches on these draws.
+  /// Number of evaluations by the global and the local searches on the draws of the search.
   int evaluations = 0;
 };
 /// Largest number of steps in a history. A longer history is thinned to evenly spaced steps,
@@ -421,7 +421,7 @@ struct Tuning {
   Baseline baseline;
   TuningLimits limits;  ///< limits of the search, including default values
   ExaminedRange examined;
-  double baseline_objective = 0.0;  ///< 1 plus the terms of soft goals
+  double baseline_objective = 0.0;  ///< objective of the baseline: 1 plus the terms of soft goals
   std::vector<ModeScore> baseline_scores;
   /// Required constraints, requested bounds, activity limit and goals that the baseline gains do
   /// not meet. If there are any, the tuned gains can have a larger objective than the baseline,
@@ -432,7 +432,7 @@ struct Tuning {
   int evaluations = 0;
   std::string stop_reason;
   std::uint64_t seed = 0;
-  /// Number of these sets whose runs were simulated. The others violate a constraint.
+  /// Number of evaluated sets of gains whose runs were simulated. The others violate a constraint.
   int simulated = 0;
   /// Ranges of mu and mu_s in which the gains are about equally good. In mu_as_good, with constant
   /// mu/epsilon, the constraints are met and the objective on the draws of the search is at most
