@@ -25,7 +25,7 @@ namespace {
 /// shorter integration steps.
 constexpr double kMin = 1e-4;
 
-/// A scenario on the nominal model, and the mode whose break-even scrub is computed.
+/// Inputs of the break-even analysis for one scenario on the nominal model and one mode.
 struct ModeSetting {
   const Scenario* scenario;
   YawMode mode;
@@ -35,8 +35,8 @@ struct ModeSetting {
   BatchArithmetic arithmetic;
 };
 
-/// Simulates the scenario in `mode`, once with each scrub moment. Returns the metrics by moment;
-/// absent if the simulation fails.
+/// Simulates the scenario in `mode`, once with each scrub moment of the tyres. Returns the metrics
+/// in the order of the moments; those of a failed simulation are absent.
 std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
@@ -53,11 +53,11 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
   return driven;
 }
 
-/// True if mode A is ahead of mode B. `run`, `other`: metrics of A and B, both with the same scrub;
-/// absent if the simulation failed. `without`: metrics of A without scrub. A is ahead if its score
-/// is at least as good, or if only the simulation of B failed. A is not ahead if its simulation
-/// failed, or if scrub keeps it from completing the scenario or removes one of its scored metrics,
-/// such as the settling time.
+/// True if mode A is ahead of mode B when both have the same scrub. `run`, `other`: metrics of A
+/// and B with this scrub; absent if the simulation failed. `without`: metrics of A without scrub. A
+/// is ahead if its score is at least as good, or if only the simulation of B failed. A is not ahead
+/// if its own simulation failed. Nor is it ahead if scrub keeps it from completing the scenario, or
+/// removes one of its scored metrics, such as the settling time.
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
   if (!run || (without.completed && !run->completed)) return false;
@@ -90,8 +90,9 @@ std::optional<std::size_t> first_false(const std::vector<bool>& all) {
   return at(found - all.begin());
 }
 
-/// Smallest scrub moment at which the mode is no longer ahead, with an error of at most 1 %; absent
-/// if it is ahead up to `most_m`. `ahead` returns for each moment whether the mode is ahead.
+/// Returns the smallest scrub moment at which a mode is no longer ahead, with an error of at most 1
+/// %. Absent if the mode is ahead up to `most_m`. `ahead`: function that returns for each moment
+/// whether the mode is ahead.
 template <class Ahead>
 std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   constexpr double kFine = 0.01;
@@ -113,7 +114,8 @@ std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   return std::nullopt;
 }
 
-/// The rows of sample 0 without scrub. If the model has scrub, the runs are repeated without it.
+/// Returns the runs of the nominal model (sample 0) without tyre scrub. If the model has scrub, the
+/// runs are repeated without it.
 Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
                                                       const Gains<double>& gains,
                                                       const std::vector<Scenario>& scenarios,
@@ -130,7 +132,7 @@ Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
   return rows;
 }
 
-/// The rows of one scenario, as input of scoring_of().
+/// Selects the rows of one scenario, as needed by scoring_of().
 ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::string& scenario) {
   ScenarioRows rows{scenario, {}};
   for (const ComparisonRow& row : all) {
@@ -139,8 +141,8 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
   return rows;
 }
 
-/// A pair of modes whose break-even scrub is to be computed: the inputs, and the result (`entry`),
-/// which is completed later.
+/// One pair of modes whose break-even scrub is to be computed: the inputs, and the result
+/// (`entry`), which is completed later.
 struct Question {
   ModeSetting setting;
   std::vector<ScoredMetric> scoring;
@@ -148,9 +150,9 @@ struct Question {
   BreakEven entry;
 };
 
-/// Returns a Question for each mode that has smaller wheel-force differences and a worse score than
-/// `setting.mode`. A mode is left out if it completes the scenario and `setting.mode` does not.
-/// `rows`: the rows of sample 0.
+/// Returns a Question for `setting.mode` and each mode of which it is ahead. The other mode has
+/// smaller wheel-force differences and a worse score. It is left out if it completes the scenario
+/// and `setting.mode` does not. `rows`: the rows of sample 0, the nominal model.
 std::vector<Question> questions_of(const ModeSetting& setting, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
@@ -185,9 +187,9 @@ void answer(Question& question) {
       });
 }
 
-/// Adds the scrub that was measured in differential turns and, if further turns could decide
-/// whether the mode is ahead, the total number of turns needed. Precondition: all other fields of
-/// `entry` are set.
+/// Adds to `entry` the scrub that was measured in differential turns. If the result is undecided
+/// and further turns could decide it, also adds the total number of turns that this needs.
+/// Precondition: all other fields of `entry` are set.
 void add_measured(const Model& model, BreakEven& entry) {
   const auto& scrub = model.yaw_scrub;
   if (scrub) {
@@ -207,8 +209,8 @@ void add_measured(const Model& model, BreakEven& entry) {
       lead_of(entry) != Lead::kOpen || !scrub->ci95_m.contains(*entry.yaw_coulomb_m)) {
     return;
   }
-  // The half width of the measured interval is proportional to 1/sqrt(n), with n the number of
-  // turns. n is sufficient if the interval no longer contains the break-even scrub.
+  // With n turns, the half width of the measured interval is proportional to 1/sqrt(n). n is
+  // sufficient if the interval no longer contains the break-even scrub.
   constexpr double kMaxTurns = 1000.0;
   const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);
   const double shrunk = half / std::abs(*entry.yaw_coulomb_m - scrub->moment_m);
@@ -216,9 +218,9 @@ void add_measured(const Model& model, BreakEven& entry) {
   if (turns <= kMaxTurns) entry.turns_to_decide = static_cast<int>(turns);
 }
 
-/// Returns the questions of all scenarios and modes. `without`: rows of sample 0 (the nominal
-/// model), simulated without scrub. `entry`: a BreakEven with most_m and sliding_m, which are the
-/// same for all questions.
+/// Returns the pairs of modes to examine, in all scenarios. `without`: the runs of the nominal
+/// model (sample 0) without scrub. `entry`: a BreakEven with most_m and sliding_m, which are the
+/// same for all pairs.
 Result<std::vector<Question>> all_questions(const Model& model, const Gains<double>& gains,
                                             const std::vector<Scenario>& scenarios,
                                             const std::vector<ComparisonRow>& without,

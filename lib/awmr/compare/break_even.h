@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// Computes, for each scenario and pair of modes, the scrub at which the first mode is no longer
-/// better than the second. The first mode of a pair
+/// Computes for each scenario the break-even scrub of pairs of modes: the scrub at which the first
+/// mode is no longer better than the second. The first mode of a pair
 ///   - has larger wheel-force differences than the second (differential > combined > steering),
 ///   - has the better score without scrub,
 ///   - completes the scenario, or the second mode does not complete it either.
@@ -23,12 +23,14 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<dou
                                              const Comparison& comparison,
                                              const CompareOptions& options);
 
-/// True if the highest yaw rate of the run is outside of the range of yaw rates at which scrub was
-/// measured, by more than a factor of 1.2 (kLittleFurther). False if scrub was not measured.
+/// True if scrub was not measured at yaw rates like those of the run: the highest yaw rate of the
+/// run is more than a factor of 1.2 (kLittleFurther) outside the range of the measured ones. False
+/// if scrub was not measured at all.
 bool turns_at_other_rates(const BreakEven& entry);
 
-/// Text for a terminal: for each pair of modes the smallest break-even scrub of all scenarios, the
-/// result with the measured scrub and, if scrub was not measured, the trials to record.
+/// Returns the break-even analysis as text for a terminal. It has for each pair of modes the
+/// smallest break-even scrub of all scenarios, and the result with the measured scrub. If scrub was
+/// not measured, it names the trials to record.
 std::string break_even_table(const std::vector<BreakEven>& entries);
 
 }  // namespace awmr

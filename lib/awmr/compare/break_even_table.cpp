@@ -11,10 +11,10 @@
 namespace awmr {
 namespace {
 
-/// Text for one pair of modes with the measured scrub: the numbers of scenarios in which the first
-/// mode is still ahead, is no longer ahead, and in which this is undecided; then, if there are any,
-/// the yaw rates at which scrub was not measured, and the number of turns that would decide a
-/// result. `all`: the entries of the pair.
+/// Text about one pair of modes with the measured scrub. It has the numbers of scenarios in which
+/// the first mode is still ahead, in which it is no longer ahead, and in which this is undecided.
+/// If there are any, it adds the yaw rates at which scrub was not measured, and the number of turns
+/// that would decide a result. `all`: the entries of the pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;
@@ -44,13 +44,14 @@ std::string decided(const std::vector<const BreakEven*>& all) {
   }
   if (turns) {
     text += fmt::format(
-        "    about {} differential turns in total would decide the first undecided result\n",
+        "    about {} differential turns in total would decide at least one of the undecided "
+        "results\n",
         *turns);
   }
   return text;
 }
 
-/// The line of one pair of modes, over all scenarios.
+/// Line of the text about one pair of modes, over all scenarios.
 std::string pair_text(const std::pair<YawMode, YawMode>& modes,
                       const std::vector<const BreakEven*>& all) {
   const BreakEven& least =

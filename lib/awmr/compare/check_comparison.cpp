@@ -48,8 +48,9 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool break_even,
     if (!break_even || !scenario.tyres) continue;
     faults.push_back(
         {ErrorCode::kConflict, option_text("break_even"),
-         fmt::format("varies the scrub moment of the 3-DOF model, but scenario '{}' is on the "
-                     "four-wheel plant; leave the option out, or use --plant model",
+         fmt::format("the break-even analysis varies the scrub moment of the 3-DOF model, but "
+                     "scenario '{}' is on the four-wheel plant; leave the option out, or use "
+                     "--plant model",
                      scenario.name)});
   }
 }
@@ -65,7 +66,8 @@ void check_gains(const std::vector<NamedGains>& gains, const CompareOptions& opt
   if (options.break_even && gains.size() > 1) {
     faults.push_back(
         {ErrorCode::kConflict, option_text("break_even"),
-         fmt::format("needs one set of gains, found {}; remove the others", gains.size())});
+         fmt::format("the break-even analysis needs one set of gains, found {}; remove the others",
+                     gains.size())});
   }
   if (options.break_even && options.shard.count > 1) {
     faults.push_back(
@@ -77,8 +79,8 @@ void check_gains(const std::vector<NamedGains>& gains, const CompareOptions& opt
   }
 }
 
-/// Checks the number of runs, before memory is allocated for the samples. Error (input): more than
-/// kMaxRuns runs. `per_sample`: number of runs of each sample.
+/// Checks the number of runs before memory is allocated for them. Error (input): more than kMaxRuns
+/// runs. `per_sample`: number of runs of each sample.
 Status check_runs(std::size_t per_sample, int samples) {
   const std::size_t most = kMaxRuns / per_sample;
   if (at(samples) + 1 <= most) return {};

@@ -20,7 +20,7 @@
 namespace awmr {
 namespace {
 
-/// Identifies a run by its indices in the lists of scenarios, gains and kYawModes, and its sample.
+/// Identifies a run: its indices in the lists of scenarios, gains and kYawModes, and its sample.
 struct Place {
   std::size_t scenario, gains, mode, sample;
 };
@@ -29,13 +29,13 @@ struct Layout {
   std::size_t scenarios, gains, modes, samples;
 
   std::size_t count() const { return scenarios * gains * modes * samples; }
-  /// Index of a row in the output, which is sorted by scenario, gains, mode and sample.
+  /// Index of the run in the output, whose rows are sorted by scenario, gains, mode and sample.
   std::size_t row(const Place& p) const {
     return ((p.scenario * gains + p.gains) * modes + p.mode) * samples + p.sample;
   }
 };
 
-/// One entry per row of the output, empty until its run is finished.
+/// Results of the runs, in the order of the output; empty until a run is finished.
 using Slots = std::vector<std::optional<ComparisonRow>>;
 
 /// Longest run, in control steps, whose sensor noise is drawn in advance and shared by the modes.
@@ -46,7 +46,7 @@ constexpr double kMaxSharedNoise = 1e5;
 struct Block {
   std::size_t scenario, gains, mode;
   std::vector<std::size_t> samples;
-  /// Shared by all blocks of these samples in the scenario.
+  /// Sensor noise, shared by all blocks of the same samples in the scenario.
   std::shared_ptr<SharedNoise> noise;
 
   Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
@@ -110,7 +110,7 @@ void share_noise(const Scenario& scenario, double sample_time_s, const Block& bl
   }
 }
 
-/// Everything that the runs of a comparison share.
+/// Data that all runs of a comparison have in common.
 struct RunSetup {
   const Model& model;
   const std::vector<NamedGains>& gains;
@@ -127,7 +127,7 @@ void run_block(const RunSetup& setup, const Block& block, Slots& slots,
   const Vehicle& vehicle = setup.model.vehicle;
   const Scenario& scenario = setup.scenarios[block.scenario];
   const NamedGains& set = setup.gains[block.gains];
-  // The controller has the nominal values, not the drawn ones.
+  // The controller uses the parameters of the nominal plant, not those of the drawn one.
   const auto controller = make_controller(setup.plants.nominal, vehicle, set.gains);
   const YawMode mode = kYawModes[block.mode];
   std::vector<BatchRun> runs = runs_of(setup.plants, controller, block, mode, setup.options.seed);
@@ -149,7 +149,8 @@ void run_block(const RunSetup& setup, const Block& block, Slots& slots,
   }
 }
 
-/// Runs all blocks of this part of the comparison, or those that are begun before it is stopped.
+/// Runs the blocks of this part of the comparison. If the comparison is stopped, blocks that have
+/// begun are finished, and the others are left out.
 Result<Slots> run_blocks(const RunSetup& setup) {
   const CompareOptions& options = setup.options;
   const std::size_t count = setup.layout.count();

@@ -27,7 +27,7 @@
 
 namespace awmr {
 
-/// One set of gains, with its name in the rows of the comparison.
+/// A set of controller gains, with its name in the rows of the comparison.
 struct NamedGains {
   std::string name;  ///< name of the set; empty if there is only one set
   Gains<double> gains;
@@ -37,12 +37,12 @@ struct NamedGains {
 struct ComparisonRow {
   std::string scenario;
   YawMode mode{};
-  int sample = 0;  ///< 0: the model's own values; 1, 2, ...: drawn samples
+  int sample = 0;  ///< 0: the nominal model; 1, 2, ...: drawn samples
   Metrics metrics;
   std::string gains = {};  ///< NamedGains::name
 };
 
-/// A yaw mode with a set of gains, as ranked in a scenario.
+/// A yaw mode with a set of gains. The contenders of a scenario are ranked.
 struct Contender {
   YawMode mode{};
   std::string gains;  ///< NamedGains::name; empty if there is only one set
@@ -53,8 +53,8 @@ struct Contender {
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// With fewer samples than this, 95 % intervals contain the true value less often than in 95 % of
-/// the cases.
+/// 95 % intervals from fewer samples than this contain the true value in fewer than 95 % of the
+/// cases.
 inline constexpr int kFewSamples = 6;
 
 /// Maximum number of runs of a comparison. The number of runs is scenarios x sets of gains x modes
@@ -72,11 +72,13 @@ struct CompareOptions {
   Preferences preferences = {};
   /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
-  /// Computes Comparison::changes: the ranking on the plant that the scenario does not use (3-DOF
-  /// model or four wheels) and, with a single set of gains, with slower and faster gains. If the
-  /// comparison is divided into parts (`shard`), only part 1 computes these rankings.
+  /// Computes Comparison::changes, further rankings with one changed assumption each: on the plant
+  /// that the scenario does not use (3-DOF model or four wheels) and, with a single set of gains,
+  /// with slower and faster gains. If the comparison is divided into parts (`shard`), only part 1
+  /// computes these rankings.
   bool other_settings = false;
-  /// Tyres of the four-wheel plant when `other_settings` runs a scenario that has no tyres itself.
+  /// Tyres of the four-wheel plant, used if `other_settings` repeats a scenario that has no tyres
+  /// itself.
   Tyres<double> tyres = {};
   /// Part of the samples to run, to be combined by merge_shards() (shard.h); default: all samples.
   /// There can be at most as many parts as samples, including the nominal one.
@@ -90,9 +92,9 @@ struct CompareOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Break-even scrub (Plant::yaw_scrub_m) of two modes on the nominal model: the scrub at which the
-/// first is no longer ahead of the second. Scrub acts in every mode; the controller does not
-/// compensate it.
+/// Break-even scrub of two modes: the scrub of the tyres (Plant::yaw_scrub_m) at which the first
+/// mode is no longer ahead of the second, on the nominal model. Scrub acts in every mode. The
+/// controller does not compensate it.
 struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< the mode with the better score without scrub
@@ -100,26 +102,27 @@ struct BreakEven {
   /// Smallest scrub at which `mode` is no longer ahead, m, > 0. The error is at most 1 % of the
   /// value or 3e-8 most_m, whichever is larger. Absent if the mode stays ahead up to most_m.
   std::optional<double> yaw_coulomb_m;
-  double most_m = 0.0;  ///< largest yaw moment by left and right wheel forces: 2 d (F'max - F'min)
+  /// Largest yaw moment that left and right wheel forces can make, m: 2 d (F'max - F'min).
+  double most_m = 0.0;
   /// Largest possible scrub, m: 0.8 g m' l_f. It is the moment of four tyres that slide sideways
   /// with a friction of 0.8, if the centre of gravity is half-way between the axles.
   double sliding_m = 0.0;
   /// Highest yaw rate in the run of `mode` on the nominal model without scrub, deg/s, >= 0.
   double fastest_degps = 0.0;
-  /// Range of the scrub measured in differential turns, m: the 95 % interval. If scrub depends on
-  /// the yaw rate, the range includes its values at all measured rates. It also includes the
-  /// largest moment that did not turn the vehicle; if the model has only this moment, the range is
+  /// Range of the scrub moment measured in differential turns, m. It contains the 95 % interval
+  /// and, if scrub depends on the yaw rate, the values at all measured rates. It also contains the
+  /// largest moment that did not turn the vehicle. If the model has only this moment, the range is
   /// from it to most_m. Absent if the model has neither.
   std::optional<Interval> measured_m = {};
-  /// Yaw rates of these turns, deg/s; absent if the model has no scrub.
+  /// Yaw rates of the turns in which scrub was measured, deg/s; absent if the model has no scrub.
   std::optional<Interval> measured_degps = {};
-  /// Total number of differential turns (recorded and further ones) that would decide whether
-  /// `mode` is ahead, if their mean and scatter stay the same. At most 1000. Absent if the question
-  /// is already decided, or if turns cannot decide it.
+  /// Total number of differential turns, recorded and further ones, that would decide whether
+  /// `mode` is ahead with the measured scrub. Assumes that mean and scatter of the turns stay the
+  /// same. At most 1000. Absent if this is already decided, or if turns cannot decide it.
   std::optional<int> turns_to_decide = {};
 };
 
-/// Result for BreakEven::mode with the measured scrub.
+/// Whether BreakEven::mode is still ahead with the measured scrub.
 enum class Lead {
   kKept,  ///< the mode is ahead in the whole measured range, or with any scrub up to most_m
   kLost,  ///< the mode is ahead nowhere in the measured range
@@ -129,7 +132,7 @@ enum class Lead {
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
     {{"kept", Lead::kKept}, {"lost", Lead::kLost}, {"open", Lead::kOpen}}};
-/// Returns the Lead of an entry; absent if scrub was not measured.
+/// Returns whether the first mode of an entry is still ahead; absent if scrub was not measured.
 std::optional<Lead> lead_of(const BreakEven& entry);
 
 /// An assumption that is changed to test whether the ranking depends on it.
@@ -138,30 +141,31 @@ inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind
                                                             {"weights", ChangeKind::kWeights},
                                                             {"gains", ChangeKind::kGains}}};
 
-/// Number of completed runs of one contender in a changed setting.
+/// Number of completed runs of one mode (with its gains) when one assumption is changed.
 struct Completion {
   Contender contender;
   std::size_t count = 0;  ///< number of completed runs
-  std::size_t of = 0;     ///< number of runs in the statistics (ModeRows::counted()), > 0
+  std::size_t of = 0;     ///< number of counted runs (ModeRows::counted()), > 0
 };
 
-/// The best modes of a scenario when one assumption is changed.
+/// The best modes of a scenario if one assumption is changed.
 struct Change {
   std::string scenario;
   ChangeKind kind{};
-  std::string setting;  ///< changed plant ("model"), gains ("slower") or weights
+  std::string setting;  ///< name of the change: the plant ("model"), gains ("slower") or weights
   /// Modes of rank 1; for kWeights, modes of rank 1 with all these weights.
   std::vector<Contender> first;
-  std::string not_run = {};  ///< reason why there is no ranking; empty if there is one
-  std::vector<Completion> completed = {};  ///< by contender; empty for kWeights, which runs nothing
+  std::string not_run = {};                ///< why there is no ranking; empty if there is one
+  std::vector<Completion> completed = {};  ///< completed runs by contender; empty for kWeights
 };
 
 /// Result of compare().
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< finished runs, sorted by scenario, gains, mode, sample
-  /// Number of evaluated samples, including the nominal one: the samples 0, 1, 2, ... that have a
-  /// finished run in every scenario, mode and set of gains. Fewer than requested if the comparison
-  /// was stopped, or is a part.
+  /// Number of complete samples, including the nominal one. A sample is complete if its run is
+  /// finished in every scenario and mode with every set of gains; the samples 0, 1, 2, ... up to
+  /// the first incomplete one count. Fewer than requested if the comparison was stopped, or is a
+  /// part.
   int whole_samples = 0;
   bool stopped = false;  ///< true: stopped before all runs were done
   /// Rounding of the runs (BatchArithmetic::rounding): "fused" or "scalar". Rows with different
@@ -169,21 +173,22 @@ struct Comparison {
   std::string arithmetic = {};
   /// Highest yaw rate at which yaw resistance was measured, deg/s, > 0; absent if unknown.
   std::optional<double> measured_yaw_rate_degps = {};
-  /// Commands of each scenario, by its name, for the finding `beyond-trials`.
+  /// Heading commands of each scenario, by its name. The finding `beyond-trials` needs them.
   std::map<std::string, TurnCommands> turn_commands = {};
   /// Break-even scrub of each scenario and pair of modes; absent if not requested, or if stopped.
   std::optional<std::vector<BreakEven>> break_even = {};
-  /// Rankings on the other plant and with other gains, by changes_of_runs() (decision.h); empty if
-  /// not requested.
+  /// Rankings on the other plant and with other gains, from changes_of_runs() (decision.h). Empty
+  /// if not requested.
   std::vector<Change> changes = {};
 };
 
 /// Simulates every scenario with every mode and set of gains, on the nominal model and on samples.
 /// For a sample, the fitted parameters are drawn from the model's covariance
-/// (simulate/plant_sampler.h), noise and disturbances from the seeds of scenario and options. All
-/// modes and gains use the same draws. The controller has the nominal values. A block of kBatchRuns
-/// samples (simulate/batch.h) is finished in every scenario and mode before the next block starts,
-/// so a stopped comparison is valid for the samples that it finished.
+/// (simulate/plant_sampler.h); noise and disturbances are drawn with the seeds of scenario and
+/// options. All modes and gains use the same draws. The controller uses the nominal parameters. A
+/// block of kBatchRuns samples (simulate/batch.h) is finished in every scenario and mode before the
+/// next block starts, so a stopped comparison is valid for the samples that it finished.
+///
 /// Errors (input): the model lacks a parameter, a covariance (with samples) or an interval that a
 /// scenario's corner needs; no scenario or gains, or two of the same name; a negative number of
 /// samples or threads; a part that does not exist; more than kMaxRuns runs; break-even with several

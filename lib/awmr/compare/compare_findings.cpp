@@ -23,8 +23,9 @@ void note_samples(const CompareOptions& options, const Comparison& comparison,
                    samples, 100.0 * (1.0 - std::pow(0.5, samples - 1)), kFewSamples)});
 }
 
-/// Adds the warning `turned-by-sides` if yaw resistance was identified from differential turns and
-/// therefore includes scrub, and the note `scrub-simulated` if measured scrub is simulated.
+/// Adds the warning `turned-by-sides` if yaw resistance was identified from differential turns,
+/// because it then includes the scrub of the tyres. Adds the note `scrub-simulated` if measured
+/// scrub is simulated.
 void note_scrub(const Model& model, std::vector<Finding>& findings) {
   if (model.yaw_by_sides_alone) {
     findings.push_back(

@@ -10,18 +10,21 @@
 
 namespace awmr {
 
-/// Returns the findings that do not depend on the results of the runs: requests that the vehicle
-/// cannot meet, tyres that differ from those of the trials, parameters without interval, too few
-/// samples (`few-samples`), heading commands without rate limit, and scrub (`scrub-simulated`,
-/// `turned-by-sides`). A part has the same findings as the whole comparison. `rate` is the
-/// requested limit of the heading rate.
+/// Returns the findings that do not depend on the results of the runs. They concern
+///   - requests that the vehicle cannot meet, and heading commands without rate limit,
+///   - tyres that differ from those of the trials, and parameters without interval,
+///   - too few samples (`few-samples`),
+///   - tyre scrub (`scrub-simulated`, `turned-by-sides`).
+/// A part of a comparison has the same findings as the whole. `rate`: requested limit of the
+/// heading rate.
 std::vector<Finding> compare_findings(const Model& model, const std::vector<Scenario>& scenarios,
                                       const CompareOptions& options, const Comparison& comparison,
                                       const HeadingRateChoice& rate);
 
-/// Returns the warning `beyond-trials` about the run with the highest yaw rate, if it exceeds 1.2
-/// times the highest yaw rate of the trials from which yaw resistance was identified. Empty
-/// otherwise, or if that rate is unknown. `provenance`: provenance of the comparison.
+/// Returns the warning `beyond-trials` if a run turns faster than 1.2 times the highest yaw rate of
+/// the trials from which yaw resistance was identified. The warning is about the run with the
+/// highest yaw rate. Empty if no run does, or if the yaw rate of the trials is unknown.
+/// `provenance`: provenance of the comparison.
 std::vector<Finding> extrapolation_findings(const Comparison& comparison,
                                             const Provenance& provenance);
 

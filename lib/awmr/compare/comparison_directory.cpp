@@ -15,7 +15,8 @@
 namespace awmr {
 namespace {
 
-/// Largest accepted value of a metric, so that sums of squares over the samples stay finite.
+/// Largest accepted value of a metric. Larger ones could make sums of squares over the samples
+/// infinite.
 constexpr double kLargest = 1e100;
 
 template <class Number>
@@ -24,7 +25,8 @@ bool read_number(const std::string& text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// Reads a row of comparison.csv. Empty if comparison_csv() does not write such cells.
+/// Reads a row of comparison.csv. Empty if the cells are not valid, that is, if comparison_csv()
+/// does not write such cells.
 std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_gains) {
   constexpr std::size_t kFirst = 4;
   if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;
@@ -80,7 +82,7 @@ Status check_comparison_csv(std::string_view text, const std::string& file) {
 Status write_comparison(const std::filesystem::path& directory, const Comparison& comparison,
                         const std::string& document) {
   AWMR_RETURN_IF_ERROR(make_directory(directory));
-  // comparison.json is last because it has the hash of the table.
+  // comparison.json is written last, because it contains the hash of comparison.csv.
   const OutputFile files[] = {
       {directory / kComparisonTable, comparison_csv(comparison), check_comparison_csv},
       {directory / kComparisonJson, document, check_json_text}};

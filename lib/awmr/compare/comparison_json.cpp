@@ -90,8 +90,8 @@ Json labels_json(const std::vector<Contender>& contenders) {
   return labels;
 }
 
-/// Decision on a scenario as JSON. `all`: changes of all scenarios. Those of this scenario that
-/// could not be run are added with the reason.
+/// Writes the decision on a scenario as JSON. `all`: the changes of all scenarios. From these,
+/// changes of this scenario that could not be run are added with their reason.
 Json decision_json(const std::string& scenario, const Decision& decision,
                    const std::vector<Change>& all) {
   Json json = {{"kind", name_in(kDecisionKindNames, decision.kind())},
@@ -140,7 +140,8 @@ Json scenario_json(const EvaluatedScenario& scenario, const std::vector<Change>&
   return json;
 }
 
-/// The scenarios that are not counted, because an earlier scenario has identical runs.
+/// Writes the scenarios that the summaries do not count, because an earlier scenario has identical
+/// runs.
 Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   const std::vector<std::size_t> first = first_with_same_runs(ranked);
   Json json = Json::array();
@@ -152,7 +153,7 @@ Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   return json;
 }
 
-/// For each metric and contender, the number of ranked scenarios in which the contender was best or
+/// For each metric and contender, the number of ranked scenarios in which the contender is best or
 /// tied with the best.
 Json overall_json(const std::vector<EvaluatedScenario>& ranked) {
   Json json = Json::array();
@@ -241,13 +242,17 @@ Json ranking_json(const Preferences& preferences) {
                                {"weight", weight_of(metric, preferences)}});
   }
   json["first_by_weights"] =
-      "fraction of random weightings (uniform over all that sum to 1) for which the mode has the "
-      "best score; modes within relevance of the best score, and modes tied for best, share it";
+      "fraction of random weightings of the metrics (uniform over all that sum to 1) with which "
+      "the "
+      "mode has the best score. A weighting is divided equally among all modes within relevance of "
+      "the best score. Modes that are tied for best have the mean of their fractions";
   json["decision"] = fmt::format(
-      "decided: one mode has rank 1 in the ranking and under every change; level: several modes "
-      "have; undecided: no mode has. Changes: any weights within a factor {:g}; with option plant "
-      "both, also the other plant and, for a single set of gains, the rates of both closed loops "
-      "multiplied and divided by {:.3g}, each with up to {} samples",
+      "decided: one mode has rank 1 in the ranking and under every change of one assumption; "
+      "level: "
+      "several modes have; undecided: no mode has. Changes: any weights within a factor {:g}; with "
+      "option plant both, also the other plant and, for a single set of gains, the rates of "
+      "heading "
+      "and speed loop multiplied and divided by {:.3g}, each with up to {} samples",
       kWeightFactor, kGainsFactor, kBatchRuns - 1);
   return json;
 }
@@ -258,7 +263,7 @@ std::string comparison_text(const Comparison& comparison, const CompareOptions& 
                             const Provenance& provenance) {
   Json json = output_document("awmr.comparison/1", provenance);
   json["arithmetic"] = comparison.arithmetic;
-  // The hash shows which comparison.csv belongs to this comparison.json.
+  // The hash ties comparison.json to the comparison.csv that was written with it.
   json["csv_sha256"] = sha256_hex(comparison_csv(comparison));
   const Comparison evaluated = evaluated_part(comparison);
   const int samples =

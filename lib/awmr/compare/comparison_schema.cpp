@@ -70,7 +70,8 @@ void describe_decision(JsonObject& scenario) {
   for (JsonObject& change : decision->objects("changes")) {
     change.choice("kind", kChangeKindNames);
     change.string("setting");
-    // A change has `first`, the modes of rank 1, or `not_run`, the reason why it was not run.
+    // A change of one assumption has the key `first` with the modes of rank 1, or the key `not_run`
+    // with the reason why it was not run.
     if (change.has("first")) change.strings("first");
     change.optional_boolean("survives");
     change.optional_string("not_run");
@@ -143,7 +144,8 @@ void describe_break_even(JsonObject& json) {
     entry.number("fastest_degps", kNonNegative);
     entry.optional_interval("measured_m");
     entry.optional_interval("measured_degps");
-    if (entry.has("lead")) entry.choice("lead", kLeadNames);  // present if measured_m is present
+    // `lead` is present if `measured_m` is present.
+    if (entry.has("lead")) entry.choice("lead", kLeadNames);
     entry.optional_integer("turns_to_decide", 0, kMax);
     entry.reject_unknown_keys();
   }

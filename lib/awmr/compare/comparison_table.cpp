@@ -48,7 +48,7 @@ std::string wrapped(const std::string& text) {
   return out;
 }
 
-/// One line per mode, one column per metric that any mode has.
+/// Table of one scenario: a line for each mode, and a column for each metric that any mode has.
 std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking) {
   std::size_t width = 12;
   for (const ModeRows& rows : scenario.modes) width = std::max(width, rows.label().size());
@@ -95,8 +95,8 @@ std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   return text + survived + '\n';
 }
 
-/// Table: for each metric, the number of scenarios in which each mode is best or tied with the
-/// best. Empty for a single scenario.
+/// Table that has for each metric the number of scenarios in which each mode is best or tied with
+/// the best. Empty for a single scenario.
 std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
   if (scenarios.size() < 2) return "";
   std::string text =

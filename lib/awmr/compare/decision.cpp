@@ -27,9 +27,9 @@ std::vector<Contender> first_of(const std::vector<RankedMode>& ranking) {
   return first;
 }
 
-/// Multiplies or divides each weight w_k by kWeightFactor, so that `own` is as far behind `other`
-/// as possible. Let d_k be the mean loss of own minus that of other in metric k, and m = ln(1 +
-/// relevance). Own is behind if
+/// Returns the weights with which `own` is furthest behind `other`. Each weight w_k is multiplied
+/// or divided by kWeightFactor. Let d_k be the mean loss (log_loss()) of own minus that of other in
+/// metric k, and m = ln(1 + relevance). Own is behind if
 ///   sum over k of w_k (d_k - m) > 0.
 /// Each term is maximised separately: w_k is multiplied by the factor if d_k > m, else divided.
 Preferences worst_weights(const ModeRows& own, const ModeRows& other,
@@ -46,8 +46,8 @@ Preferences worst_weights(const ModeRows& own, const ModeRows& other,
   return worst;
 }
 
-/// Finds the contenders that have rank 1 whatever the weights are, if each is between
-/// 1/kWeightFactor and kWeightFactor times its value.
+/// Finds the contenders (modes with their gains) that have rank 1 with all weights between
+/// 1/kWeightFactor and kWeightFactor times the given ones.
 Change change_of_weights(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                          const Preferences& preferences, std::uint64_t seed) {
   const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
@@ -67,7 +67,8 @@ Change change_of_weights(const ScenarioRows& scenario, const ScenarioStatistics&
   return change;
 }
 
-/// Finds the modes of rank 1 and counts the completed runs in the rows of one scenario.
+/// Ranks the modes in the rows of one scenario, and stores the modes of rank 1 and the numbers of
+/// completed runs in `change`.
 void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& options,
               Change& change) {
   const Comparison comparison{.rows = rows};
@@ -79,8 +80,8 @@ void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& opti
   }
 }
 
-/// Multiplies the rates of both closed loops by the factor: lambda and mu/epsilon of the heading
-/// loop, mu_s/epsilon_s of the speed loop.
+/// Multiplies the bandwidths of both closed loops by a factor: lambda and mu/epsilon of the heading
+/// loop, and mu_s/epsilon_s of the speed loop.
 NamedGains with_rates_times(double factor, NamedGains set) {
   set.gains.heading.lambda *= factor;
   set.gains.heading.mu *= factor;
@@ -94,13 +95,13 @@ std::string message_of(const Error& error) {
   return fault.place.empty() ? fault.message : fmt::format("{}: {}", fault.place, fault.message);
 }
 
-/// The plant that the scenario does not use.
+/// Returns the plant that the scenario does not use: the 3-DOF model, or four wheels.
 PlantKind other_plant(const Scenario& scenario) {
   return scenario.tyres ? PlantKind::kModel : PlantKind::kFourWheel;
 }
 
-/// The scenario on the plant that it does not use. Errors (input): a key of the scenario has no
-/// meaning on that plant.
+/// Returns the scenario on the other plant (3-DOF model or four wheels). Errors (input): a key of
+/// the scenario has no meaning on that plant.
 Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
   if (scenario.tyres) {
     scenario.tyres.reset();
@@ -113,7 +114,7 @@ Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
   return scenario;
 }
 
-/// A scenario with a changed plant or changed gains, and the result to complete.
+/// A scenario to be simulated with a changed plant or changed gains, and its result.
 struct ChangedScenario {
   Change change;
   Scenario scenario;
@@ -140,7 +141,8 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
       change.not_run = message_of(other.error());
       changes.push_back(std::move(change));
     }
-    if (gains.size() > 1) continue;  // gains are varied only if there is a single set
+    // If several sets of gains are compared, the gains are not varied.
+    if (gains.size() > 1) continue;
     for (const auto& [setting, factor] :
          {std::pair("slower", 1.0 / kGainsFactor), std::pair("faster", kGainsFactor)}) {
       changed.push_back(
@@ -174,9 +176,9 @@ bool Decision::survives(const Change& change) const {
                      [&](const Contender& one) { return has(change.first, one); });
 }
 
-/// If the best modes of the plants differ, names the trials in which the plants behave differently:
-/// differential turns (tyre scrub), and steering while coasting (rolling tyres steer without
-/// thrust).
+/// If the plants have different best modes, returns the names of trials in which the plants behave
+/// differently: differential turns (tyre scrub), and steering while coasting (rolling tyres steer
+/// without thrust).
 std::vector<std::string_view> Decision::deciding_trials() const {
   bool differential = false;
   bool steered = false;

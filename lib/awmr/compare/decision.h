@@ -1,5 +1,6 @@
-/// Decides whether the best modes of a scenario stay the best on the other plant (3-DOF model or
-/// four wheels), with other weights and with other gains. Private to compare/.
+/// Tests whether the best modes of a scenario stay the best if one assumption is changed: on the
+/// other plant (3-DOF model or four wheels), with other weights and with other gains. Private to
+/// compare/.
 #pragma once
 
 #include <cstdint>
@@ -16,48 +17,50 @@
 
 namespace awmr {
 
-/// For the change of weights, each weight of the ranking is multiplied or divided by this factor,
+/// To test the ranking with other weights, each weight is multiplied or divided by this factor,
 /// independently of the others.
 inline constexpr double kWeightFactor = 2.0;
-/// For the change of gains, the rates of heading and speed loop are multiplied or divided by this
-/// factor, sqrt(2).
+/// To test the ranking with other gains, the bandwidths of heading loop and speed loop are
+/// multiplied or divided by this factor, sqrt(2).
 inline constexpr double kGainsFactor = 1.4142135623730951;
 
 enum class DecisionKind {
-  kDecided,    ///< one mode has rank 1 in all settings
-  kLevel,      ///< several modes have rank 1 in all settings
-  kUndecided,  ///< no mode has rank 1 in all settings
+  kDecided,    ///< one mode has rank 1 under all assumptions
+  kLevel,      ///< several modes have rank 1 under all assumptions
+  kUndecided,  ///< no mode has rank 1 under all assumptions
 };
 inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
     {{"decided", DecisionKind::kDecided},
      {"level", DecisionKind::kLevel},
      {"undecided", DecisionKind::kUndecided}}};
 
-/// Decision on a scenario: the modes of rank 1 in the ranking, and those of rank 1 under each
-/// change.
+/// Decision on a scenario: the modes of rank 1 in the ranking, and the modes of rank 1 if one
+/// assumption is changed.
 struct Decision {
   std::vector<Contender> first;  ///< modes of rank 1 in the ranking
-  /// Changes for which a ranking exists: always the change of weights, which needs no runs.
+  /// Changed assumptions for which a ranking exists. The change of weights is always included,
+  /// because it needs no runs.
   std::vector<Change> changes;
 
-  /// Contenders of rank 1 in the ranking and under every change.
+  /// Modes that have rank 1 in the ranking and under every change.
   std::vector<Contender> never_behind() const;
   DecisionKind kind() const;
-  /// True if one of `first` has rank 1 under the change.
+  /// True if one of the modes `first` also has rank 1 under the change.
   bool survives(const Change& change) const;
-  /// If the best modes of the two plants differ: names of the trials that would show which plant
-  /// describes the vehicle. Otherwise empty.
+  /// If the two plants have different best modes, returns the names of trials that would show which
+  /// plant describes the vehicle. Otherwise empty.
   std::vector<std::string_view> deciding_trials() const;
 };
 
-/// Names of trials in comparison.json. `awmr suggest` describes these trials.
+/// Names of trials, as in comparison.json, that tell the two plants apart. `awmr suggest` describes
+/// these trials.
 inline constexpr std::string_view kDifferentialTurns = "differential-turns";
 inline constexpr std::string_view kSteerWhileCoasting = "steer-while-coasting";
 
-/// Ranks the modes on the other plant and, for a single set of gains, with slower and faster gains.
-/// Uses the first kBatchRuns samples of the comparison, or all if there are fewer. If a scenario
-/// cannot be run in a setting, its Change has the reason (Change::not_run). Open-loop scenarios
-/// have no Change, because nothing is ranked.
+/// Repeats the ranking on the other plant and, for a single set of gains, with slower and faster
+/// gains. Uses the first kBatchRuns samples of the comparison, or all if there are fewer. If a
+/// scenario cannot be run with a change, the Change has the reason (Change::not_run). Open-loop
+/// scenarios have no Change, because their modes are not ranked.
 std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedGains>& gains,
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);

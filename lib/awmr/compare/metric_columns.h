@@ -43,13 +43,14 @@ struct MetricColumn {
   std::string_view head;
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
-  /// Floor: differences up to this do not matter, in the metric's unit, >= 0 (scoring.h). A metric
-  /// with a floor above 0 can be used to rank modes; lower values are better. 0: it is never used.
+  /// Differences of the metric up to this floor do not matter, in the metric's unit, >= 0
+  /// (scoring.h). A metric with a floor above 0 can be used to rank modes, and lower values are
+  /// better. A metric with the floor 0 is never used.
   double ranking_floor = 0.0;
-  double default_weight = 0.0;  ///< weight in the ranking if the user gives none
+  double default_weight = 0.0;  ///< weight in the ranking, unless the user sets it
 
   bool can_rank() const { return ranking_floor > 0.0; }
-  /// Absent if the metric does not apply to the run.
+  /// Returns the value of the metric; absent if the metric does not apply to the run.
   std::optional<double> value(const Metrics& metrics) const {
     return std::visit([&](auto member) { return std::optional<double>(metrics.*member); }, figure);
   }
@@ -58,10 +59,10 @@ struct MetricColumn {
   }
 };
 
-/// All metrics. The default weight is 1 for heading and cross-track error, settling and finishing
-/// time, speed drop, mechanical work and tyre work, and 0 for all others: for example for sideslip,
-/// because it follows from the geometry of the turn, and for control variation, because it is
-/// nearly 0 in some modes, so that ratios of it mean little.
+/// All metrics. The following have the default weight 1 in the ranking: heading and cross-track
+/// error, settling and finishing time, speed drop, mechanical work and tyre work. All others have
+/// the weight 0. Sideslip, for example, follows from the geometry of the turn, and the control
+/// variation is nearly 0 in some modes, so that its ratios mean little.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
      1.0},
@@ -87,7 +88,8 @@ inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kElectricWork, "electric_work_j", "", "J", &Metrics::electric_work_j, 1.0, 0.0},
 }};
 
-/// Names of the columns of comparison.csv. `with_gains`: the last column is `gains`.
+/// Returns the names of the columns of comparison.csv. With `with_gains`, the last column is
+/// `gains`.
 std::vector<std::string> comparison_columns(bool with_gains);
 
 inline const MetricColumn& column_of(MetricId id) { return kMetricColumns[at(id)]; }

@@ -16,13 +16,13 @@ struct ModeRows {
   std::span<const ComparisonRow> rows;  ///< sample 0 first, then the drawn samples; never empty
 
   const Metrics& nominal() const { return rows.front().metrics; }
-  /// The counted rows, from which all statistics are computed: those of the drawn samples, or the
-  /// nominal run if there are no samples.
+  /// Rows from which all statistics are computed: those of the drawn samples or, without samples,
+  /// that of the nominal run.
   std::span<const ComparisonRow> counted() const {
     return rows.size() > 1 ? rows.subspan(1) : rows;
   }
   std::size_t completed_count() const;
-  /// Share of the counted runs that completed, in [0, 1].
+  /// Share of the counted runs that complete the scenario, in [0, 1].
   double completed_share() const;
   std::string label() const { return contender.label(); }
 };
@@ -36,7 +36,7 @@ struct ScenarioRows {
 /// Groups the rows by scenario and contender. Precondition: all samples are complete
 /// (evaluated_part()).
 std::vector<ScenarioRows> group(const Comparison& comparison);
-/// Returns the comparison without the samples that some contenders have not finished.
+/// Returns the comparison without the samples that are not finished for all contenders.
 Comparison evaluated_part(const Comparison& comparison);
 
 }  // namespace awmr

@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// True if `other` is significantly better than `own` in the metric by more than its margin, or if
+/// True if `other` is better than `own` in the metric: relevantly (Conclusion::kRelevant) lower, or
 /// only `other` has a value.
 bool beats(const EvaluatedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {

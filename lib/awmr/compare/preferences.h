@@ -14,22 +14,22 @@
 namespace awmr {
 
 inline constexpr double kMaximumWeight = 1000.0;
-/// Range of Preferences::relevance. The offsets of the scores, floor/relevance (scoring.h), are at
-/// 0.001 already above most values of the metrics. With smaller margins, the ratios of the scores
-/// approach 1. With 0, rounding could decide a rank.
+/// Permitted range of Preferences::relevance. Smaller margins make all scores nearly equal: the
+/// offset floor/relevance, which is added to each metric (scoring.h), is at 0.001 already above
+/// most values of the metrics. With 0, rounding could decide a rank.
 inline constexpr NumberRule kRelevance{.min = 0.001, .max = 1.0};
 
 struct Preferences {
   /// Weights by name of the metric, in [0, kMaximumWeight]. A metric that is not listed has its
   /// default weight (metric_columns.h).
   std::map<std::string, double, std::less<>> weights;
-  /// Relevance margin: relative differences up to this do not matter, in kRelevance. Neither
-  /// do differences up to the metric's floor (MetricColumn::ranking_floor).
+  /// Relevance margin, in kRelevance. Relative differences of a metric up to this do not matter,
+  /// nor do differences up to the metric's floor (MetricColumn::ranking_floor).
   double relevance = 0.05;
   friend bool operator==(const Preferences&, const Preferences&) = default;
 };
 
-/// The fault of a relevance margin outside kRelevance; absent otherwise.
+/// Returns the fault of a relevance margin that is outside kRelevance; absent if it is inside.
 std::optional<Fault> relevance_fault(double relevance);
 
 /// Reads weights of the form "NAME=WEIGHT". Errors (input): a text of another form; a metric that

@@ -12,12 +12,13 @@
 namespace awmr {
 namespace {
 
-/// Random stream of the weightings. It differs from the streams of the samples, and from that of
-/// the bootstrap (statistics.cpp).
+/// Random stream from which the weightings of the metrics are drawn. It differs from the streams of
+/// the samples, and from that of the bootstrap (statistics.cpp).
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 constexpr int kWeightings = 1000;
 
-/// Mean difference of log scores, `own` minus `leader`, in each bootstrap resample, ascending:
+/// Returns the difference of the mean log scores of two modes, `own` minus `leader`, in each
+/// bootstrap resample, sorted ascending:
 ///   sum over the scored metrics k of w_k (mean loss of own - mean loss of leader)
 std::vector<double> resampled_differences(const RankingEntry& own, const RankingEntry& leader,
                                           const std::vector<ScoredMetric>& scoring,
@@ -34,7 +35,8 @@ std::vector<double> resampled_differences(const RankingEntry& own, const Ranking
   return means;
 }
 
-/// Interval of the ratio of a mode's score to the leader's, and the conclusion from it.
+/// How far a mode is behind the leader: an interval of the ratio of their scores, and the
+/// conclusion from it.
 struct Behind {
   std::optional<Interval> ratio_ci95;  ///< 95 % interval of the ratio; absent below 2 samples
   Conclusion conclusion{};
@@ -58,14 +60,15 @@ Behind behind(const RankingEntry& own, const RankingEntry& leader, double releva
   return {ratio, within ? Conclusion::kEquivalent : Conclusion::kUndecided};
 }
 
-/// Divides a count of 1 equally among the entries whose value is within `margin` of the smallest,
-/// because smaller differences do not matter. Only entries that complete
-/// (RankingEntry::completes) are considered.
+/// Divides a count of 1 equally among the best entries. These are the entries whose value is within
+/// `margin` of the smallest, because smaller differences do not matter. Entries that complete too
+/// few runs (RankingEntry::completes) are ignored.
 template <class Value>
 void count_best(const std::vector<RankingEntry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
   constexpr double kRounding = 1e-12;
-  double least = value(entries.front());  // the first entry has completes == true
+  // The first entry always has `completes` set.
+  double least = value(entries.front());
   for (const RankingEntry& entry : entries) {
     if (entry.completes) least = std::min(least, value(entry));
   }
@@ -77,7 +80,7 @@ void count_best(const std::vector<RankingEntry>& entries, double margin, Value&&
   for (const std::size_t i : best) counts[i] += 1.0 / static_cast<double>(best.size());
 }
 
-/// For each entry, the share of random weightings of the metrics for which it is best. The
+/// Returns for each entry the share of random weightings of the metrics with which it is best. The
 /// weightings are uniformly distributed over all that sum to 1.
 std::vector<double> shares_by_weights(const std::vector<RankingEntry>& entries, double margin,
                                       Random random) {
@@ -145,7 +148,8 @@ bool dominates(const Contender& other, const Contender& own,
   return better;
 }
 
-/// A mode before it is compared with the others. `best`: entry of the first mode in the list.
+/// Returns a mode with all fields that do not depend on its rank. `best`: entry of the first mode
+/// in the list.
 RankedMode unranked_mode(const RankingEntry& own, const RankingEntry& best, double by_weights,
                          double by_samples) {
   RankedMode mode;
@@ -157,9 +161,9 @@ RankedMode unranked_mode(const RankingEntry& own, const RankingEntry& best, doub
   return mode;
 }
 
-/// Replaces first_by_weights of the modes that are tied for rank 1 by the mean over these modes,
-/// because none of them has rank 1 alone. If they are equivalent, does the same with
-/// first_by_samples.
+/// Replaces first_by_weights of the modes that are tied for rank 1 by its mean over these modes,
+/// because none of them has rank 1 alone. Does the same with first_by_samples if the modes are
+/// equivalent.
 void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
   const auto end = std::find_if(ranking.begin(), ranking.end(),
                                 [](const RankedMode& mode) { return mode.rank > 1; });

@@ -15,20 +15,20 @@ namespace awmr {
 struct RankedMode {
   int rank = 0;  ///< 1 is best; tied modes have the same rank
   Contender contender;
-  /// Score divided by that of the first mode in the list; lower is better. The score is the
-  /// weighted geometric mean of the metrics, each with an offset added (scoring.h). The ratio is
-  /// below 1 for a mode that has a better score than the first one, but completes less often.
+  /// Score of this mode divided by that of the first mode in the list; lower is better. A score is
+  /// the weighted geometric mean of the metrics, each with an offset added (scoring.h). The ratio
+  /// is below 1 if this mode has a better score than the first one but completes less often.
   double score = 1.0;
   double completed_share = 0.0;  ///< share of completed runs, in [0, 1]
   /// 95 % interval of `score`; absent for the first mode, and below 2 samples.
   std::optional<Interval> behind_ci95;
-  /// Conclusion from comparing the score with that of the leader: the best mode of the same rank
-  /// or, for the best mode of a rank, the best mode of the rank above. kRelevant: this mode is
-  /// worse. Absent for the first mode.
+  /// Conclusion from comparing the score with that of a leader; kRelevant: this mode is worse. The
+  /// leader is the best mode of the same rank. For the best mode of a rank, it is the best mode of
+  /// the rank above. Absent for the first mode.
   std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the other modes of the same rank
-  /// Share in [0, 1] of random weightings of the metrics for which this mode has the best score,
-  /// and the same share of the samples (absent below 2 samples).
+  /// Share in [0, 1] of random weightings of the metrics with which this mode has the best score;
+  /// and the same for the samples instead of weightings (absent below 2 samples).
   ///   - A weighting or sample is divided equally among all modes whose score is within `relevance`
   ///     of the best.
   ///   - A mode that completes significantly less often has the shares 0.
@@ -36,7 +36,8 @@ struct RankedMode {
   ///     equivalent, the mean of their shares of samples.
   double first_by_weights = 0.0;
   std::optional<double> first_by_samples;
-  /// Labels of modes that are relevantly better in a ranked metric and relevantly worse in none.
+  /// Labels of other modes that are relevantly better than this one in a ranked metric, and
+  /// relevantly worse in none.
   std::vector<std::string> dominated_by;
 };
 
@@ -45,8 +46,9 @@ inline constexpr std::string_view kScoreFormula =
     "(x + f)/(x1 + f), x: the mode's value, x1: that of the first mode in the list, f: the "
     "metric's floor divided by the relevance. A metric that a run lacks counts as that of the "
     "worst run. A mode is behind if the "
-    "whole 95 % interval of the ratio of its score to the leader's (bootstrap over samples, "
-    "widened for few samples by Student's t) is above 1 + relevance. It is equivalent if the 90 % "
+    "whole 95 % interval of the ratio of its score to that of the leader, the best mode of the "
+    "rank (bootstrap over samples, widened for few samples by Student's t), is above 1 + "
+    "relevance. It is equivalent if the 90 % "
     "interval is within relevance of 1, or if every ranked metric is equivalent. Otherwise it is "
     "undecided and shares the rank of the leader. Modes that complete significantly less often "
     "than the best (exact McNemar test) come after the others";
@@ -60,7 +62,7 @@ inline constexpr std::string_view kNotRanked =
 bool has_a_goal(const ScenarioRows& scenario);
 
 /// Ranks the modes, best first. Empty if no metric with a weight applies, or if the scenario has no
-/// target (open loop), because lower metrics are not better there. `statistics`: statistics_of()
+/// target (open loop), because lower metrics are then not better. `statistics`: statistics_of()
 /// this scenario, with preferences of the same relevance. `seed`: seed of the random weightings.
 std::vector<RankedMode> rank(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                              const Preferences& preferences = {}, std::uint64_t seed = 1);

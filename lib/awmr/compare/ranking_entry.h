@@ -17,7 +17,8 @@ struct RankingEntry {
   /// log_score() of each run in the statistics (ModeRows::counted).
   std::vector<double> log_scores;
   std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
-  /// False: completes significantly less often than the mode that completes most often.
+  /// False if the mode completes the scenario significantly less often than the mode that completes
+  /// it most often.
   bool completes = true;
 
   double log_score() const { return mean(log_scores); }
@@ -27,13 +28,13 @@ struct RankingEntry {
   }
 };
 
-/// True if two modes complete about equally often: the exact McNemar test finds no significant
-/// difference. With a single run, or if one completes all runs and the other none, they must
-/// complete equally often.
+/// True if two modes complete the scenario about equally often: the exact McNemar test finds no
+/// significant difference. With a single run, or if one mode completes all runs and the other none,
+/// the numbers must be equal.
 bool complete_alike(const ModeRows& a, const ModeRows& b);
 
-/// Entries, best first: those that complete (RankingEntry::completes), sorted by score; then the
-/// others, sorted by number of completed runs.
+/// Returns the modes of a scenario, best first: those that complete often enough
+/// (RankingEntry::completes), sorted by score; then the others, sorted by number of completed runs.
 std::vector<RankingEntry> sorted_entries(const ScenarioRows& scenario,
                                          const std::vector<ScoredMetric>& scoring);
 

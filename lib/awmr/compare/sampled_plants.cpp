@@ -9,9 +9,10 @@
 namespace awmr {
 namespace {
 
-/// Returns the scenarios that need vehicles of their own: each scenario with a corner (parameters
-/// moved to the ends of their intervals), and the first scenario without one, whose vehicles all
-/// other scenarios share. `first` receives, for each scenario, the index of its first vehicle.
+/// Returns the scenarios for which vehicles must be made. A scenario with a corner (parameters
+/// moved to the ends of their intervals) has its own vehicles. All scenarios without a corner share
+/// the vehicles of the first of them. `first` receives for each scenario the index of its first
+/// vehicle.
 std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::size_t samples,
                                    std::vector<std::size_t>& first) {
   std::vector<const Scenario*> own;
@@ -33,7 +34,8 @@ std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::
 Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options) {
   const std::size_t samples = at(options.samples) + 1;
-  // The scenarios are checked with the nominal model, which the controller uses in every sample.
+  // The scenarios are checked with the nominal model, which is also the controller's model in all
+  // samples.
   for (const Scenario& scenario : scenarios) AWMR_RETURN_IF_ERROR(check_scenario(scenario, model));
   SampledPlants plants;
   AWMR_ASSIGN_OR_RETURN(plants.nominal, model.plant());

@@ -10,8 +10,8 @@ namespace awmr {
 
 struct SampledPlants {
   Plant<double> nominal{};              ///< the model's own values, which the controller uses
-  std::vector<Plant<double>> vehicles;  ///< samples 0, 1, ... of one scenario, then of the next
-  std::vector<std::size_t> first;       ///< by scenario: index of its sample 0 in `vehicles`
+  std::vector<Plant<double>> vehicles;  ///< plants by scenario, then sample 0, 1, ...
+  std::vector<std::size_t> first;       ///< index in `vehicles` of each scenario's sample 0
 
   const Plant<double>& vehicle(std::size_t scenario, std::size_t sample) const {
     return vehicles[first[scenario] + sample];

@@ -8,8 +8,8 @@
 
 namespace awmr {
 
-/// Weight of a metric, >= 0: from the preferences, else the metric's default; 0 for a metric that
-/// is never used to rank modes.
+/// Returns the weight of a metric, >= 0: that of the preferences or, if absent there, the metric's
+/// default. 0 for a metric that is never used to rank modes.
 double weight_of(const MetricColumn& metric, const Preferences& preferences);
 
 /// A metric in the score of one scenario.
@@ -17,7 +17,7 @@ struct ScoredMetric {
   const MetricColumn* metric = nullptr;
   double weight = 0.0;  ///< weight w, >= 0
   double offset = 0.0;  ///< offset f of log_loss(), in the metric's unit, > 0
-  /// Value used for a run without this metric: the largest of all runs in the statistics
+  /// Value for runs that do not have this metric: the largest of all counted runs
   /// (ModeRows::counted).
   double missing = 0.0;
 };
@@ -30,17 +30,18 @@ std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
 /// Returns the rankable metrics with a weight above 0, their weights divided by the sum.
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
-/// Loss of one metric: ln(x + f). x: value of the metric, 0 if negative. f: the metric's floor
-/// divided by the relevance margin. The offset f prevents ratios of small values from dominating
-/// the score: adding floor + relevance x to x multiplies x + f by 1 + relevance, whatever x is.
+/// Loss of a run in one metric, ln(x + f): x is the value of the metric (0 if negative), and f the
+/// metric's floor divided by the relevance margin. The offset f prevents ratios of small values
+/// from dominating the score: adding floor + relevance x to x multiplies x + f by 1 + relevance,
+/// whatever x is.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
 /// Mean of log_loss() over the drawn samples of a mode, or its value for the nominal run if there
 /// are none (ModeRows::counted).
 double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored);
 
-/// Score of a run: the sum of w ln(x + f) over the metrics. For two runs, exp(difference of their
-/// scores) is the weighted geometric mean of the ratios of their x + f.
+/// Score of a run: the weighted sum of ln(x + f) over its metrics (log_loss()). For two runs, exp()
+/// of the difference of their scores is the weighted geometric mean of the ratios of their x + f.
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring);
 
 /// log_score() of each drawn sample of a mode, or of the nominal run if there are none

@@ -19,7 +19,7 @@ namespace {
 /// Maximum number of samples of a comparison.
 constexpr long kMaxSamples = 1'000'000'000;
 
-/// Keys of shard.json that only a comparison has.
+/// Content of shard.json that only comparisons have, unlike other divided computations.
 struct Payload {
   int samples = 0;
   std::uint64_t seed = 0;
@@ -116,7 +116,8 @@ Payload read_payload(JsonObject& json) {
           .findings = read_findings(json)};
 }
 
-/// The rows of all parts in the order of a single run: by scenario, gains, mode, sample.
+/// Returns the rows of all parts in the order of an undivided comparison: by scenario, gains, mode,
+/// sample.
 Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts, int items) {
   const ShardKind& kind = comparison_shards();
   std::vector<std::vector<ComparisonRow>> rows;
@@ -158,7 +159,7 @@ const ShardKind& comparison_shards() {
       .table = kComparisonTable,
       .check = [](std::string_view text, const std::string& file,
                   const std::string&) { return check_comparison_csv(text, file); },
-      // Keys that may differ between parts: `changes` is only in part 1.
+      // Keys whose values may differ between parts. `changes` is only in part 1.
       .own_keys = {"changes", "findings"},
       .arithmetic_advice = "run all parts on processors with AVX2 or NEON",
       .read = [](JsonObject& json) { read_payload(json); }};

@@ -17,14 +17,15 @@ namespace awmr {
 /// the part's samples.
 const ShardKind& comparison_shards();
 
-/// Texts of the files of the part that options.shard selects.
+/// Returns the texts of the files of one part, which options.shard selects.
 PartText comparison_part(const Comparison& part, const CompareOptions& options,
                          const Provenance& provenance, const std::vector<Finding>& findings = {});
 
-/// Result of merge_shards(): the combined comparison, with the data that its output files need.
+/// Result of merge_shards(): the whole comparison, with the data that its output files need.
 struct Merged {
   Comparison comparison;
-  CompareOptions options;  ///< options of the parts; only samples, seed, preferences are set
+  /// Options of the parts. Only samples, seed and preferences are set.
+  CompareOptions options;
   Provenance provenance;
   /// extrapolation_findings() of all runs, then the findings of the first part.
   std::vector<Finding> findings;

@@ -16,10 +16,11 @@ namespace awmr {
 /// threads. The first block that needs the noise draws it; the last one frees it.
 class SharedNoise {
  public:
-  /// The noise of each Monte-Carlo sample, by the number of the sample.
+  /// Noise of each sample, by the number of the sample.
   using Drawn = std::map<std::size_t, DrawnNoise>;
 
-  /// Adds a block. Call it for all blocks before the first of them starts.
+  /// Registers a block that will use the noise. Must be called for all blocks before the first of
+  /// them starts.
   void add_user() { ++users_; }
 
   /// Returns the noise. The first call obtains it from `draw()`.
@@ -29,7 +30,7 @@ class SharedNoise {
     return drawn_;
   }
 
-  /// Removes a block. The last one to be removed frees the noise.
+  /// Unregisters a block that no longer needs the noise. The last one frees the noise.
   void remove_user() {
     if (--users_ == 0) drawn_.clear();
   }

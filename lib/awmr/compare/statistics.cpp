@@ -30,8 +30,8 @@ std::optional<double> difference(const MetricColumn& metric, const Metrics& a, c
   return *x - *y;
 }
 
-/// Differences of all metrics and pairs. A row of the arrays is a metric of a pair, a column is a
-/// sample, so that a bootstrap resample is a sum of columns.
+/// Differences of all metrics between all pairs of contenders. A row is one metric of one pair, and
+/// a column is one sample, so that a bootstrap resample is a sum of columns.
 struct Differences {
   std::vector<PairedDifference> results;
   Eigen::ArrayXXd values;  ///< difference; 0 if a contender of the pair has no value
@@ -45,7 +45,8 @@ double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& 
   return std::max(metric.ranking_floor, relevance * std::min(std::abs(first), std::abs(second)));
 }
 
-/// Conclusion from the interval, p_holm and p_equivalent (PairedDifference::conclusion).
+/// Returns the conclusion that follows from ci95, p_holm and p_equivalent, by the rule described at
+/// PairedDifference::conclusion.
 std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
   if (!d.mean) return std::nullopt;
   if (!d.ci95 || !d.p_holm || !d.p_equivalent) {
@@ -56,8 +57,8 @@ std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
   return *d.p_equivalent < kSignificance ? Conclusion::kEquivalent : Conclusion::kUndecided;
 }
 
-/// Differences of one metric between two contenders, with their statistics. The differences and the
-/// counts of the samples are written to `values` and `counts`.
+/// Returns the statistics of the differences of one metric between two contenders. Writes the
+/// difference of each sample to `values`, and to `counts` whether it exists (1 or 0).
 PairedDifference difference_of(const ModeRows& first, const ModeRows& second,
                                const MetricColumn& metric, double relevance,
                                Eigen::ArrayXXd::RowXpr values, Eigen::ArrayXXd::RowXpr counts) {
@@ -92,7 +93,7 @@ PairedDifference difference_of(const ModeRows& first, const ModeRows& second,
   return result;
 }
 
-/// Pairs of contenders with the same gains or the same mode.
+/// Returns the pairs of contenders to compare: those with the same gains or the same mode.
 std::vector<std::pair<const ModeRows*, const ModeRows*>> comparable_pairs(
     const ScenarioRows& scenario) {
   std::vector<std::pair<const ModeRows*, const ModeRows*>> pairs;
@@ -124,8 +125,8 @@ Differences all_differences(const ScenarioRows& scenario, double relevance) {
   return all;
 }
 
-/// log_loss() of every metric that can be used to rank modes, in the counted runs of every mode.
-/// The rows are those of ScenarioStatistics::resampled_losses; each column is a sample.
+/// Returns log_loss() in every metric that can be used to rank modes, for the counted runs of every
+/// mode. The rows are those of ScenarioStatistics::resampled_losses; each column is a sample.
 Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& preferences) {
   Eigen::ArrayXXd losses =
       Eigen::ArrayXXd::Zero(eigen_index(scenario.modes.size() * std::size(kMetricColumns)),
@@ -142,7 +143,7 @@ Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& pref
   return losses;
 }
 
-/// Means over the samples, with one column per bootstrap resample.
+/// Means over the samples in the bootstrap. Each column is one resample.
 struct ResampledMeans {
   Eigen::ArrayXXd differences;  ///< same rows as Differences; NaN if a resample has no value
   Eigen::ArrayXXd losses;       ///< same rows as all_losses()
@@ -184,7 +185,7 @@ std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means, std::siz
   return Interval{quantile_of_sorted(sorted, tail), quantile_of_sorted(sorted, 1.0 - tail)};
 }
 
-/// Computes p_holm of each difference from the p of all differences (Holm's correction).
+/// Computes p_holm of all differences from their p-values (Holm's correction for multiple tests).
 void correct(std::vector<PairedDifference>& differences) {
   std::vector<double> p;
   for (const PairedDifference& d : differences) {

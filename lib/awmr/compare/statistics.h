@@ -31,15 +31,16 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 /// True if any mode has the metric in any counted run.
 bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 
-/// Share of the sorted bootstrap means to cut off on each side, so that the true mean is beyond
-/// that end of the interval with the probability `tail` (Hesterberg's expanded percentiles):
+/// Returns the fraction of the sorted bootstrap means to cut off on each side of an interval. With
+/// it, the true mean is beyond this end of the interval with the probability `tail` (Hesterberg's
+/// expanded percentiles):
 ///   Phi(-t sqrt(n/(n-1))),  t: the 1 - tail quantile of Student's t with n - 1 degrees of freedom
-/// Phi is the standard normal distribution function, n is `count`. Cutting off `tail` itself would
-/// make the intervals too narrow for few values. Below kFewSamples values, they are too narrow even
-/// with this correction.
+/// Phi is the standard normal distribution function, n is `count`, the number of values. Cutting
+/// off `tail` itself would make the intervals too narrow for few values. Below kFewSamples values,
+/// they are too narrow even with this correction.
 double bootstrap_tail(std::size_t count, double tail);
 
-/// Conclusion about a difference between two modes, at a significance level of 5 %.
+/// Conclusion about the difference of a metric between two modes, at a significance level of 5 %.
 enum class Conclusion { kRelevant, kEquivalent, kUndecided };
 inline constexpr NameTable<Conclusion, 3> kConclusionNames{{{"relevant", Conclusion::kRelevant},
                                                             {"equivalent", Conclusion::kEquivalent},
@@ -91,9 +92,10 @@ struct ScenarioStatistics {
   /// Differences of every metric between every pair of contenders with the same gains or the same
   /// mode.
   std::vector<PairedDifference> differences;
-  /// For each mode and metric (index: loss_row()), the mean log_loss() (scoring.h) in each
-  /// bootstrap resample; 0 for metrics that are never ranked. Empty below 2 samples. The mean score
-  /// with any weights is a weighted sum of these series.
+  /// Bootstrap means from which intervals of scores follow: for each mode and metric (index:
+  /// loss_row()), the mean log_loss() (scoring.h) in each resample; 0 for metrics that are never
+  /// ranked. Empty below 2 samples. The mean score with any weights is a weighted sum of these
+  /// series.
   std::vector<std::vector<double>> resampled_losses;
 };
 

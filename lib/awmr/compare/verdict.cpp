@@ -20,8 +20,9 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Finds, among the metrics with a weight, the one in which `other` is furthest behind `best`,
-/// measured in multiples of the metric's relevance margin. Null if no difference is relevant.
+/// Finds the metric in which `other` is furthest behind `best`, measured in multiples of the
+/// metric's relevance margin. Only metrics with a weight are considered. Null if no difference is
+/// relevant.
 const PairedDifference* widest_gap(const std::vector<PairedDifference>& differences,
                                    const Preferences& preferences, const Contender& best,
                                    const Contender& other) {
@@ -43,8 +44,8 @@ const PairedDifference* widest_gap(const std::vector<PairedDifference>& differen
 /// finish_time_s: 8.2 s more (95 %: 8 to 8.4)". Empty without such a metric.
 std::string gap_text(const PairedDifference* gap, const Contender& other) {
   if (gap == nullptr) return "";
-  // The difference is first minus second. The text gives how much more `other` has, so the sign is
-  // changed if `other` is the second.
+  // The difference is first minus second, but the text states how much larger the metric of `other`
+  // is. The sign is therefore changed if `other` is the second.
   const double sign = gap->second == other ? -1.0 : 1.0;
   const MetricColumn& metric = column_of(gap->metric);
   std::string text = fmt::format(", most of all in {}: {:.3g} {} more", metric.name,

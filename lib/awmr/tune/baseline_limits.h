@@ -9,9 +9,10 @@
 
 namespace awmr {
 
-/// Returns every requirement of the search that the baseline gains do not meet (Tuning::
-/// baseline_violates). `objective`: on all draws, normalised by these gains. `requested`: options
-/// whose absent bounds are not filled in.
+/// Returns every requirement of the search that the baseline gains do not meet: constraints,
+/// requested bounds, activity limit and goals that are not soft. `objective`: on the nominal
+/// vehicle and all drawn vehicles, normalised by the baseline gains. `requested`: the options as
+/// the user gave them, so that default bounds of the gains do not count.
 std::vector<ConstraintReport> violated_by_baseline(const Gains<double>& baseline,
                                                    const Objective& objective,
                                                    const ConstraintContext& context,

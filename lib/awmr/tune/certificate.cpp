@@ -19,12 +19,13 @@ constexpr ParameterId kLoopParameters[] = {ParameterId::kYawAlpha, ParameterId::
                                            ParameterId::kYawQuadratic, ParameterId::kInertiaNorm,
                                            ParameterId::kSteeringTimeConstant};
 
-/// Point of the search: coordinates in the unit ball, then the position of ln(yaw rate) between its
-/// limits, in [0, 1].
+/// A point in the search for the worst case. Its last coordinate, in [0, 1], is the position of
+/// ln(yaw rate) in the examined range: 0 is the lowest, 1 the highest rate. The coordinates before
+/// it are a point of the unit ball and select the plant (ConfidenceSet::plant_at()).
 using SetPoint = std::vector<double>;
 
-/// Moves a point outside the ball to the surface of the ball, and clamps its yaw-rate coordinate to
-/// [0, 1].
+/// Moves a point into the search region: its plant coordinates into the unit ball, by shortening
+/// them to the surface, and its yaw-rate coordinate into [0, 1].
 SetPoint inside(SetPoint point) {
   double square = 0.0;
   for (std::size_t i = 0; i + 1 < point.size(); ++i) square += point[i] * point[i];
@@ -45,8 +46,9 @@ SetPoint random_direction(std::size_t size, Random& random) {
   return direction;
 }
 
-/// First points of the search: centre, ends of the axes and corners, each at kPlaces yaw rates;
-/// then random points in the ball and on its surface.
+/// Points with which the search for the worst case begins: the centre of the unit ball, the ends of
+/// its axes and the corners, each at kPlaces yaw rates; then random points in the ball and on its
+/// surface.
 std::vector<SetPoint> first_points(std::size_t dimension, Random& random) {
   constexpr int kPlaces = 5;
   constexpr int kRandomPoints = 500;
@@ -86,8 +88,8 @@ struct ValuedPoint {
 };
 using PointFunction = std::function<double(const SetPoint&)>;
 
-/// Pattern search from `best`: tries steps along the axes and along as many random directions. The
-/// step length is halved if no step decreases the function.
+/// Pattern search for the minimum of `value`, from the point `best`. Tries steps along the axes and
+/// along as many random directions. If no step decreases the value, the step length is halved.
 ValuedPoint search_by_pattern(ValuedPoint best, const PointFunction& value, Random& random) {
   constexpr double kFirstPatternStep = 0.25;
   constexpr double kLastPatternStep = 5e-4;
@@ -151,7 +153,7 @@ ValuedPoint least_over_set(std::size_t dimension, const PointFunction& value) {
   return least;
 }
 
-/// The parameters of the heading loop that the model has, with their values in `plant`.
+/// Returns the model's parameters on which the heading loop depends, with their values in `plant`.
 std::vector<std::pair<ParameterId, double>> loop_parameters(const Model& model,
                                                             const Plant<double>& plant) {
   std::vector<std::pair<ParameterId, double>> values;
@@ -181,7 +183,8 @@ Result<ConfidenceSet> ConfidenceSet::make(const Model& model) {
   ConfidenceSet set;
   AWMR_ASSIGN_OR_RETURN(set.own_, model.plant());
   if (model.covariance.parameters.empty()) return set;
-  Model bare = model;  // without the trials: the sampler copies the model for each plant
+  // The sampler copies the model for each plant, so the trials are left out.
+  Model bare = model;
   bare.record = {};
   AWMR_ASSIGN_OR_RETURN(set.sampler_, PlantSampler::make(bare));
   set.parameters_ = static_cast<int>(model.covariance.parameters.size());
@@ -211,8 +214,8 @@ SampledHeadingLoop certified_loop(const Gains<double>& gains, const ConstraintCo
 
 namespace {
 
-/// The heading loops that certify() examines: those of a confidence set of plants, with mass
-/// factors, at all yaw rates of a range.
+/// Inputs that define the heading loops of certify(): a confidence set of plants, the factors of
+/// their mass, and the range of the yaw rate.
 struct CertifiedLoops {
   const Model& model;
   const ConstraintContext& context;
@@ -231,7 +234,8 @@ struct CertifiedLoops {
   }
 };
 
-/// Smallest value of `measure` over the loops in this mode.
+/// Smallest value of `measure`, a damping ratio or delay margin, over the heading loops in this
+/// mode.
 WorstCase worst_case(const CertifiedLoops& loops, YawMode mode,
                      double (*measure)(const SampledHeadingLoop&)) {
   WorstCase worst{.value = std::numeric_limits<double>::infinity()};

@@ -13,13 +13,14 @@
 
 namespace awmr {
 
-/// Computes for each mode the smallest damping ratio and the smallest delay margin of
-/// SampledHeadingLoop with hold, servo, latency (including a fraction of a sample) and motor lag,
-/// over
+/// For each mode, computes the smallest damping ratio and the smallest delay margin of the heading
+/// loop (SampledHeadingLoop) with hold, servo, latency (including a fraction of a sample) and motor
+/// lag, over
 ///   - the plants of the 95 % ellipsoid of the model's covariance, projected on the parameters of
-///     the loop (a3, b3, q3, I'z, T), with non-negative exponents and terms. In standard normal
-///     coordinates n the ellipsoid is |n| <= r, r^2 the 0.95 quantile of the chi-squared
-///     distribution with PlantSampler::rank() degrees of freedom;
+///     the loop: a3, b3, q3 of the yaw resistance, I'z, and the servo's time constant T. Plants
+///     with a negative exponent or resistance term are left out. In standard normal coordinates n,
+///     the ellipsoid is |n| <= r. r^2 is the 0.95 quantile of the chi-squared distribution with
+///     PlantSampler::rank() degrees of freedom;
 ///   - all yaw rates in examined_rates_radps();
 ///   - the mass factors of `open`.
 /// Without a covariance, only the identified plant is examined. The heading law always uses the
@@ -47,8 +48,9 @@ class ConfidenceSet {
   std::size_t dimension() const { return directions_.size(); }
   int parameters() const { return parameters_; }
   int rank() const { return sampler_ ? sampler_->rank() : 0; }
-  /// The plant at a point of the unit ball, which is mapped to the confidence ellipsoid; the centre
-  /// is the identified plant. Empty if an exponent or a term of the plant is negative.
+  /// Returns the plant at a point of the unit ball, which is mapped to the confidence ellipsoid.
+  /// The centre of the ball is the identified plant. Empty if an exponent or a resistance term of
+  /// the plant is negative.
   std::optional<Plant<double>> plant_at(std::span<const double> point) const;
 
  private:

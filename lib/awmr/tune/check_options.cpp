@@ -58,8 +58,9 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_se
     }
     if (scenario.held_tau_speed()) {
       faults.push_back({ErrorCode::kUnsupported, "",
-                        fmt::format("scenario '{}' has constant tau_speed, so its speed law "
-                                    "has no target; give speed_mps instead",
+                        fmt::format("scenario '{}' replaces the speed law by a constant tau_speed, "
+                                    "so the gains of this law cannot be tuned; give speed_mps "
+                                    "instead",
                                     scenario.name)});
     }
     if (scenario.control.lqi) {
@@ -158,8 +159,8 @@ void check_late_limits(const TuneOptions& options, std::vector<Fault>& faults) {
                                    std::pair("delayed_damping", &TuningLimits::delayed_damping)}) {
     if (!options.nominal || options.limits.*limit == unchanged.*limit) continue;
     faults.push_back({ErrorCode::kConflict, "",
-                      fmt::format("limits: {} limits the heading loop with latency and motor lag, "
-                                  "which nominal disables; remove one of the two",
+                      fmt::format("limits: {} applies to the heading loop with latency and motor "
+                                  "lag, which nominal disables; remove this limit or nominal",
                                   key)});
   }
 }

@@ -7,7 +7,8 @@
 
 namespace awmr {
 
-/// Errors (input): lists all options that are out of range or contradict another option.
+/// Checks the options of a search. Errors (input): all options that are out of range or contradict
+/// another option.
 Status check_options(const TuneOptions& options, const Vehicle& vehicle);
 
 }  // namespace awmr

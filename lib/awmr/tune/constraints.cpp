@@ -37,7 +37,8 @@ double examined_rate_radps(double share, const ConstraintContext& context) {
   return std::max(share * context.fastest_radps, kSlowest_radps);
 }
 
-/// g3'(r)/I'z, g3'(r) = a3 b3 r^(b3 - 1) + 2 q3 r
+/// Slope of the yaw resistance g3 at the yaw rate r, divided by I'z, 1/s:
+///   g3'(r)/I'z,   g3'(r) = a3 b3 r^(b3 - 1) + 2 q3 r
 double resistance_rate(const Plant<double>& plant, double rate_radps) {
   const Resistance<double>& g3 = plant.yaw;
   return (g3.alpha * g3.beta * std::pow(rate_radps, g3.beta - 1.0) +
@@ -51,7 +52,7 @@ struct ExaminedLoop {
   double rate_radps;
 };
 
-/// The plant at each yaw rate of kRateShares.
+/// Returns the heading loops of a plant at the yaw rates of kRateShares.
 std::vector<ExaminedLoop> at_all_rates(const Plant<double>& plant,
                                        const ConstraintContext& context) {
   std::vector<ExaminedLoop> loops;
@@ -61,7 +62,7 @@ std::vector<ExaminedLoop> at_all_rates(const Plant<double>& plant,
   return loops;
 }
 
-/// Adds each draw at the lowest and the highest yaw rate.
+/// Adds to `loops` the heading loops of each drawn vehicle at the lowest and the highest yaw rate.
 void add_draws(const ConstraintContext& context, std::vector<ExaminedLoop>& loops) {
   const Interval rates = examined_rates_radps(context);
   for (const double rate_radps : {rates.lo, rates.hi}) {
@@ -69,7 +70,8 @@ void add_draws(const ConstraintContext& context, std::vector<ExaminedLoop>& loop
   }
 }
 
-/// Smallest damping ratio over the modes and the loops, computed by `damping`.
+/// Smallest damping ratio of the given heading loops in all tuned modes. `damping` computes the
+/// damping ratio of one loop.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
                        std::span<const ExaminedLoop> loops, double latency_s,
                        double motor_time_constant_s, double (*damping)(const SampledHeadingLoop&)) {
@@ -89,7 +91,8 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
   return worst;
 }
 
-/// Largest tau_turn of the modes steering and differential at steady speed, m.
+/// Largest yaw moments tau_turn, m, that a vehicle can make at steady speed in the modes steering
+/// and differential.
 struct Moments {
   double steering;
   double differential;
@@ -98,15 +101,17 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
   const Plant<double>& plant = vehicle.plant;
   const Interval force = forces_beyond_dead_zone(vehicle);
   const double wheels = driven_wheels(plant);
-  // Force of a wheel at constant speed, plus the compensation of its back-EMF.
+  // Force that each wheel needs for constant speed, including the part that compensates back-EMF.
   const double held = plant.surge(speed_mps) / wheels + plant.back_emf_s_per_m * speed_mps;
   return {.steering = steered_moment_m(vehicle, speed_mps),
           .differential = wheels * plant.half_track_m * std::min(force.hi - held, held - force.lo)};
 }
 
-/// The speed loop of a vehicle with the nominal controller.
+/// Gain and lag of the speed loop of one vehicle. The controller uses the nominal m', so the gain
+/// depends on the vehicle's own m'.
 struct SpeedLoop {
-  double gain_per_s;      ///< (mu_s/eps_s + L) m'_nominal/m', L: bandwidth of the observer
+  /// Gain (mu_s/eps_s + L) m'_nominal/m', with L the bandwidth of the observer.
+  double gain_per_s;
   const char* gain_name;  ///< formula of the gain, for messages
   double lag_s;           ///< T + latency + T_s/2
 };
@@ -123,14 +128,17 @@ SpeedLoop speed_loop(const Gains<double>& gains, const ConstraintContext& contex
 ConstraintReport speed_gain(const SpeedLoop& loop, double sample_time_s) {
   return at_most(
       "speed gain", loop.gain_per_s * sample_time_s, kSpeedGainPerSample,
-      fmt::format("{} T_s <= 0.5: gain margin 4 of the sampled speed loop", loop.gain_name));
+      fmt::format("{} T_s <= 0.5, T_s: sample time; the sampled speed loop then has a gain margin "
+                  "of at least 4",
+                  loop.gain_name));
 }
 
 ConstraintReport speed_lag(const SpeedLoop& loop, double zeta) {
   return at_most(
       "speed lag", loop.gain_per_s * loop.lag_s, 1.0 / (4.0 * zeta * zeta),
-      fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2): damping ratio of the speed loop >= "
-                  "zeta = {:g}; T: larger time constant of servo and motors",
+      fmt::format("{} (T + latency + T_s/2) <= 1/(4 zeta^2), so that the damping ratio of the "
+                  "speed loop is >= zeta = {:g}; T: larger time constant of servo and motors, T_s: "
+                  "sample time",
                   loop.gain_name, zeta));
 }
 
@@ -141,13 +149,13 @@ ConstraintReport noise_gain(const Gains<double>& gains, const ConstraintContext&
       context.plant.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
           context.heading_noise_rad,
       context.limits.noise_share * turning_authority_m(vehicle, context.speed_mps, context.mode),
-      fmt::format("tau_turn due to {:g} deg of heading noise <= {:g} % of the largest "
+      fmt::format("yaw moment that {:g} deg of heading noise requests <= {:g} % of the largest "
                   "yaw moment of the weaker mode, m",
                   degrees(context.heading_noise_rad), 100.0 * context.limits.noise_share));
 }
 
-/// The constraints that are evaluated for one vehicle at a time: all except late damping, delay
-/// margin and steering rate, which are evaluated over all vehicles of the context at once.
+/// The constraints that are evaluated for one vehicle at a time. Late damping, delay margin and
+/// steering rate are not among them: they are evaluated over all vehicles of the context at once.
 std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle) {
@@ -158,10 +166,10 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const SpeedLoop speed = speed_loop(gains, context, plant);
   const bool strict = context.form == ReachingForm::kStrict;
   return {
-      at_most(
-          "T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
-          "epsilon/(2 mu) <= margin/lambda (in s): V = S^2/2 decays faster than the heading error",
-          !strict),
+      at_most("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
+              "epsilon/(2 mu) <= margin/lambda (in s): the square of the sliding variable S "
+              "decays faster than the heading error",
+              !strict),
       at_most("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
               "epsilon/mu <= margin/lambda (in s): the sliding variable S decays faster than the "
               "heading error",

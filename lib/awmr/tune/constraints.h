@@ -14,51 +14,56 @@ namespace awmr {
 
 /// Largest latency, in samples, for which the damping is computed.
 inline constexpr int kMaxLatencySamples = 20;
-/// Share of the modelled resistance that mu I'z and mu_s m' must exceed. It is larger than the
-/// relative model error on trials that `awmr validate` accepts by default (0.15).
+/// mu I'z must exceed this share of the modelled yaw resistance, and mu_s m' this share of the
+/// surge resistance, so that the control laws can compensate model errors. The share is larger than
+/// the relative model error that `awmr validate` accepts by default (0.15).
 inline constexpr double kUnmodelledShare = 0.2;
 inline constexpr const char* kSteeringRate = "steering rate";
-/// Largest permitted (mu_s/eps_s) T_s. The sampled speed loop is unstable from 2 on, so the gain
-/// margin is at least 4.
+/// Largest permitted value of (mu_s/eps_s) T_s, the gain of the speed loop times the sample time.
+/// The sampled speed loop is unstable from 2 on, so the gain margin is at least 4.
 inline constexpr double kSpeedGainPerSample = 0.5;
 
 /// Yaw rates at which the heading loop is examined, as fractions of the highest expected yaw rate
-/// of the runs. Rates below kSlowest_radps, which sensors cannot distinguish from rest, are raised
-/// to it.
+/// of the runs. Yaw rates below kSlowest_radps are replaced by kSlowest_radps, because sensors
+/// cannot distinguish them from rest.
 inline constexpr double kRateShares[] = {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0};
 inline constexpr double kSlowest_radps = radians(1.0);
 
-/// Inputs of the constraints other than the gains.
+/// Inputs of the constraints besides the gains: the plant, the limits of the vehicle, and the
+/// conditions of the runs.
 struct ConstraintContext {
-  ReachingForm form = ReachingForm::kStrict;  ///< the form of T2 < T1 that is required
-  double margin = 0.8;                        ///< reaching time constant <= margin T1, in (0, 1)
-  Plant<double> plant{};                      ///< the identified plant, which the controller uses
-  bool has_steering = true;              ///< false: only wheel-force differences turn the vehicle
-  std::optional<YawMode> mode = {};      ///< the only mode; absent: all modes of the vehicle
+  /// Required form of the condition T2 < T1, T1 = 1/lambda: on the decay of S^2/2 or of S.
+  ReachingForm form = ReachingForm::kStrict;
+  /// Largest ratio of the reaching time constant T2 to T1, in (0, 1).
+  double margin = 0.8;
+  Plant<double> plant{};     ///< the identified plant, which the controller uses
+  bool has_steering = true;  ///< false: only wheel-force differences turn the vehicle
+  /// the only mode that is tuned; absent: all modes of the vehicle
+  std::optional<YawMode> mode = {};
   double sample_time_s = 0.01;           ///< T_s, > 0
   double speed_mps = 1.0;                ///< largest u_d of the scenarios, >= 0
   double step_rad = radians(60.0);       ///< largest change of the commanded heading, >= 0
   double fastest_radps = radians(60.0);  ///< highest yaw rate of the runs, > 0
-  TuningLimits limits = {};              ///< absent steering_rate_rms_degps: no limit of the
-                                         ///< steering rate
+  TuningLimits limits = {};  ///< Without steering_rate_rms_degps, the steering rate has no limit.
   /// Highest rate of the steering servo, deg/s. Infinite without steering.
   double servo_rate_degps = std::numeric_limits<double>::infinity();
   Interval wheel_force{-1.0, 1.0};  ///< range of F', the force of one wheel divided by F_max
-  double heading_noise_rad = radians(1.0);     ///< standard deviation of the noise, >= 0
-  double yaw_rate_noise_radps = radians(0.5);  ///< standard deviation of the noise, >= 0
-  double heading_correlation = 0.0;      ///< correlation of the heading noise between two samples
-                                         ///< T_s apart, [0, 1)
-  double yaw_rate_correlation = 0.0;     ///< correlation of the yaw-rate noise between two samples
-                                         ///< T_s apart, [0, 1)
-  double latency_s = 0.0;                ///< latency of the readings of heading and yaw rate, s, >=
-                                         ///< 0
-  double motor_time_constant_s = 0.0;    ///< first-order lag of the motors, s, >= 0
-  std::vector<DrawnVehicle> draws = {};  ///< drawn vehicles, which must meet the constraints as
-                                         ///< well
+  double heading_noise_rad = radians(1.0);  ///< standard deviation of the heading noise, >= 0
+  /// Standard deviation of the yaw-rate noise, >= 0.
+  double yaw_rate_noise_radps = radians(0.5);
+  /// Correlation of the heading noise between two readings that are T_s apart, [0, 1).
+  double heading_correlation = 0.0;
+  /// Correlation of the yaw-rate noise between two readings that are T_s apart, [0, 1).
+  double yaw_rate_correlation = 0.0;
+  /// Latency of the readings of heading and yaw rate, s, >= 0.
+  double latency_s = 0.0;
+  double motor_time_constant_s = 0.0;  ///< time constant of the motors, s, >= 0
+  /// Drawn vehicles, which must meet the constraints, too.
+  std::vector<DrawnVehicle> draws = {};
 
   /// The nominal vehicle: the identified plant with the vehicle's own wheel forces.
   DrawnVehicle own() const { return {plant, wheel_force}; }
-  /// True if the servo acts in any of the modes.
+  /// True if the steering servo acts in any of the tuned modes.
   bool steers() const { return has_steering && mode != YawMode::kDifferential; }
 };
 
@@ -66,37 +71,41 @@ struct ConstraintContext {
 /// reduced at both ends by the motors' dead zone.
 Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle);
 
-/// Factor k in the yaw moment of the steering, which is proportional to tan(k d_r): 1/2, or 1 with
-/// front-wheel drive.
+/// Factor k in the yaw moment of the steering, which is proportional to tan(k d_r), d_r the
+/// steering angle: 1/2, or 1 with front-wheel drive.
 inline double steering_angle_factor(const Plant<double>& plant) {
   return plant.rear_driven > 0.0 ? 0.5 : 1.0;
 }
 
-/// Largest moment of the steering at the steady speed u_d, m: l_f g1(u_d) tan(factor d_max).
+/// Largest yaw moment of the steering at the steady speed u_d, m: l_f g1(u_d) tan(k d_max), with k
+/// of steering_angle_factor().
 double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 
-/// Largest tau_turn at steady speed u_d, m, of the weaker of the modes steering and differential,
-/// or of `mode` if it is one of these two. A mode without any moment at that speed (steering at
-/// rest) is ignored.
+/// Largest yaw moment tau_turn, m, at the steady speed u_d: of the weaker of the modes steering and
+/// differential, or of `mode` if it is one of these two. A mode without any moment at that speed
+/// (steering at rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
-/// F'max and F'min are the limits after subtracting the dead zone. With front-wheel drive,
-/// tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF, k_e u_d is added to
-/// g1/4.
+/// F'max and F'min are the limits of the wheel force after subtracting the dead zone. With
+/// front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF,
+/// k_e u_d is added to g1/4.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
                            std::optional<YawMode> mode = {});
 
-/// Largest tau_turn at steady speed u_d, m, of the stronger of steering and differential.
+/// Largest yaw moment tau_turn, m, at the steady speed u_d, of the stronger of the modes steering
+/// and differential.
 double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 
-/// Computes every constraint, as value <= limit or value >= limit (ConstraintReport::sense):
+/// Computes every constraint, as value <= limit or value >= limit (ConstraintReport::sense). zeta
+/// is a damping ratio, T_s the sample time:
 ///   T2 < T1 (paper)    eps/(2 mu) <= margin/lambda                                    [paper (95)]
 ///   T2 < T1 (strict)   eps/mu     <= margin/lambda
 ///   heading damping    smallest zeta of the sampled loop >= damping
 ///   late damping       smallest zeta with latency and motor lag, if any, >= late_damping
-///   delay margin       smallest zeta with motor lag, twice the latency and T_s >= delayed_damping
+///   delay margin       smallest zeta with motor lag and a latency of twice the latency plus T_s
+///                      >= delayed_damping
 ///   speed gain         (mu_s/eps_s) T_s <= 0.5
-///   speed lag          (mu_s/eps_s) (T + latency + T_s/2) <= 1/(4 zeta^2)
+///   speed lag          (mu_s/eps_s) (T + latency + T_s/2) <= 1/(4 damping^2)
 ///   mu dominates       mu >= 0.2 g3(r)/I'z, r the highest yaw rate of the runs,
 ///                      g3 of the examined vehicle, I'z nominal                        [paper (88)]
 ///   mu_s dominates     mu_s >= 0.2 g1(u_d)/m', g1 of the examined vehicle,
@@ -104,8 +113,7 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 ///   noise gain         I'z lambda (mu/eps) sigma <= noise_share turning_authority_m(),
 ///                      sigma: standard deviation of the heading noise
 ///   steering rate      steering_rate_rms_degps() (steering_rate.h) <= the limit, if any
-/// damping, late_damping, delayed_damping, noise_share and zeta = damping are those of
-/// TuningLimits.
+/// The limits damping, late_damping, delayed_damping and noise_share are those of TuningLimits.
 ///
 /// Each constraint is reported for the vehicle (nominal or drawn) that is nearest to the limit, or
 /// violates it most. The controller always uses the nominal plant. On a drawn plant, the gain of
@@ -124,30 +132,31 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 /// so z is in [1 - k_s T_s, 1).
 ///
 /// Speed lag: the open loop k_s/(s (1 + tau s)), tau = T + latency + T_s/2, has the closed-loop
-/// polynomial tau s^2 + s + k_s, so zeta = 1/(2 sqrt(k_s tau)). T is the larger of the time
-/// constants of servo and motors.
+/// polynomial tau s^2 + s + k_s, so its damping ratio is 1/(2 sqrt(k_s tau)). T is the larger of
+/// the time constants of servo and motors.
 ///
 /// An observer of bandwidth L is part of the sampled heading loop, and adds no gain on the measured
 /// heading. In the speed loop it replaces k_s by k_s + L: law and observer together command
 /// -(k_s + L) e_u - k_s L integral(e_u), and to first order the lag acts on the first term.
 ///
-/// Noise gain: I'z lambda mu/eps is the gain of the heading law from psi to tau_turn.
+/// Noise gain: I'z lambda mu/eps is the gain of the heading law from the heading psi to the yaw
+/// moment tau_turn.
 ///
 /// I'z mu may exceed the largest yaw moment, because the allocation clips a larger request. The
 /// paper's mu (I'z mu = 0.64 m) does so in every mode.
 std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
                                              const ConstraintContext& context);
 
-/// Returns the heading loop of `plant` at a yaw rate, with hold and servo, without latency and
-/// motor lag. The heading law uses the context's plant.
+/// Returns the heading loop of `plant` at a yaw rate and in a mode, with hold and servo, but
+/// without latency and motor lag. The heading law uses the nominal plant of the context.
 SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintContext& context,
                                 const Plant<double>& plant, double rate_radps, YawMode mode);
 
 /// The lowest and the highest yaw rate at which the heading loop is examined.
 Interval examined_rates_radps(const ConstraintContext& context);
 
-/// Residual of a constraint, -margin/max(|value|, |limit|). It is <= 0 if and only if the
-/// constraint is met.
+/// Residual of a constraint: -margin/max(|value|, |limit|), where the margin is the distance of the
+/// value from its limit. The residual is <= 0 if and only if the constraint is met.
 double residual(const ConstraintReport& constraint);
 
 /// The residual of each required constraint.

@@ -25,9 +25,10 @@ constexpr double kLargestStep_deg = 30.0;
 constexpr double kSmallestStep_deg = 5.0;
 constexpr double kShortestHold_s = 5.0;
 constexpr double kLongestHold_s = 20.0;
-/// Time for which each heading is commanded, divided by the time of the turn (turning_time_s()).
+/// Time for which each heading is commanded, as a multiple of the time that the turn takes
+/// (turning_time_s()).
 constexpr double kHoldOverTurn = 1.6;
-/// Settling time after the turn, as a multiple of the lag of servo or motors plus the latency.
+/// Settling time after the turn, as a multiple of T + latency, T the lag of servo or motors.
 constexpr double kSettlingOverLag = 10.0;
 
 /// Rounds to two significant digits, so that the scenario is easy to read.
@@ -60,11 +61,11 @@ double speed_for(const Model& model, const Plant<double>& plant) {
   return rounded(std::max(speed, 1e-6));
 }
 
-/// Time, s, that the weaker mode takes to turn by an angle:
+/// Returns the time, s, that the weaker mode takes to turn by an angle:
 ///   angle/r + sqrt(angle I'z/N) + 10 (T + latency)
-/// N is the largest moment of the weaker mode, r its steady yaw rate, at most the highest measured
-/// one. The terms are the turn at r, the acceleration by N/I'z, and the settling of the loop; T is
-/// the larger of the time constants of servo and motors.
+/// The terms are the turn at the yaw rate r, the acceleration by N/I'z, and the settling of the
+/// loop. N is the largest moment of the weaker mode. r is the yaw rate of its steady turn, at most
+/// the highest measured yaw rate. T is the larger of the time constants of servo and motors.
 double turning_time_s(const Model& model, const Plant<double>& plant, double speed_mps,
                       double angle_rad) {
   const double moment = turning_authority_m({plant, model.vehicle.wheel_force}, speed_mps);

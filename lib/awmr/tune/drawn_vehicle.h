@@ -8,8 +8,9 @@ namespace awmr {
 
 struct DrawnVehicle {
   Plant<double> plant{};
-  Interval wheel_force{-1.0, 1.0};  ///< range of a wheel's force divided by F_max; the allocation
-                                    ///< clips to it
+  /// Range of the force of one wheel, divided by F_max. The allocation clips the wheel forces to
+  /// it.
+  Interval wheel_force{-1.0, 1.0};
 };
 
 }  // namespace awmr

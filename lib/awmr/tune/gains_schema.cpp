@@ -84,7 +84,7 @@ void describe_quantiles(JsonObject json) {
   }
 }
 
-/// History of a search: the evaluations that improved on all earlier ones.
+/// History of a search: the evaluations whose objective was better than that of all earlier ones.
 void describe_history(JsonObject json) {
   json.number("evaluations", kNonNegative);
   json.number("global_evaluations", kNonNegative);
@@ -137,7 +137,8 @@ void describe_search(JsonObject json) {
   }
   json.string("algorithm");
   json.string("stop_reason");
-  json.optional_string("arithmetic");  // how the runs were rounded: "fused" or "scalar"
+  // Rounding of the simulated runs: "fused" (with fused multiply-add) or "scalar" (without).
+  json.optional_string("arithmetic");
   for (const char* key : {"evaluations", "simulated", "seed"}) json.number(key, kNonNegative);
   if (auto history = json.optional_object("history")) describe_history(*history);
   json.reject_unknown_keys();
@@ -190,7 +191,8 @@ void describe_certificate(JsonObject json) {
   json.reject_unknown_keys();
 }
 
-/// Settling time and control variation of the gains of the search and of named gains.
+/// Settling time and control variation, for the gains on the Pareto front of the search, and for
+/// named gains such as the tuned ones.
 void describe_trade_off(JsonObject json) {
   const auto describe_point = [](JsonObject& point) {
     for (const char* key : {"settling_time_s", "control_variation"})
@@ -217,7 +219,7 @@ void describe_limits(JsonObject json) {
 
 void describe_baseline(JsonObject json) {
   gains_from_json(json);
-  json.optional_string("source");  // "pole-placement", "paper" or a file; absent: the paper's
+  json.optional_string("source");  // source of the baseline; absent: the paper's gains
   json.number("objective");
   describe_scores(json.object("metrics"));
   json.reject_unknown_keys();
@@ -228,7 +230,7 @@ void describe_gains(JsonObject& json) {
   read_provenance(json);
   json.ignore("version");
   gains_from_json(json);
-  // Absent: the gains are for every mode of the vehicle.
+  // Without `mode`, the gains are for every mode of the vehicle.
   if (json.has("mode")) json.choice("mode", kYawModeNames);
   if (auto times = json.optional_object("time_constants")) {
     describe_numbers(*times, {"T1_s", "T2_s"});

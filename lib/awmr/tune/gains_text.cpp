@@ -135,13 +135,13 @@ Json objective_json(const Tuning& tuning, const TuneOptions& options) {
   json["weights"] = Json::object();
   json["formula"] =
       "exp of the mean over modes and scenarios of sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i "
-      "w_i; x0: the baseline's metric in the same mode and scenario; f: a floor below which "
-      "differences do not matter";
+      "w_i; x: metrics with the tuned gains; x0: with the baseline gains in the same mode and "
+      "scenario; w: weights; f: floors, below which differences do not matter";
   if (std::ranges::any_of(options.goals, &TuningGoal::is_soft)) {
     json["formula"] =
         json["formula"].get<std::string>() +
-        "; plus max(0, q - 1) for each soft goal and mode, q: the goal's quantile over "
-        "the draws of the largest ratio of a metric to its limit";
+        "; plus max(0, q - 1) for each soft goal and mode; q: the largest ratio of a metric to its "
+        "limit in the goal, as a quantile over the drawn vehicles";
   }
   json["terms"] = Json::array();
   for (const ObjectiveTerm& term : kObjectiveTerms) {

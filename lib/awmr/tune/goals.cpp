@@ -33,9 +33,9 @@ constexpr RunFigure kFiguresByName[kRunFigures] = {
      [](const Metrics& m, const Scenario&) { return m.steering_rate_rms_degps; }},
 };
 
-/// Excess of each drawn vehicle in one mode (goals.h): the largest over the scenarios, because the
-/// runs of one vehicle are not independent. `outcomes` are sorted by vehicle, then mode, then
-/// scenario.
+/// Returns for each drawn vehicle its excess in one mode, the largest ratio of a metric to its
+/// limit (goals.h). It is the largest over the scenarios, because the runs of one vehicle are not
+/// independent. `outcomes` are sorted by vehicle, then mode, then scenario.
 std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                              std::size_t scenarios) {
   std::vector<double> all;
@@ -51,7 +51,7 @@ std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> 
 /// JSON.
 constexpr double kNoFigure = 1e100;
 
-/// Value of a metric for a run. Precondition: the metric exists.
+/// Value of a metric in one run. Precondition: a metric with this name exists.
 double figure_of_run(std::string_view name, const RunOutcome& outcome) {
   const auto* figure =
       std::ranges::find_if(kFiguresByName, [&](const RunFigure& one) { return one.name == name; });

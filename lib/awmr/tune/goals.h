@@ -1,5 +1,6 @@
 /// Evaluation of tuning goals (TuningGoal), such as "95 % of the draws settle within 2 s and
-/// overshoot by at most 1 deg". Private to tune/.
+/// overshoot by at most 1 deg". A draw is a vehicle that is drawn from the model's covariance.
+/// Private to tune/.
 ///
 /// The excess of a run is e = max_i x_i/l_i: the largest ratio of a metric x_i to its limit l_i. It
 /// is infinite if the run breaks off or a metric is not finite. The excess of a draw is the largest
@@ -20,37 +21,39 @@
 
 namespace awmr {
 
-/// Metrics of a run that goals can limit ("figures", with their names in tune.json).
+/// Number of metrics of a run that goals can limit. run_figure_names() has their names in
+/// tune.json.
 inline constexpr std::size_t kRunFigures = 6;  ///< number of names in run_figure_names()
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
-/// Metrics of a run for goals and evaluation. The metrics of the objective are others
-/// (kObjectiveTerms).
+/// The metrics of a run that goals can limit and the evaluation reports. (The objective uses other
+/// metrics, see kObjectiveTerms.)
 struct RunOutcome {
   YawMode mode{};
   bool completed = false;  ///< true if the run settles after every heading step
-  bool broke_off = false;  ///< the run broke off; the metrics are those up to that time
-  /// In the order of run_figure_names(). The settling time of a run that does not settle is the
-  /// scenario's duration.
+  bool broke_off = false;  ///< true: the run broke off, so the metrics end there
+  /// Values of the metrics, in the order of run_figure_names(). The settling time of a run that
+  /// does not settle is the scenario's duration.
   std::array<double, kRunFigures> figures{};
 };
-/// The runs of one set of gains, sorted by draw, then mode, then scenario.
+/// The runs of one set of gains, sorted by drawn vehicle, then mode, then scenario.
 struct EvaluatedRuns {
   std::string gains;  ///< name of the gains, as in EvaluatedGains::gains
   std::vector<RunOutcome> outcomes;
 };
 
-/// Returns the metrics of a run that goals and evaluation need.
+/// Selects the metrics that goals and evaluation need from the score of a run.
 RunOutcome outcome_of(const ModeScore& score, const Scenario& scenario);
-/// outcome_of() for many runs. `scores` are sorted by draw, then mode, then scenario.
+/// outcome_of() for many runs. `scores` are sorted by drawn vehicle, then mode, then scenario.
 std::vector<RunOutcome> outcomes_of(std::span<const ModeScore> scores,
                                     std::span<const Scenario> scenarios);
 
 /// Describes a goal: "settling_time_s <= 2, overshoot_deg <= 1 in 95 % of draws".
 std::string in_words(const TuningGoal& goal);
 
-/// The excess of a run, >= 0 (see above). At most 1 if the run meets every limit of the goal.
+/// Returns the excess of a run, >= 0: the largest ratio of a metric to its limit in the goal. It is
+/// at most 1 if the run meets every limit.
 double excess_of(const TuningGoal& goal, const RunOutcome& outcome);
 
 /// A goal in one of the modes in which it must be met.
@@ -59,15 +62,17 @@ struct GoalInMode {
   YawMode mode{};
   std::string name() const;  ///< name of the goal in constraints and messages
 };
-/// Pairs each goal with each of its modes that is in `modes`. Sorted by goal, then mode.
+/// Returns each goal once for each of `modes` in which it must be met, sorted by goal, then mode.
 std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);
 
-/// Returns the quantile, over the draws, of the excess in the goal's mode, >= 0. The goal is met if
-/// the quantile is at most 1. `outcomes` are sorted by draw, then mode, then scenario.
+/// Returns a quantile of the excess in the goal's mode over the drawn vehicles, >= 0, for the
+/// goal's required share. The goal is met if the quantile is at most 1. `outcomes` are sorted by
+/// drawn vehicle, then mode, then scenario.
 double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                           std::size_t scenarios);
 
-/// Counts the draws that meet every limit of the goal in its mode, and determines the verdict.
+/// Counts the drawn vehicles that meet every limit of the goal in its mode, and determines the
+/// verdict.
 EvaluatedGoal evaluate_goal(const GoalInMode& one, const EvaluatedRuns& runs,
                             std::size_t scenarios);
 

@@ -18,18 +18,18 @@
 namespace awmr {
 namespace {
 
-/// The number of runs per batch is a multiple of this: one vector register holds two (NEON), four
-/// (AVX2) or eight (AVX-512) runs.
+/// The number of runs per batch is a multiple of this, so that few lanes of the vector registers
+/// stay empty: a register holds two (NEON), four (AVX2) or eight (AVX-512) runs.
 constexpr std::size_t kFour = 4;
 
-/// Number of runs per batch, small enough that every thread gets a batch. `count`: number of runs
-/// in each scenario.
+/// Returns the number of runs per batch, small enough that every thread gets a batch. `count`:
+/// number of runs in each scenario.
 std::size_t runs_together(std::size_t count, std::size_t scenarios) {
   const std::size_t share = count * scenarios / thread_count(0) + 1;
   return std::min(kBatchRuns, (share + kFour - 1) / kFour * kFour);
 }
 
-/// Metrics of a run that diverges, computed from its rows before the failure.
+/// Metrics of a run that diverges, computed from the samples before it diverges.
 Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
                           const ObjectiveSetting& setting) {
   return drive_batch(std::span(&run, 1), scenario, setting.vehicle.sample_time_s,
@@ -199,8 +199,9 @@ Evaluation Objective::operator()(const Gains<double>& gains) const {
   return (*this)(std::span(&gains, 1)).front();
 }
 
-/// Adds the objective and the relative activity of one mode; returns ln J of the mode. The scores
-/// are sorted by vehicle, then mode, then scenario.
+/// Adds the objective of one mode to `evaluation`, and its control variation as a multiple of that
+/// of the baseline. Returns the logarithm of the mode's objective. The scores are sorted by
+/// vehicle, then mode, then scenario.
 double Objective::evaluate_mode(std::span<const ModeScore> scores, std::size_t mode,
                                 Evaluation& evaluation) const {
   const std::size_t scenarios = setting_.scenarios.size();

@@ -57,25 +57,27 @@ inline constexpr ObjectiveTerm kObjectiveTerms[] = {
 double unsettled_s(const Scenario& scenario, double itae_degs2);
 
 /// The metrics x_i of one run, in the order of kObjectiveTerms. An absent settling time is replaced
-/// by ModeScore::unsettled_s; any other absent metric is 0.
+/// by ModeScore::unsettled_s, any other absent metric by 0.
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score);
 
-/// J of one run; exactly 1 with the baseline gains. Infinite or NaN if a metric is.
+/// Returns the objective J of one run. It is exactly 1 with the baseline gains, and infinite or NaN
+/// if a metric is.
 double objective_of(const ModeScore& score, const ModeScore& baseline,
                     const ObjectiveWeights& weights);
 
-/// `mode` if given, else all modes of the vehicle.
+/// Returns the modes that are tuned: `mode` if it is given, else all modes of the vehicle.
 std::span<const YawMode> tuned_modes(const Vehicle& vehicle, std::optional<YawMode> mode);
 
-/// Vehicles, modes and scenarios that the gains are scored on.
+/// Vehicles, modes and scenarios in which the gains are scored.
 struct ObjectiveSetting {
-  std::vector<DrawnVehicle> vehicles;  ///< not empty; the controller uses the plant of the first
+  /// Not empty. The first is the nominal vehicle, whose plant the controller uses.
+  std::vector<DrawnVehicle> vehicles;
   Vehicle vehicle;
   ObjectiveWeights weights;
-  std::vector<Scenario> scenarios;  ///< with heading guidance; not empty
-  double tail_share = 1.0;          ///< share of the vehicles that counts as worst, (0, 1]
-  std::uint64_t seed = 0;           ///< selects the random numbers, together with the vehicle's
-                                    ///< index
+  std::vector<Scenario> scenarios;  ///< scenarios with heading guidance; not empty
+  double tail_share = 1.0;  ///< fraction of the vehicles in the tail, the worst ones, (0, 1]
+  /// The seed and the index of a vehicle select its random numbers.
+  std::uint64_t seed = 0;
   BatchArithmetic arithmetic = {};  ///< instruction set and rounding of the runs
   std::vector<TuningGoal> goals = {};
   std::optional<YawMode> mode = {};  ///< the only mode to score; absent: all modes of the vehicle
@@ -92,17 +94,21 @@ RunNoise draw_noise(const ObjectiveSetting& setting);
 
 /// Objective and metrics of one set of gains.
 struct Evaluation {
-  std::vector<ModeScore> scores;       ///< scores of the first vehicle, sorted by mode, then
-                                       ///< scenario
-  std::vector<double> mode_objective;  ///< geometric mean over scenarios, in the order of modes()
-  std::vector<double> mode_activity;   ///< by mode: sum of the control variation of all runs,
-                                       ///< divided by the sum with the baseline gains
-  std::vector<double> goal_quantile;   ///< quantile of the excess, by goal, then mode (goals.h);
-                                       ///< a goal is met if it is at most 1
-  TradeOffPoint trade_off;             ///< settling time and control variation, as means over all
-                                       ///< runs
-  double objective = 0.0;  ///< geometric mean over the modes, plus soft goals; finite if `valid`
-  bool valid = false;      ///< the objective is finite, and no run breaks off
+  /// Scores of the first vehicle, sorted by mode, then scenario.
+  std::vector<ModeScore> scores;
+  /// Geometric mean of the objective over scenarios, in the order of modes().
+  std::vector<double> mode_objective;
+  /// For each mode, the sum of the control variation of all runs, divided by that of the baseline.
+  std::vector<double> mode_activity;
+  /// Quantile of the excess of each goal in each mode (goals.h), sorted by goal, then mode. A goal
+  /// is met if it is at most 1.
+  std::vector<double> goal_quantile;
+  /// Settling time and control variation, as means over all runs.
+  TradeOffPoint trade_off;
+  /// Geometric mean of the objective over the modes, plus the terms of soft goals. Finite if
+  /// `valid`.
+  double objective = 0.0;
+  bool valid = false;  ///< true: the objective is finite, and no run breaks off
 };
 
 /// Evaluates gains. Not thread-safe; the runs of a call are distributed over the cores.
@@ -128,7 +134,8 @@ class Objective {
 
   ObjectiveSetting setting_;
   RunNoise noise_;
-  std::vector<ModeScore> baseline_scores_;  ///< by vehicle, then mode, then scenario
+  /// Scores of the baseline gains, sorted by vehicle, then mode, then scenario.
+  std::vector<ModeScore> baseline_scores_;
   Evaluation baseline_;
   /// Cache of evaluations by the values of the gains: the stages of a search repeat some gains.
   using GainNumbers = std::array<double, sizeof(Gains<double>) / sizeof(double)>;
@@ -140,8 +147,8 @@ class Objective {
 std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, const RunNoise& noise,
                                             std::span<const Gains<double>> gains);
 
-/// (mean of all values + mean of the tail)/2. The tail is the largest `tail_share` of the values,
-/// at least one.
+/// Returns the average of two means: over all values, and over the tail. The tail is the largest
+/// `tail_share` of the values, at least one value.
 double mean_and_tail(std::vector<double> values, double tail_share);
 
 }  // namespace awmr

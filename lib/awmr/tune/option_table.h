@@ -20,7 +20,8 @@ inline constexpr NumberRule kBetweenZeroAndOne{
 /// Range of the limits on damping ratios and of noise_share. A limit below 1e-6 would have no
 /// effect.
 inline constexpr NumberRule kLimitShare{.min = 1e-6, .max = 1.0};
-/// Limit of a metric in a goal, and the share of the draws that must meet it.
+/// Ranges of two numbers of a goal: the limit of a metric, and the required share of drawn
+/// vehicles.
 inline constexpr NumberRule kGoalLimit{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kGoalShare{.min = kMinGoalShare, .max = kMaxGoalShare};
 inline constexpr NumberRule kMassFactor{.min = kMinMassFactor, .max = kMaxMassFactor};
@@ -63,7 +64,8 @@ inline bool has_weight(const ObjectiveWeights& weights) {
   return has;
 }
 
-/// Keys of /bounds. The range applies to both ends of each interval.
+/// Keys of /bounds in tune.json: the intervals in which the gains are searched. The number range
+/// applies to both ends of each interval.
 template <class Bounds, class Field>
 void bound_options(Bounds& bounds, const Field& field) {
   field("lambda", bounds.lambda, kUpToAMillion);

@@ -10,16 +10,17 @@
 namespace awmr {
 namespace {
 
-/// Grid of the search: 13 ratios lambda/k, each sqrt(1/2) times the one before; for each ratio 54
-/// values of k downwards from 1/T_s, each 2^(-1/4) times the one before.
+/// Grid of the search for the heading poles -lambda and -k, k = mu/epsilon: 13 ratios lambda/k,
+/// each sqrt(1/2) times the one before; for each ratio 54 values of k downwards from 1/T_s, each
+/// 2^(-1/4) times the one before.
 constexpr int kRatios = 13;
 const double kRatioStep = std::sqrt(0.5);
 const double kRateStep = std::pow(0.5, 0.25);
 constexpr int kRates = 54;
 constexpr int kBisections = 6;
-/// Factor on a limit, so that rounding errors do not violate the limit.
+/// Factor on the limits of the constraints, so that rounding errors do not violate a limit.
 constexpr double kInside = 1.0 - 1e-9;
-/// Smallest mu (rad/s^2) and mu_s (m/s^2) if the resistance is 0.
+/// Smallest mu (rad/s^2) and mu_s (m/s^2), used if the vehicle has no resistance.
 constexpr double kMinMu = 1e-3;
 
 const ConstraintReport& named(const std::vector<ConstraintReport>& all, std::string_view name) {
@@ -37,9 +38,9 @@ double least_mu(const ConstraintReport& dominates) {
 }
 
 /// Returns the speed gains with the fastest pole. `at_one`: the constraints, evaluated with all
-/// gains equal to 1. Their values are proportional to the rate, so the largest permitted rate
-/// follows by division. This rate is the sum of the rates of the law (mu_s/eps_s) and of the
-/// observer.
+/// gains equal to 1. The constraints on the speed loop limit the sum of mu_s/eps_s and the
+/// bandwidth of the observer. Their values are proportional to this sum, so the largest sum follows
+/// by division.
 SpeedGains<double> place_speed_pole(const std::vector<ConstraintReport>& at_one,
                                     double observer_radps) {
   constexpr double kMinRate = 1e-3;
@@ -75,8 +76,8 @@ class HeadingPoles {
   }
 
   bool is_met(const Gains<double>& gains) {
-    // The drawn vehicles are examined, which takes longer, only if the model's own plant meets the
-    // constraints.
+    // The drawn vehicles are examined only if the nominal vehicle meets the constraints, because it
+    // takes longer.
     double broken = violation(gains, own_);
     if (broken <= 0.0 && !context_.draws.empty()) broken = violation(gains, context_);
     if (broken < least_broken_) {
@@ -86,8 +87,8 @@ class HeadingPoles {
     return broken <= 0.0;
   }
 
-  /// Searches the largest feasible k of a ratio lambda/k, from 1/T_s downwards. Stops if lambda
-  /// would not exceed the largest one found so far.
+  /// Searches the largest k = mu/epsilon, from 1/T_s downwards, that meets every constraint at a
+  /// fixed ratio lambda/k. Stops if lambda would not exceed the largest lambda found so far.
   void look_along(double ratio) {
     double k = 1.0 / context_.sample_time_s;
     const auto is_behind = [&](double rate) {
@@ -108,7 +109,7 @@ class HeadingPoles {
   }
 
   const ConstraintContext& context_;
-  ConstraintContext own_;  ///< the context without its drawn vehicles
+  ConstraintContext own_;  ///< the nominal vehicle without the drawn ones
   SpeedGains<double> speed_;
   double mu_;
   ObserverGains<double> observer_;
@@ -118,8 +119,9 @@ class HeadingPoles {
   double least_broken_ = std::numeric_limits<double>::infinity();
 };
 
-/// Returns gains with the same poles, whose boundary layers contain the initial errors S = lambda e
-/// (e: the largest heading step) and e_u = u_d, so that only the actuators saturate, not the laws:
+/// Returns gains with the same poles, whose boundary layers contain the errors at the start of a
+/// scenario, S = lambda e (e: the largest heading step) and e_u = u_d. Then only the actuators
+/// saturate, not the control laws. With k = mu/epsilon and k_s = mu_s/epsilon_s, the conditions are
 ///   mu >= lambda k e,   mu_s >= k_s u_d
 Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context) {
   const double k = gains.heading.mu / gains.heading.epsilon;

@@ -14,10 +14,11 @@
 namespace awmr {
 namespace {
 
-/// A point that was not simulated, or whose runs break off, gets the value kRejected + violation,
-/// which is larger than the objective of any useful gains.
+/// NLopt minimises one number for each point. A point that was not simulated, or whose runs break
+/// off, has the number kRejected + violation, which is larger than the objective of any useful
+/// gains.
 constexpr double kRejected = 1e3;
-/// Added to the violation of every limit if a run breaks off.
+/// Added to the residuals of all constraints if a run breaks off.
 constexpr double kInvalid = 1.0;
 
 }  // namespace
@@ -166,7 +167,8 @@ std::vector<Looked> Problem::look_at(std::span<const Point> points) {
   if (options_.progress) {
     const auto total = static_cast<std::size_t>(options_.global_evaluations) +
                        static_cast<std::size_t>(options_.local_evaluations);
-    // Evaluations of the starts are not in the budget, so the count can exceed it.
+    // The evaluations at the starts of the search are not part of the budget, so the count can
+    // exceed it.
     options_.progress(std::min(static_cast<std::size_t>(evaluations), total), total);
   }
   return all;

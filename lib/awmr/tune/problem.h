@@ -14,16 +14,17 @@
 
 namespace awmr {
 
-/// Number of searched values: lambda, mu, epsilon, mu_s, epsilon_s and the observer's bandwidth.
+/// Largest number of searched values: lambda, mu, epsilon, mu_s, epsilon_s and the observer's
+/// bandwidth.
 inline constexpr unsigned kMaxDimensions = 6;
 /// Natural logarithms of the searched values; the last one is 0 if no observer is searched.
 using Point = std::array<double, kMaxDimensions>;
 
-/// Fills in each absent bound: from the smallest value of the gain among `gains`, divided by
-/// kBoundFactor, to the largest value times kBoundFactor.
+/// Fills in each absent bound of a gain. The lower bound is the smallest value of this gain in
+/// `gains` divided by kBoundFactor, the upper bound its largest value times kBoundFactor.
 void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds);
 
-/// Box of the logarithms of the gains, and conversions between points and gains.
+/// Ranges of the logarithms of the gains, and conversions between points and gains.
 class SearchSpace {
  public:
   /// Precondition: all bounds and the observer's limits are set.
@@ -33,7 +34,7 @@ class SearchSpace {
   /// The corners of the bounds.
   Point lower_corner() const;
   Point upper_corner() const;
-  /// Gains at the point, clamped to the bounds because exp() rounds.
+  /// Returns the gains at the point. They are clamped to the bounds, because exp() rounds.
   Gains<double> gains_at(const Point& point) const;
   Point point_of(const Gains<double>& gains) const;
 
@@ -49,8 +50,9 @@ struct Candidate {
   /// if it is <= 0.
   double violation = 0.0;
   double objective = 0.0;  ///< value of the objective; meaningful only if `simulated`
-  bool simulated = false;  ///< false: a constraint is violated, so nothing was simulated
-  bool valid = false;      ///< the objective is finite, and no run breaks off
+  /// True if the runs were simulated. False if a constraint is violated before any run.
+  bool simulated = false;
+  bool valid = false;  ///< true: the objective is finite, and no run breaks off
 
   bool feasible() const { return simulated && valid && violation <= 0.0; }
 };
@@ -63,7 +65,7 @@ bool better(const Candidate& a, const Candidate& b);
 struct Looked {
   Point point{};
   Candidate candidate{};
-  std::vector<double> residuals{};  ///< in the order of Problem::names()
+  std::vector<double> residuals{};  ///< one for each of Problem::names()
 
   /// Value that NLopt minimises: the objective, or a larger number if the point has no valid runs.
   double value() const;
@@ -74,24 +76,27 @@ class Problem {
  public:
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective);
 
-  /// Names of the residuals: the required constraints, then for each mode the limit of the control
-  /// activity (`activity_max`), then the goals that are not soft.
+  /// Names of the residuals: of the required constraints, then for each mode of the limit of its
+  /// control variation (`activity_max`), then of the goals that are not soft.
   const std::vector<std::string>& names() const { return names_; }
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
-  /// True: points that violate a constraint are simulated, too. The local search needs their
-  /// objective.
+  /// True: points that violate a constraint are also simulated, because the local search needs
+  /// their objective.
   bool simulate_all = false;
-  /// For each constraint, the residual up to which it counts as met. 0, except for the constraint
-  /// that active_constraints() relaxes.
+  /// For each constraint, the largest residual with which it counts as met: 0, except for a
+  /// constraint that active_constraints() relaxes.
   std::vector<double> tolerated;
-  Candidate nearest;               ///< the best candidate so far, in the order of better()
-  int evaluations = 0;             ///< number of evaluated points
-  int simulated = 0;               ///< number of points whose runs were simulated
-  std::vector<TradeOffPoint> met;  ///< trade-off of all feasible points
-  std::vector<SearchStep> steps;   ///< the evaluations that improved on all earlier ones
+  Candidate nearest;    ///< the best candidate so far, in the order of better()
+  int evaluations = 0;  ///< number of evaluated points
+  int simulated = 0;    ///< number of points whose runs were simulated
+  /// Settling time and control variation of all feasible points.
+  std::vector<TradeOffPoint> met;
+  /// Evaluations whose objective was better than that of all earlier ones.
+  std::vector<SearchStep> steps;
 
-  /// Evaluates the points and simulates their runs together. Returns the results in their order.
+  /// Evaluates the points, and simulates the runs of all of them together. Returns the results in
+  /// the order of the points.
   std::vector<Looked> look_at(std::span<const Point> points);
 
  private:
@@ -103,10 +108,11 @@ class Problem {
   const ConstraintContext& context_;
   const Objective& objective_;
   std::vector<std::string> names_;
-  std::optional<std::size_t> steering_rate_;  ///< index of the steering-rate limit in names_
-  std::size_t before_runs_ = 0;               ///< number of constraints that need no simulation
-  std::vector<std::size_t> hard_goals_;       ///< indices in Evaluation::goal_quantile of the goals
-                                              ///< that are not soft
+  /// Index in names_ of the limit of the steering rate.
+  std::optional<std::size_t> steering_rate_;
+  std::size_t before_runs_ = 0;  ///< number of constraints without simulation
+  /// Indices in Evaluation::goal_quantile of the goals that are not soft.
+  std::vector<std::size_t> hard_goals_;
 };
 
 }  // namespace awmr

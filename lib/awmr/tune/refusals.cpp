@@ -31,8 +31,8 @@ std::string in_words(const Gains<double>& g) {
       g.observer.is_on() ? fmt::format(", observer {:.4g} rad/s", g.observer.bandwidth_radps) : "");
 }
 
-/// Text such as " 32 % of the runs settle with these gains. This change lets the runs settle (...):
-/// ...". Empty if enough runs settle.
+/// Returns text such as " 32 % of the runs settle with these gains. This change lets the runs
+/// settle (...): ...". Empty if enough runs settle.
 std::string unsettled_text(const Objective& objective, const ConstraintContext& context,
                            const Gains<double>& gains) {
   ObjectiveSetting setting = on_few_vehicles(objective.setting());
@@ -72,7 +72,7 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
           goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
           e.goal_quantile[worst], unsettled_text(objective, context, found.nearest.gains),
           is_rate_limited ? "; one default scenario is slow, because it limits the heading rate to "
-                            "the measured one: " +
+                            "the highest measured yaw rate: " +
                                 option_text("heading_rate_limit") + " none removes that scenario"
                           : ""));
 }

@@ -1,5 +1,6 @@
-/// Errors of a search without a result. They name the constraint that no gains meet and the limit
-/// to relax; the place is its pointer in tune.json (TuneOptions::file). Private to tune/.
+/// Errors for searches that find no gains. The message names the constraint that no gains meet, and
+/// the limit to relax. The error's place is the JSON pointer of this limit in tune.json
+/// (TuneOptions::file). Private to tune/.
 #pragma once
 
 #include <vector>
@@ -11,19 +12,19 @@
 
 namespace awmr {
 
-/// Error if no gains meet the constraints that need no simulation: names the constraint that the
-/// gains with the smallest violation, `nearest`, violate most, and every change of a single limit
-/// or bound in `requested` that alone permits gains.
+/// Error if no gains meet the constraints that need no simulation. `nearest`: the gains with the
+/// smallest violation. The message names the constraint that they violate most, and each change of
+/// a single limit or bound in `requested` that alone permits gains.
 tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintContext& context,
                                  const TuneOptions& requested);
 
-/// Error if no gains meet the limits that need simulated runs: names the goal, activity limit or
-/// constraint that the gains with the smallest violation violate most.
+/// Error if no gains meet the limits that need simulated runs. The message names what the gains
+/// with the smallest violation miss most: a goal, an activity limit or a constraint.
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,
                                 const ConstraintContext& context, const TuneOptions& requested);
 
-/// Error if gains meet every limit but none of the `runs` runs settles: names the `changes` with
-/// which runs settle.
+/// Error if gains meet every limit but none of the `runs` runs settles. The message names the
+/// `changes` with which runs settle.
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,
                                     const std::vector<SettlingChange>& changes,
                                     const TuneOptions& requested);

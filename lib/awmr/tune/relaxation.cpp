@@ -17,13 +17,13 @@
 namespace awmr {
 namespace {
 
-/// A limit of tune.json with the constraints that it sets.
+/// A limit of tune.json, with the constraints whose bounds depend on it.
 struct Limit {
   const char* key;
   double& (*of)(ConstraintContext& context);
   NumberRule rule;
   std::vector<std::string> constraints;
-  bool relaxed_by_less;  ///< true: a smaller number permits more gains
+  bool relaxed_by_less;  ///< true: the limit is less strict if its number is smaller
 };
 
 const std::vector<Limit>& limits() {
@@ -61,22 +61,22 @@ const std::vector<Limit>& limits() {
   return table;
 }
 
-/// True if the constraint is one of those that the limit sets.
+/// True if the constraint's bound depends on the limit.
 bool sets(const Limit& limit, std::string_view constraint) {
   return std::ranges::find(limit.constraints, constraint) != limit.constraints.end();
 }
 
-/// The limit that sets a constraint; null if there is none.
+/// Returns the limit on which a constraint's bound depends; null if there is none.
 const Limit* limit_of(std::string_view constraint) {
   const auto found =
       std::ranges::find_if(limits(), [&](const Limit& limit) { return sets(limit, constraint); });
   return found == limits().end() ? nullptr : &*found;
 }
 
-/// Returns the value of a limit in tune.json with which given gains just meet the constraints that
-/// this limit sets. `number`: present value of the limit; `all`: constraints of the gains,
-/// evaluated with this value. The speed lag is bounded by 1/(4 zeta^2), with zeta the value in
-/// tune.json. Every other bound is proportional to its value in tune.json.
+/// Returns the value of a limit with which given gains just meet the constraints that depend on it.
+/// `number`: present value of the limit; `all`: the constraints of these gains, evaluated with the
+/// present value. The bound of the speed lag is 1/(4 zeta^2), where zeta is the limit. All other
+/// bounds are proportional to their limit.
 double just_met(const Limit& limit, double number, const std::vector<ConstraintReport>& all) {
   double ratio = 1.0;
   for (const ConstraintReport& c : all) {
@@ -87,7 +87,7 @@ double just_met(const Limit& limit, double number, const std::vector<ConstraintR
   return number * ratio;
 }
 
-/// Rounds to two digits, so that the rounded limit is the less strict one.
+/// Rounds a limit to two digits, in the direction that makes it less strict.
 double in_two_digits(const Limit& limit, double number) {
   const double digit = std::pow(10.0, std::floor(std::log10(std::abs(number))) - 1.0);
   return digit * (limit.relaxed_by_less ? std::floor(number / digit) : std::ceil(number / digit));
@@ -159,8 +159,9 @@ std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& c
 
 namespace {
 
-/// Returns gains from which tune() could start its search under the limits of `context`. Searches
-/// like feasible_start(), but from fewer initial guesses. Empty if none are found.
+/// Returns gains that meet the constraints of `context`, from which tune() could start its search.
+/// Searches like feasible_start(), but from fewer initial guesses. Empty if no such gains are
+/// found.
 std::optional<Gains<double>> start_with(TuneOptions options, const ConstraintContext& context) {
   const std::array<Gains<double>, 2> poles = starting_poles(context);
   bound_around(poles, options.bounds);
@@ -168,8 +169,8 @@ std::optional<Gains<double>> start_with(TuneOptions options, const ConstraintCon
 }
 
 /// Returns gains that meet all limits of `context` except `limit`, and violate `limit` as little as
-/// possible. Empty if none are found. `loosest`: the same context with `limit` at its least strict
-/// value.
+/// possible. Empty if no such gains are found. `loosest`: the same context, but with the least
+/// strict value of `limit`.
 std::optional<Gains<double>> start_without(const Limit& limit, TuneOptions options,
                                            const ConstraintContext& context,
                                            const ConstraintContext& loosest,
@@ -180,10 +181,10 @@ std::optional<Gains<double>> start_without(const Limit& limit, TuneOptions optio
   return found ? found : least_relaxed(options, context, nearest, limit.constraints);
 }
 
-/// Returns a value for `limit`, less strict than that of `context`, with which the search for a
-/// start finds gains; empty if there is none. The first value tried is the one that some gains just
-/// meet. The search can fail with this value, because the default bounds of the gains depend on the
-/// limit. The value is then made less strict until the search succeeds.
+/// Returns a less strict value of `limit` with which tune() finds gains to start its search. Empty
+/// if there is none. The first value that is tried is the one that some gains just meet. With this
+/// value, the search for a start can fail, because the default bounds of the gains depend on the
+/// limit. Then the value is made less strict until the search succeeds.
 std::optional<double> number_that_permits(const Limit& limit, const ConstraintContext& context,
                                           const Gains<double>& nearest,
                                           const TuneOptions& requested) {

@@ -1,5 +1,5 @@
-/// Changes of the limits and bounds in tune.json with which gains meet the constraints. Private to
-/// tune/.
+/// Finds changes of the limits and bounds in tune.json that make the constraints feasible. Private
+/// to tune/.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// Text of messages about confirmed changes. The smallest change is not searched, because each try
-/// takes up to some seconds.
+/// Note in messages that propose changes. The smallest sufficient change is not searched, because
+/// each try takes up to some seconds.
 inline constexpr const char* kSmallerMaySuffice = "smaller changes may also suffice";
 
 /// Advice for a constraint that no gains meet: the limit to relax or, for a constraint without a
@@ -23,9 +23,10 @@ std::string pointer_to(const std::string& constraint);
 
 /// A limit of tune.json, set to a less strict value.
 struct RelaxedLimit {
-  const char* key;            ///< "limits/damping"
-  double number;              ///< the new value of the limit
-  bool is_steering_rate;      ///< the limit is limits/steering_rate_rms_degps
+  const char* key;  ///< "limits/damping"
+  double number;    ///< the new value of the limit
+  /// True if the limit is limits/steering_rate_rms_degps.
+  bool is_steering_rate;
   ConstraintContext context;  ///< the context in which the limit has this value
 };
 
@@ -35,11 +36,11 @@ struct RelaxedLimit {
 ///     the servo
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);
 
-/// Changes of one limit, of one requested bound or of `form`, each of which alone permits gains
-/// that meet the constraints that need no simulation: "`limits/late_damping` 0.55". Each change is
-/// confirmed by a search for such gains. It is the search by which tune() finds its start, but with
-/// fewer initial guesses. `nearest`: gains with the smallest violation; they serve as a further
-/// initial guess.
+/// Returns the changes of tune.json, as text such as "`limits/late_damping` 0.55", each of which
+/// alone permits gains that meet the constraints that need no simulation. A change is a new value
+/// of one limit, of one requested bound or of `form`. Each change is confirmed by the search with
+/// which tune() finds its first gains, but from fewer initial guesses. `nearest`: the gains with
+/// the smallest violation, used as a further initial guess.
 std::vector<std::string> single_changes(const Gains<double>& nearest,
                                         const ConstraintContext& context,
                                         const TuneOptions& requested);

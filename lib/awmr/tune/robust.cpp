@@ -28,7 +28,7 @@ EvaluatedFigure figure_of(const std::string& name, std::vector<double> values, d
           worst / static_cast<double>(tail)};
 }
 
-/// Statistics of one set of gains in one mode over all draws.
+/// Statistics of one set of gains in one mode over all drawn vehicles.
 EvaluatedGains evaluate(const EvaluatedRuns& runs, YawMode mode, double tail_share) {
   EvaluatedGains result{.gains = runs.gains, .mode = mode, .figures = {}, .scenario = {}};
   std::array<std::vector<double>, kRunFigures> values;
@@ -55,9 +55,9 @@ EvaluatedRuns in_scenario(const EvaluatedRuns& runs, std::size_t scenario, std::
   return of_one;
 }
 
-/// Applies the unmodelled variation (payload, battery voltage) of drawn vehicle `number` (1, 2,
-/// ...). The mass factor changes from each vehicle to the next, the wheel-force range each time all
-/// mass factors were used.
+/// Applies the unmodelled variation (payload, battery voltage) to drawn vehicle `number` (1, 2,
+/// ...). The mass factor changes from each vehicle to the next. The wheel-force range changes after
+/// all mass factors were used with it.
 void open_up(const UnmodelledVariation& open, std::size_t number, DrawnVehicle& vehicle) {
   const std::size_t turn = (number - 1) % open.combinations();
   const std::size_t masses = std::max<std::size_t>(1, open.mass_factors.size());
@@ -77,10 +77,11 @@ std::size_t UnmodelledVariation::combinations() const {
 
 namespace {
 
-/// Sampler of the model's covariance that ignores mass_norm_by_grip, the larger m' that the tyres'
-/// grip implies (three times the identified m' for the paper's vehicle). The gains must meet the
-/// constraints on all draws, so draws with this m' would make the gains slower for every mass.
-/// Users can request such draws with `mass_factors`.
+/// Returns a sampler of the model's covariance that ignores mass_norm_by_grip, a larger m' (three
+/// times the identified m' for the paper's vehicle). It is the m' with which a coast-down does not
+/// need more grip than tyres have. The gains must meet the constraints on all draws, so draws with
+/// this m' would make the gains slower for every mass. Users can request such draws with
+/// `mass_factors`.
 Result<PlantSampler> sampler_of(Model model) {
   model.mass_norm_by_grip.reset();
   return PlantSampler::make(model);

@@ -1,5 +1,5 @@
-/// Vehicles drawn from the model's covariance, and the evaluation of gains on draws that they were
-/// not tuned on. Private to tune/.
+/// Draws vehicles from the model's covariance, and evaluates gains on vehicles that the search did
+/// not use. Private to tune/.
 #pragma once
 
 #include <vector>
@@ -12,14 +12,14 @@
 
 namespace awmr {
 
-/// Distribution of draws: independent (PlantSampler::draw), or spread evenly
+/// How vehicles are drawn: independently (PlantSampler::draw), or evenly spread
 /// (PlantSampler::draw_evenly).
 enum class Spread { kRandom, kEven };
 
-/// Returns the nominal vehicle, then the draws 1 to `draws`, each with its unmodelled variation.
-/// The parameters of a draw come from the model's covariance; without a covariance, they are
-/// nominal. Errors (input): those of PlantSampler::make(), PlantSampler::draw() and
-/// PlantSampler::draw_evenly().
+/// Returns the nominal vehicle, then the drawn vehicles 1 to `draws`, with the unmodelled variation
+/// `open`. The parameters of the drawn vehicles come from the model's covariance; without a
+/// covariance, they are nominal. Errors (input): those of PlantSampler::make(),
+/// PlantSampler::draw() and PlantSampler::draw_evenly().
 Result<std::vector<DrawnVehicle>> vehicles_of(const Model& model, int draws, std::uint64_t seed,
                                               const UnmodelledVariation& open, Spread spread);
 
@@ -29,25 +29,28 @@ struct NamedCandidate {
   Gains<double> gains;
 };
 
-/// Simulates every set of gains in every mode and scenario, on each vehicle of the setting except
-/// the first, which is the nominal one.
+/// Simulates every set of gains in every mode and scenario on the drawn vehicles of the setting.
+/// (Its first vehicle, the nominal one, is left out.)
 std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
                                           const std::vector<NamedCandidate>& candidates);
 
 struct EvaluationResult {
-  std::vector<EvaluatedGains> gains;  ///< over all scenarios, by gains, then mode
-  /// By scenario, then gains, then mode; empty with a single scenario.
+  std::vector<EvaluatedGains> gains;  ///< statistics over all scenarios, by gains, then mode
+  /// Statistics for each scenario alone, sorted by scenario, then gains, then mode. Empty with a
+  /// single scenario.
   std::vector<EvaluatedGains> by_scenario;
-  std::vector<EvaluatedGoal> goals;  ///< by gains, then goal, then mode
+  /// Share of the vehicles that meet each goal, sorted by gains, then goal, then mode.
+  std::vector<EvaluatedGoal> goals;
 };
-/// Modes, scenarios, tail share and goals for evaluation_of().
+/// Properties of the runs that evaluation_of() needs: modes, scenarios, tail share and goals.
 struct EvaluationSetup {
   std::vector<YawMode> modes;
-  std::vector<std::string> scenarios;  ///< names, in the order of the runs
-  double tail_share = 1.0;             ///< share of the draws in EvaluatedFigure::tail_mean, (0, 1]
+  std::vector<std::string> scenarios;  ///< names of the scenarios, in the order of the runs
+  /// Share of the draws in the tail, over which EvaluatedFigure::tail_mean is the mean, (0, 1].
+  double tail_share = 1.0;
   std::vector<TuningGoal> goals;
 };
-/// Computes the statistics over all draws, for each set of gains.
+/// Computes the statistics over all drawn vehicles for each set of gains.
 EvaluationResult evaluation_of(const std::vector<EvaluatedRuns>& runs, const EvaluationSetup& by);
 
 }  // namespace awmr

@@ -19,7 +19,8 @@
 namespace awmr {
 namespace {
 
-/// A pole of the continuous loop times the sample time: s T_s = ln(z).
+/// A pole z of the sampled loop as s T_s = ln(z): s is the pole of the continuous loop with the
+/// same response at the samples, T_s the sample time.
 struct Pole {
   double decay = 0.0;    ///< sigma T_s = -Re(s) T_s; negative: unstable
   double damping = 0.0;  ///< zeta = sigma/|s|
@@ -31,10 +32,11 @@ Pole pole_of(const std::complex<double>& z) {
   return {-s.real(), magnitude > 0.0 ? -s.real() / magnitude : 0.0};
 }
 
-/// States psi, r, w_servo, w_motor and the held input w.
+/// Matrix for the states psi, r, w_servo, w_motor and the held command w of SampledHeadingLoop.
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-/// The plant x_dot = A x + B w over the time t = `time_s` with constant w:
+/// Returns the transition over the time t = `time_s` of the states x of the plant x_dot = A x + B
+/// w, with constant command w:
 ///   [Phi Gamma; 0 1] = exp([A B; 0 0] t)
 Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
   const bool lag = loop.motor_time_constant_s > 0.0;
@@ -45,7 +47,7 @@ Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
   continuous(1, lag ? 3 : 4) = loop.input_gain * loop.direct_share;
   continuous(2, 2) = -1.0 / loop.servo_time_constant_s;
   continuous(2, 4) = 1.0 / loop.servo_time_constant_s;
-  // Without a motor lag, w_motor has no effect, and its decay time is arbitrary.
+  // Without motor lag, the state w_motor has no effect, so any time constant will do.
   const double motor_s = lag ? loop.motor_time_constant_s : loop.sample_time_s;
   continuous(3, 3) = -1.0 / motor_s;
   continuous(3, 4) = 1.0 / motor_s;
@@ -65,8 +67,8 @@ SplitDelay split_delay(double delay_s, double sample_time_s) {
   return {static_cast<int>(whole), part > kRounding ? part : 0.0};
 }
 
-/// The plant from one sample to the next, for a delay of m whole samples and a fraction. During
-/// that fraction of the sample, the previous command still acts:
+/// Transition of the plant's states x from one sample to the next, if the command w is delayed by m
+/// whole samples and a fraction of a sample. During that fraction, the previous command still acts:
 ///   x_(j+1) = Phi x_j + Gamma0 w_(j-m) + Gamma1 w_(j-m-1)
 struct HeldPlant {
   Eigen::Matrix4d phi;
@@ -84,9 +86,9 @@ HeldPlant hold(const SampledHeadingLoop& loop, double part) {
   return plant;
 }
 
-/// The matrix of the closed loop. States: those of the plant, y of an observer, then the delayed
-/// commands, oldest first. The new command w is stored as the last delayed command, or acts on the
-/// plant if there is no delay.
+/// Returns the matrix of the closed loop from one sample to the next. Its states are those of the
+/// plant, then y of an observer, then the delayed commands, oldest first. The new command w is
+/// stored as the last delayed command. Without delay, it acts on the plant directly.
 Eigen::MatrixXd closed_loop(const SampledHeadingLoop& loop) {
   const SplitDelay delay = split_delay(loop.command_delay_s, loop.sample_time_s);
   const HeldPlant plant = hold(loop, delay.part);
@@ -106,7 +108,7 @@ Eigen::MatrixXd closed_loop(const SampledHeadingLoop& loop) {
     closed(4, 1) = loop.sample_time_s * l * (loop.lambda + k);
     closed(4, 4) = 1.0;
   }
-  // Lets the command that is `i` samples old act on the plant through `gamma`.
+  // Lets the command of `i` samples ago act on the plant's states through the vector `gamma`.
   const auto enter = [&](Eigen::Index i, const Eigen::Vector4d& gamma) {
     if (i == 0) {
       closed.topLeftCorner(4, states) += gamma * law;
@@ -134,8 +136,8 @@ double damping_ratio(const SampledHeadingLoop& loop) {
 
 namespace {
 
-/// The loop with lags that do not act on the heading replaced by negligible ones. Their poles are
-/// real, so that the damping ratio is the same.
+/// Makes the lag of a servo or motor negligible if it does not turn the vehicle in this mode. The
+/// damping ratio stays the same, because the poles of these lags are real.
 SampledHeadingLoop with_acting_lags(SampledHeadingLoop loop) {
   constexpr double kNegligible = 0.1;  // of the sample time
   if (!(loop.direct_share < 1.0)) loop.servo_time_constant_s = kNegligible * loop.sample_time_s;
@@ -172,7 +174,8 @@ double dominant_damping_ratio(const SampledHeadingLoop& loop) {
 
 namespace {
 
-/// P(w, f) of delay_margin_s(): the open loop with its delay removed.
+/// The frequency response P(w, f) of the open loop without its delay, as defined at
+/// delay_margin_s().
 class CompensatedLoop {
  public:
   CompensatedLoop(const SampledHeadingLoop& loop, double part)
@@ -182,8 +185,8 @@ class CompensatedLoop {
     const double t_s = loop_.sample_time_s;
     const std::complex<double> z = std::polar(1.0, omega_radps * t_s);
     const Eigen::Vector4cd by = plant_.gamma0 + plant_.gamma1 * std::conj(z);  // |z| = 1
-    // Solves (z I - Phi) x = by from the last row up, because servo and motor do not affect each
-    // other.
+    // Solves (z I - Phi) x = by from the last row up. This is possible because servo and motor do
+    // not affect each other.
     const Eigen::Matrix4d& phi = plant_.phi;
     const std::complex<double> motor = by(3) / (z - phi(3, 3));
     const std::complex<double> servo = by(2) / (z - phi(2, 2));
@@ -206,7 +209,8 @@ class CompensatedLoop {
 };
 
 bool is_same_delay(double a_s, double b_s, const SampledHeadingLoop& loop) {
-  constexpr double kConverged = 1e-7;  // largest difference, as a fraction of the sample time
+  // Two delays are equal if they differ by less than this fraction of the sample time.
+  constexpr double kConverged = 1e-7;
   return std::abs(a_s - b_s) < kConverged * loop.sample_time_s;
 }
 
@@ -215,11 +219,12 @@ double excess_at(const CompensatedLoop& open, double omega_radps) {
   return std::norm(open(omega_radps)) - 1.0;
 }
 
-/// Ranges of the frequency w, rad/s, in each of which |P| crosses 1.
+/// Returns ranges of the frequency w, rad/s, in each of which |P|, the gain of the open loop,
+/// crosses 1.
 std::vector<Interval> crossings_of(const SampledHeadingLoop& loop, const CompensatedLoop& open) {
   constexpr int kFrequencies = 100;
   const double k = loop.reaching_rate;
-  // The plant integrates its command to the heading, so |P| > 1 at low frequencies.
+  // The open loop integrates, so its gain |P| is above 1 at low frequencies.
   const double lowest =
       1e-4 * loop.lambda * k / (loop.lambda + k + loop.resistance_rate + loop.fed_forward_rate);
   const double nyquist = pi<double>() / loop.sample_time_s;
@@ -236,8 +241,9 @@ std::vector<Interval> crossings_of(const SampledHeadingLoop& loop, const Compens
   return ranges;
 }
 
-/// Smallest delay, s, above `least_s` at which the loop has a pole e^(j w T_s) with w in one of the
-/// ranges. Empty if |P| does not cross 1 in one of the ranges.
+/// Returns the smallest delay, s, above `least_s` with which the loop has a pole e^(j w T_s) on the
+/// unit circle, with the frequency w in one of the ranges. Empty if |P| does not cross 1 in one of
+/// the ranges.
 std::optional<double> next_crossing_s(const CompensatedLoop& open,
                                       const std::vector<Interval>& ranges, double least_s) {
   constexpr std::uintmax_t kEvaluationsMax = 60;
@@ -260,8 +266,9 @@ std::optional<double> next_crossing_s(const CompensatedLoop& open,
   return next_s;
 }
 
-/// Fixed-point iteration of the delay, s, over its fraction f of a sample, as long as |P| crosses 1
-/// in each range. The ranges were computed for the initial f, so at least one step succeeds.
+/// Computes the delay, s, at which the loop becomes unstable, by fixed-point iteration: the delay
+/// depends on its own fraction f of a sample. Stops if |P| does not cross 1 in one of the ranges.
+/// The ranges were computed for the initial f, so at least one step succeeds.
 double settled_delay_s(const SampledHeadingLoop& loop, const std::vector<Interval>& ranges,
                        double part, double present_s) {
   constexpr int kSteps = 30;

@@ -5,8 +5,8 @@
 namespace awmr {
 
 /// Heading loop linearised at one yaw rate r0, for S inside the boundary layer. psi is the
-/// deviation from the commanded heading, s the share of the yaw moment that left and right wheel
-/// forces make:
+/// deviation from the commanded heading, w the commanded yaw acceleration tau_turn/I'z, and s the
+/// share of the yaw moment that left and right wheel forces make:
 ///
 ///     psi_dot = r
 ///     r_dot   = -a r + q (s w_motor + (1 - s) w_servo)  a = g3'(r0)/I'z, the plant's own damping
@@ -18,8 +18,8 @@ namespace awmr {
 /// The heading law uses the parameters of the model: c is g3'(r0)/I'z of the model, and q is the
 /// ratio of the model's I'z to that of the plant. For the plant of the model, c = a and q = 1.
 ///
-/// With an observer of bandwidth L (control/disturbance_observer.h), d_hat = I'z (y + L r) is
-/// subtracted:
+/// With an observer of bandwidth L (control/disturbance_observer.h), the law subtracts the
+/// estimated disturbance d_hat = I'z (y + L r), y the state of the observer:
 ///
 ///     w       = c r_j - (lambda + k + L) r_j - lambda k psi_j - y_j
 ///     y_(j+1) = y_j + T_s L ((lambda + k) r_j + lambda k psi_j)
@@ -34,42 +34,45 @@ struct SampledHeadingLoop {
   double reaching_rate = 0.0;          ///< k = mu/eps, 1/s
   double resistance_rate = 0.0;        ///< a, 1/s
   double fed_forward_rate = 0.0;       ///< c, 1/s
-  double input_gain = 1.0;             ///< q, > 0: the model's I'z over the plant's
+  double input_gain = 1.0;             ///< q, > 0: I'z of the model divided by that of the plant
   double servo_time_constant_s = 0.0;  ///< T, > 0
   double sample_time_s = 0.0;          ///< T_s, > 0
-  double direct_share = 0.0;           ///< s: 1 differential, 0 steering, 1/2 combined
+  double direct_share = 0.0;  ///< s: 1 in differential mode, 0 in steering, 1/2 in combined
   double motor_time_constant_s = 0.0;  ///< T_m, >= 0
   double observer_radps = 0.0;         ///< L, >= 0, L T_s < 1; 0: no observer
-  int latency_samples = 0;             ///< n, 0 ... 1000: latency of the readings in samples
+  int latency_samples = 0;             ///< n, 0 ... 1000: latency of the readings, in samples
   /// Delay of the held command before motors and servo, s, >= 0; need not be a multiple of T_s. A
   /// delay of the readings has the same effect as an equal delay of the command.
   double command_delay_s = 0.0;
 };
 
-/// Smallest damping ratio zeta = -Re(s)/|s|, s = ln(z)/T_s, over the eigenvalues z of the closed
-/// loop from one sample to the next. In [-1, 1]; positive exactly if the loop is stable (every
-/// |z| < 1). A negative z (alternating signs) counts with the angle pi. An eigenvalue with
-/// |z| < kGoneWithinASample counts as zeta = 1, because its mode decays within one sample.
+/// A pole z with |z| below this decays within one sample, and damping_ratio() counts it with the
+/// damping ratio 1.
 inline constexpr double kGoneWithinASample = 0.1;
+/// Smallest damping ratio zeta = -Re(s)/|s| over the poles s = ln(z)/T_s of the closed loop, z the
+/// eigenvalues of its matrix from one sample to the next. In [-1, 1]; positive exactly if the loop
+/// is stable (every |z| < 1). A negative z (alternating signs) counts with the angle pi.
 double damping_ratio(const SampledHeadingLoop& loop);
 
 /// Like damping_ratio(), but poles that decay much faster than the slowest one count less, because
-/// they are hardly seen: the smallest max(zeta, sigma/(20 sigma_slowest)) over the poles, with
-/// sigma = -Re(s). A value of 0.25 therefore permits poles with zeta < 0.25 that decay at least five
-/// times as fast as the slowest one. A latency of many samples adds such poles. The slowest pole is
-/// that of the loop without observer, and not that of a servo or motor that does not turn the
-/// vehicle in this mode.
+/// their effect is hardly seen. With sigma = -Re(s) the decay rate of a pole, it is the smallest
+/// max(zeta, sigma/(20 sigma_slowest)) over the poles. A value of 0.25 therefore permits poles with
+/// zeta < 0.25 that decay at least five times as fast as the slowest one. A latency of many samples
+/// adds such poles. The slowest pole is that of the loop without observer, and not that of a servo
+/// or motor that does not turn the vehicle in this mode.
 double dominant_damping_ratio(const SampledHeadingLoop& loop);
 
 /// Delay margin: smallest additional delay of the command, s, that makes the loop unstable. 0 if
 /// the loop is already unstable, infinity if no delay makes it unstable.
 ///
-/// Let the whole delay be D = (n + m + f) T_s, m whole and 0 <= f < 1. The loop has a pole
-/// z = e^(j w T_s) on the unit circle exactly where
+/// With the additional delay, the loop has the whole delay D = (n + m + f) T_s: n samples of
+/// latency (latency_samples), m further whole samples, and the fraction f of a sample, 0 <= f < 1.
+/// The loop has a pole z = e^(j w T_s) of the frequency w, rad/s, on the unit circle exactly where
 ///     P(w, f) = e^(j w D),
-///     P(w, f) = C(z) (z I - Phi)^-1 (Gamma0(f) + Gamma1(f)/z) e^(j w f T_s),
-/// Phi, Gamma0, Gamma1: the plant held over T_s (HeldPlant); C: the law. |P| = 1 determines w, and
-/// the phase of P determines D. P hardly depends on f, so a fixed-point iteration over f converges.
+///     P(w, f) = C(z) (z I - Phi)^-1 (Gamma0(f) + Gamma1(f)/z) e^(j w f T_s).
+/// Phi, Gamma0 and Gamma1 describe the plant held over T_s (HeldPlant), C the control law. |P| = 1
+/// determines w, and the phase of P determines D. P hardly depends on f, so a fixed-point iteration
+/// over f converges.
 double delay_margin_s(const SampledHeadingLoop& loop);
 
 }  // namespace awmr

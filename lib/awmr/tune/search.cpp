@@ -17,21 +17,22 @@
 namespace awmr {
 namespace {
 
-/// ISRES individuals per generation. Not NLopt's default of 20 (n + 1) for n gains, because the
-/// default budget would end in the first generation.
+/// Individuals of the evolution strategy ISRES in each generation. With NLopt's default of 20 (n +
+/// 1) for n gains, the default budget would end in the first generation.
 constexpr unsigned kPopulation = 40;
 /// First step and smallest step of the local search, in ln(gain): 20 % and 0.1 %.
 constexpr double kFirstStep = 0.2;
 constexpr double kLastStep = 1e-3;
-/// Smallest improvement of the objective (or violation) by a local search after which another one
-/// is started.
+/// A local search is restarted if it improved the objective by at least this. (While no gains are
+/// feasible, the violation takes the place of the objective.)
 constexpr double kWorthwhile = 1e-4;
-/// feasible_start(): number of random starts after the baseline and the middle of the bounds, and
-/// evaluations from each start.
+/// Starts of feasible_start(): number of random ones, besides the baseline and the middle of the
+/// bounds, and number of evaluations from each start.
 constexpr int kRandomStarts = 30;
 constexpr int kStartEvaluations = 300;
 
-/// Evaluations of the local search on all draws if its start is feasible on all draws.
+/// Evaluations of the local search on all drawn vehicles, if the gains from which it starts are
+/// feasible on all of them.
 constexpr int kFinishEvaluations = 12;
 
 using Optimizer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
@@ -44,7 +45,8 @@ Optimizer optimizer(nlopt_algorithm algorithm, const SearchSpace& space, int eva
   return opt;
 }
 
-/// Callbacks of NLopt, which calls objective() and residuals() of a point separately.
+/// Values that NLopt requests of a point. NLopt requests the objective and the residuals of the
+/// constraints separately.
 class NloptCallbacks {
  public:
   virtual ~NloptCallbacks() = default;
@@ -71,8 +73,9 @@ class OneByOne : public NloptCallbacks {
   std::optional<Looked> last_;
 };
 
-/// Returns the cached values of known points, collects the points of the next generation, and stops
-/// the search. NLopt selects the points of a generation without the values of that generation.
+/// Callbacks for one generation of ISRES. For points that were evaluated before, they return the
+/// known values. The points of the next generation are collected, and then the search is stopped.
+/// NLopt selects all points of a generation before it needs any of their values.
 class OneGeneration : public NloptCallbacks {
  public:
   OneGeneration(const std::vector<Looked>& known, nlopt_opt search)
@@ -157,17 +160,18 @@ nlopt_result search_globally(Problem& problem, const TuneOptions& options, const
   }
 }
 
-/// Data of the callbacks of feasible_start() and least_relaxed(). The constraints named in
-/// `relaxed` do not count in the violation of a candidate.
+/// Data of the NLopt callbacks of feasible_start() and least_relaxed(). The violation of a
+/// candidate does not include the constraints named in `relaxed`.
 struct Feasibility {
   SearchSpace space;
   const ConstraintContext& context;
   std::span<const std::string> relaxed = {};
   Candidate best = {.violation = std::numeric_limits<double>::infinity()};
-  /// Among the gains that violate only constraints in `relaxed`: those that violate them least.
+  /// Among the gains that meet all other constraints, those that violate the `relaxed` ones least.
   Candidate least = {.violation = std::numeric_limits<double>::infinity()};
 
-  /// Largest residual of the constraints that count, and of those in `relaxed`.
+  /// Evaluates a point. Returns the largest residual of the constraints that are not in `relaxed`,
+  /// then of those in `relaxed`.
   std::pair<double, double> look_at(const Point& point) {
     const Gains<double> gains = with_friction_width(space.gains_at(point), context);
     constexpr double kNone = -std::numeric_limits<double>::infinity();
@@ -195,8 +199,8 @@ double relaxed_callback(unsigned dimension, const double* x, double*, void* data
   return static_cast<Feasibility*>(data)->look_at(point_at(dimension, x)).second;
 }
 
-/// Start `index` of feasible_start(): 0 the baseline, 1 the middle of the bounds, then random
-/// points.
+/// Returns the point with the index `index` from which feasible_start() starts: 0 is the baseline,
+/// 1 the middle of the bounds; the others are random.
 Point start_point(int index, const SearchSpace& space, std::uint64_t seed,
                   const Gains<double>& baseline) {
   if (index == 0) return space.point_of(baseline);
@@ -210,7 +214,7 @@ Point start_point(int index, const SearchSpace& space, std::uint64_t seed,
   return x;
 }
 
-/// At most kMaxHistorySteps of the steps, evenly spaced, with the first and the last.
+/// Returns at most kMaxHistorySteps of the steps: evenly spaced, including the first and the last.
 std::vector<SearchStep> at_even_ranks(const std::vector<SearchStep>& steps) {
   if (steps.size() <= kMaxHistorySteps) return steps;
   std::vector<SearchStep> kept;
@@ -249,9 +253,10 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
 
 namespace {
 
-/// Searches from start_point() 0, 1, ... until `problem.best` meets the constraints that count, at
-/// most from `starts` starts. The draws are examined only if gains for the nominal vehicle are
-/// found; with a long latency, an examination of all draws takes almost a second.
+/// Searches from start_point() 0, 1, ... until `problem.best` meets the constraints that are not in
+/// `relaxed`, at most from `starts` starts. The drawn vehicles are examined only if gains for the
+/// nominal vehicle are found, because with a long latency this takes almost a second for each
+/// point.
 void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
                      int starts) {
   if (!problem.context.draws.empty()) {
@@ -316,7 +321,7 @@ void note_broken(Problem& problem, SearchResult& result) {
   result.broken_by = *most;
 }
 
-/// Local search on all draws, from the gains `from` that were found on some of the draws.
+/// Local search on all drawn vehicles. `from`: the gains that were found on some of these vehicles.
 Result<std::string> finish(Problem& problem, const Gains<double>& from,
                            std::span<const Gains<double>> starts, int most_evaluations) {
   const auto look_at = [&problem](const Gains<double>& gains) {
@@ -324,7 +329,8 @@ Result<std::string> finish(Problem& problem, const Gains<double>& from,
     problem.look_at(std::span(&point, 1));
   };
   look_at(from);
-  // If `from` violates a limit when evaluated on all draws, one of the starts can violate it less.
+  // `from` can violate a limit on the vehicles that were not used before. Then one of the starts
+  // can violate it less.
   if (!problem.nearest.feasible()) std::ranges::for_each(starts, look_at);
   problem.simulate_all = true;
   const int budget = problem.nearest.feasible() ? std::min(kFinishEvaluations, most_evaluations)

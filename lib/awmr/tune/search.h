@@ -1,4 +1,5 @@
-/// Search over the logarithms of the gains: feasibility, then global, then local. Private to tune/.
+/// Search over the logarithms of the gains: first for feasible gains, then a global and a local
+/// search of the objective. Private to tune/.
 #pragma once
 
 #include <optional>
@@ -14,28 +15,32 @@ namespace awmr {
 
 struct SearchResult {
   std::optional<Candidate> best;  ///< the best feasible candidate, if one was found
-  Candidate nearest;              ///< the best candidate in the order of better()
+  /// The best candidate in the order of better(), whether it is feasible or not.
+  Candidate nearest;
   /// If `best` is empty: the constraint that `nearest` violates most, and its residual
   /// (Looked::residuals).
   std::string broken_most = {};
   double broken_by = 0.0;
-  int evaluations = 0;  ///< evaluated sets of gains, on some or all draws
-  int simulated = 0;    ///< of these, the number whose runs were simulated
+  int evaluations = 0;  ///< evaluated sets of gains, on some or all drawn vehicles
+  int simulated = 0;    ///< number of evaluated sets whose runs were simulated
   SearchHistory history;
-  std::vector<TradeOffPoint> met;  ///< trade-off of all feasible gains on the draws of the search
+  /// Settling time and control variation of all feasible gains, on the drawn vehicles of the
+  /// search.
+  std::vector<TradeOffPoint> met;
   std::string algorithm;
   std::string stop_reason;
 };
 
 /// Runs NLopt's LN_COBYLA from `start`, then restarts it from the best point of `problem`, each
-/// time with the first step size. Stops when a run improves the objective (while no gains are
-/// feasible: the violation) by less than 1e-4, or after `most_evaluations`. Returns the reason for
-/// stopping. Errors (program fault): a failure of NLopt.
+/// time with the first step size. Stops when a run improves the objective by less than 1e-4 (while
+/// no gains are feasible: improves the violation by less), or after `most_evaluations`. Returns the
+/// reason for stopping. Errors (program fault): a failure of NLopt.
 Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
                                    int most_evaluations);
 
-/// Returns gains within the bounds that meet the constraints that need no simulation, or the gains
-/// with the smallest violation. Searches from `baseline`, then from other points.
+/// Returns gains within the bounds that meet the constraints that need no simulation. If it finds
+/// none, it returns the gains with the smallest violation. Searches from `baseline`, then from
+/// other points.
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
 
@@ -48,11 +53,11 @@ std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
                                            std::span<const std::string> relaxed);
 
 /// Searches the logarithms of the gains with NLopt. `searched` is the objective on the nominal
-/// vehicle and some of the draws, `all` on the nominal vehicle and all draws.
+/// vehicle and some of the drawn vehicles, `all` on the nominal vehicle and all drawn vehicles.
 ///   1. GN_ISRES on `searched` from the first of `starts`;
 ///   2. LN_COBYLA on `searched` from the best point so far, including the other starts;
 ///   3. if there are no feasible gains yet, LN_COBYLA on `searched` from each start;
-///   4. if `all` has more draws, LN_COBYLA on `all` from the best point.
+///   4. if `all` has more vehicles, LN_COBYLA on `all` from the best point.
 /// Precondition: at least one start; all starts meet the constraints that need no simulation.
 /// SearchResult::best meets every constraint exactly, whatever the tolerance of NLopt.
 /// Deterministic: NLopt's random generator is reseeded, and global searches in one process take

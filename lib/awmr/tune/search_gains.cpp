@@ -23,7 +23,7 @@
 namespace awmr {
 namespace {
 
-/// The setting with the nominal vehicle and the first draws, for the search.
+/// Returns the setting of the search: the nominal vehicle and the first of the drawn vehicles.
 ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) {
   const std::size_t as_many_runs =
       at(kSearchedDraws) * std::size(kYawModes) / setting.modes().size();
@@ -39,17 +39,21 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
                      "give another baseline, or slower scenarios");
 }
 
-/// Factors of slowed() for starts with slower poles. With large noise, only slower poles meet the
-/// limits on noise.
+/// Factors of slowed(), to start the search also from slower poles. If the sensor noise is large,
+/// only slower poles meet the limits on noise.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
-/// Bandwidths of the observer at starts of the search, rad/s.
+/// Bandwidths of the observer from which the search starts, rad/s.
 constexpr double kStartBandwidths[] = {0.5, 1.0, 2.0};
 
-/// Starts of the search: `first`, which meets the constraints; the second of `poles`; the first of
-/// `poles` slowed down by each of kSlowerStarts; if an observer is searched, poles placed with each
-/// of kStartBandwidths; the baseline, if given. Each start but `first` is replaced by gains that
-/// meet the constraints (feasible_start()), or left out if there are none.
+/// Returns the gains from which the search starts:
+///   - `first`, which meets the constraints;
+///   - the second of `poles`;
+///   - the first of `poles`, slowed down by each of kSlowerStarts;
+///   - if an observer is searched, gains by pole placement with each of kStartBandwidths;
+///   - the baseline, if it is given.
+/// Gains that violate a constraint are replaced by gains near them that meet the constraints
+/// (feasible_start()), or left out if there are none.
 std::vector<Gains<double>> starts_of(const TuneOptions& options, const ConstraintContext& context,
                                      const Gains<double>& first,
                                      std::span<const Gains<double>> poles) {
@@ -71,13 +75,14 @@ std::vector<Gains<double>> starts_of(const TuneOptions& options, const Constrain
   return starts;
 }
 
-/// Smallest increase of the share of settled runs for which an observer is added.
+/// An observer is added only if it increases the share of settled runs by at least this.
 constexpr double kWorthIt = 0.05;
 
-/// Repeats the search with an observer. `gains`: the result without one, or the gains nearest to
-/// the limits if none meet them. Empty if no observer may be added (TuneOptions::adds_observer), if
-/// simulations do not show that an observer lets more runs settle (observer_settles_more()), or if
-/// the share of settled runs increases by less than kWorthIt.
+/// Repeats the search with an observer. `gains`: the result without observer or, if no gains meet
+/// the limits, those nearest to the limits. The result is empty
+///   - if no observer may be added (TuneOptions::adds_observer);
+///   - if simulations do not show that an observer lets more runs settle (observer_settles_more());
+///   - if the share of settled runs increases by less than kWorthIt.
 std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
                                            const ConstraintContext& context,
                                            const TuneOptions& requested, const Scenario& held_out,
@@ -116,7 +121,8 @@ struct Searched {
   const ObjectiveSetting& setting;
   const ConstraintContext& context;
   const TuneOptions& options;
-  const TuneOptions& requested;  ///< options whose absent bounds are not filled in
+  /// The options as the user gave them; in `options`, absent bounds are filled in.
+  const TuneOptions& requested;
   const Baseline& baseline;
   const Objective& all;   ///< on all draws
   const Objective& some;  ///< on the draws of the search
@@ -135,7 +141,7 @@ Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
                        changes_that_settle(nominal, s.context, s.settled.gains, kAny), s.options);
 }
 
-/// Evaluation in a scenario that the search did not use.
+/// Evaluates the tuned gains in a scenario that the search did not use.
 Evaluation evaluated_in(const Searched& s, const Scenario& held_out) {
   ObjectiveSetting elsewhere = s.setting;
   elsewhere.scenarios = {held_out};
@@ -143,7 +149,8 @@ Evaluation evaluated_in(const Searched& s, const Scenario& held_out) {
   return Objective(std::move(elsewhere), s.baseline.gains)(s.settled.gains);
 }
 
-/// The result for the gains that the search selected. Errors (refused): no run settles.
+/// Returns the result of tune() for the gains that the search selected. Errors (refused): no run
+/// settles.
 Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
   const auto& [model, setting, context, options, requested, baseline, all, some, found, settled] =
       s;

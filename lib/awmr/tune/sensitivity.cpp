@@ -11,12 +11,14 @@ namespace {
 
 /// Bisection steps for each end of an interval.
 constexpr int kHalvings = 6;
-/// A constraint is active if its residual (0 at the limit, negative if met) is above this.
+/// A constraint is active if its residual is above this. The residual is 0 at the limit and
+/// negative if the constraint is met.
 constexpr double kActive = -0.01;
-/// Evaluations of the local search with a relaxed limit.
+/// Evaluations of the local search with a relaxed limit (active_constraints()).
 constexpr int kPriceEvaluations = 30;
 
-/// Indices in a Point of mu and epsilon, or of mu_s and epsilon_s.
+/// Indices in a Point of two gains of which mostly the ratio matters: mu and epsilon, or mu_s and
+/// epsilon_s.
 using Pair = std::array<unsigned, 2>;
 constexpr Pair kHeading{1, 2};
 constexpr Pair kSpeed{3, 4};
@@ -27,7 +29,7 @@ Point scaled(Point point, const Pair& pair, double by_ln) {
 }
 
 /// Range by which the logarithms of both gains of a pair, such as mu and epsilon, can be shifted
-/// together within the bounds.
+/// together without leaving the bounds.
 Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
   const Point lower = space.lower_corner();
   const Point upper = space.upper_corner();
@@ -35,9 +37,9 @@ Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
 
-/// Interval around 0 by which the logarithms of both gains of a pair can be shifted together while
-/// the gains stay feasible with an objective of at most `most`. Found by bisection, because the
-/// objective increases towards both ends.
+/// Interval around 0 by which the logarithms of both gains of a pair can be shifted together, so
+/// that the gains meet every constraint and the objective is at most `most`. Found by bisection,
+/// because the objective increases towards both ends.
 Interval stretch(Problem& problem, const Point& from, const Pair& pair, double most) {
   const auto is_good = [&](double by_ln) {
     const Point point = scaled(from, pair, by_ln);
@@ -67,7 +69,8 @@ SettledGains settle(const TuneOptions& options, const ConstraintContext& context
   SettledGains settled;
   Point point = problem.space().point_of(best.gains);
   const double objective = problem.look_at(std::span(&point, 1)).front().candidate.objective;
-  // The smaller mu may worsen the objective by half of kIndifferent, the smaller mu_s by the rest.
+  // Reducing mu may increase the objective by half of kIndifferent. Reducing mu_s may use up the
+  // rest.
   const Interval heading =
       stretch(problem, point, kHeading, (1.0 + 0.5 * kIndifferent) * objective);
   settled.mu = {best.gains.heading.mu * std::exp(heading.lo),
@@ -90,8 +93,8 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
   TuneOptions quiet = options;
   quiet.progress = {};
   const Point point = SearchSpace(options).point_of(best.gains);
-  // Smallest objective of a local search with the constraint of index `wider` relaxed by kWider;
-  // with none relaxed if there is no such index.
+  // Returns the smallest objective that a local search finds with the constraint of index `wider`
+  // relaxed by kWider, or with no relaxed constraint if there is no such index.
   const auto searched = [&](std::size_t wider) -> Result<double> {
     Problem problem(quiet, context, objective);
     if (wider < problem.tolerated.size()) problem.tolerated[wider] = kWider;
@@ -107,7 +110,8 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
     if (residuals[i] > kActive) active.push_back({.name = problem.names()[i]});
   }
   if (active.empty()) return active;
-  // The improvement is measured from a search without a relaxed limit, which can improve, too.
+  // A further search can find better gains even without a relaxed limit. The improvement is
+  // therefore measured from the result of such a search.
   AWMR_ASSIGN_OR_RETURN(const double without, searched(residuals.size()));
   for (ActiveConstraint& one : active) {
     const auto place = std::ranges::find(problem.names(), one.name) - problem.names().begin();

@@ -13,26 +13,26 @@ namespace awmr {
 /// Gains with the ranges of mu and mu_s in which the objective is nearly constant.
 struct SettledGains {
   Gains<double> gains{};
-  /// Range of mu, rad/s^2, with mu/epsilon constant, in which the objective is at most
-  /// kIndifferent/2 worse than the best.
+  /// Range of mu, rad/s^2, at constant mu/epsilon, in which the objective is at most kIndifferent/2
+  /// worse than the best.
   Interval mu;
-  /// Range of mu_s, m/s^2, with the smallest mu and mu_s/epsilon_s constant, in which the objective
-  /// is at most kIndifferent worse than the best.
+  /// Range of mu_s, m/s^2, at constant mu_s/epsilon_s and with the smallest mu, in which the
+  /// objective is at most kIndifferent worse than the best.
   Interval speed_mu;
 };
 
-/// Selects the smallest mu, then the smallest mu_s, that meets every constraint and has an
-/// objective at most kIndifferent/2 (mu) or kIndifferent (mu_s) worse than that of `best` on the
-/// draws of the search; mu/epsilon and mu_s/epsilon_s stay constant. Only these ratios act inside
-/// the boundary layers, so without this rule the seed of the search would determine mu. The
-/// selected gains are those of `best` if the smaller mu and mu_s violate a constraint on the draws
-/// of `all`.
+/// Reduces mu of the best gains, then mu_s, at constant mu/epsilon and mu_s/epsilon_s. Selects the
+/// smallest mu that meets every constraint and has an objective at most kIndifferent/2 worse than
+/// that of `best` on the draws of the search; then the smallest mu_s, with an objective at most
+/// kIndifferent worse. Inside the boundary layers only the two ratios act, so without this rule the
+/// seed of the search would determine mu. If the reduced gains violate a constraint on the draws of
+/// `all`, the gains of `best` are kept.
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 
-/// Returns the constraints that are active at `best` (residual within 1 % of the limit), each with
-/// the improvement of the objective in a local search that relaxes it by kWider. Errors: those of
-/// search().
+/// Returns the constraints that are active at `best` (within 1 % of the limit). Each has the
+/// improvement of the objective that a local search finds if the constraint is relaxed by kWider.
+/// Errors: those of search().
 Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& options,
                                                          const ConstraintContext& context,
                                                          const Objective& objective,

@@ -17,7 +17,7 @@
 namespace awmr {
 namespace {
 
-/// The scenario with `factor` times the time for each heading.
+/// The scenario with its duration, and the time for each heading, multiplied by `factor`.
 Scenario stretched(Scenario scenario, double factor) {
   scenario.duration_s *= factor;
   for (HeadingStep& step : std::get<HeadingSteps>(scenario.guidance).steps) step.t_s *= factor;
@@ -58,8 +58,8 @@ bool meets_constraints(const Gains<double>& gains, const ConstraintContext& cont
   return std::ranges::max(residuals(constraints_of(gains, context))) <= 0.0;
 }
 
-/// True if at least `share` of the runs settle with gains by pole placement that meet the
-/// constraints.
+/// True if gains by pole placement meet the constraints and let at least `share` of the runs
+/// settle.
 bool poles_settle(const ObjectiveSetting& setting, const ConstraintContext& context, double share,
                   const ObserverGains<double>& observer = {}) {
   return std::ranges::any_of(starting_poles(context, observer), [&](const Gains<double>& gains) {
@@ -67,8 +67,8 @@ bool poles_settle(const ObjectiveSetting& setting, const ConstraintContext& cont
   });
 }
 
-/// Bandwidth, rad/s, of an observer with which, and with gains by pole placement, the runs settle.
-/// Empty if there is none.
+/// Returns a bandwidth, rad/s, of an observer that lets at least `share` of the runs settle,
+/// together with gains by pole placement. Empty if there is none.
 std::optional<double> settling_bandwidth_radps(const ObjectiveSetting& setting,
                                                const ConstraintContext& context,
                                                const Gains<double>& gains, double share) {
@@ -87,7 +87,8 @@ std::optional<double> settling_bandwidth_radps(const ObjectiveSetting& setting,
   return std::nullopt;
 }
 
-/// An observer; if it does not suffice, together with a relaxed limit of the steering rate.
+/// Returns the change "tune with an observer", if an observer lets the runs settle. If it does not
+/// suffice, the limit of the steering rate is also relaxed.
 std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
                                           const ConstraintContext& context,
                                           const Gains<double>& gains, double share) {
@@ -125,8 +126,8 @@ std::optional<SettlingChange> one_mode(const ObjectiveSetting& setting,
   return std::nullopt;
 }
 
-/// For each limit that can be relaxed (relaxed_limits()), the strictest of the tried values
-/// with which runs settle.
+/// For each limit that can be relaxed (relaxed_limits()), returns the strictest of the tried values
+/// with which the runs settle.
 std::vector<SettlingChange> relaxed(const ObjectiveSetting& setting,
                                     const ConstraintContext& context, const Gains<double>& gains,
                                     double share) {

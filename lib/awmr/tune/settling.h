@@ -1,4 +1,4 @@
-/// Share of the runs that settle with given gains, and changes with which further runs settle. Each
+/// Share of the runs that settle with given gains, and changes that let more runs settle. Each
 /// change is confirmed by simulation. Private to tune/.
 #pragma once
 
@@ -12,41 +12,42 @@
 
 namespace awmr {
 
-/// Share of the runs that has to settle; below it, the finding `unsettled` is reported.
+/// Share of the runs that should settle. Below it, the finding `unsettled` is reported.
 inline constexpr double kSettledShare = 0.95;
 
 /// Share of the runs of the setting that settle with these gains, [0, 1].
 double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
 
-/// The runs of one scenario (all scenarios if `scenario` is empty) and mode, without goals.
+/// Returns the setting with only one mode and one scenario (all scenarios if `scenario` is empty),
+/// and without goals.
 ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, YawMode mode);
 
-/// The same runs on the nominal vehicle and the first draws only.
+/// Returns the setting with only the nominal vehicle and the first drawn vehicles.
 ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);
 
-/// True if an observer lets the runs of some scenario and mode settle: fewer than kSettledShare of
-/// these runs settle with the given gains, but at least kSettledShare with an observer and gains by
-/// pole placement. The runs with the observer use only a few vehicles (on_few_vehicles()).
+/// True if there are a scenario and a mode whose runs need an observer: fewer than kSettledShare of
+/// the runs settle with the given gains, but at least kSettledShare with an observer and gains by
+/// pole placement. To save time, the runs with the observer use only a few vehicles
+/// (on_few_vehicles()).
 bool observer_settles_more(const ObjectiveSetting& setting, const ConstraintContext& context,
                            const Gains<double>& gains);
 
-/// Tries one change at a time, and returns those with which at least `share` of the runs of the
-/// setting settle:
-///   - 2 or 4 times the time of the scenarios and their headings
+/// Tries one change at a time. Returns the changes with which at least `share` of the runs settle:
+///   - 2 or 4 times the duration of the scenarios, and the time for each heading
 ///   - no heading-rate limit, if there is one
 ///   - an observer, if the gains have none, with gains by pole placement; if it does not suffice,
 ///     together with a relaxed limit of the steering rate
 ///   - gains for one mode only, by pole placement, if several modes are tuned
-///   - a relaxed limit (relaxed_limits()), with the same gains or those by pole placement
+///   - a relaxed limit (relaxed_limits()), with the given gains or with gains by pole placement
 std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
                                                 const ConstraintContext& context,
                                                 const Gains<double>& gains, double share);
 
-/// Text for messages: "Each of these changes lets runs settle (...): ...". `runs`: the word for the
-/// runs, such as "runs". Precondition: `changes` is not empty.
+/// Text for messages about `changes`: "Each of these changes lets runs settle (...): ...". `runs`:
+/// the noun for the runs, such as "runs". Precondition: `changes` is not empty.
 std::string describe(const std::vector<SettlingChange>& changes, std::string_view runs);
-/// Text for messages: "None of these changes lets runs settle: ...", with the changes that were
-/// tried. `runs` as in describe().
+/// Text for messages if no change was found: "None of these changes lets runs settle: ...", with
+/// the changes that were tried. `runs` as in describe().
 std::string no_change_settles(std::string_view runs);
 
 }  // namespace awmr

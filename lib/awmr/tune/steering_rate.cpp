@@ -27,7 +27,7 @@ double mean_of_product(const F& f, const G& g) {
 
 /// Lower bound of E[w(z) w(z')] for an odd function w and standard normals z, z' with the
 /// correlation rho: the terms up to k = 7 of Mehler's series, all of which are >= 0,
-///   sum over odd k of rho^k E[w He_k(z)]^2/k!
+///   sum over odd k of rho^k E[w He_k(z)]^2/k!,   He_k: Hermite polynomials
 template <class W>
 double mean_of_correlated(const W& w, double rho) {
   if (!(rho > 0.0)) return 0.0;
@@ -55,7 +55,8 @@ double mean_of_correlated(const W& w, double rho) {
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi<double>()); }
 
-/// E[sat(x)] for a normal x with the mean m and the standard deviation s > 0.
+/// E[sat(x)] for a normal x with the mean m and the standard deviation s > 0. sat limits x to -1
+/// ... 1.
 double mean_saturated(double m, double s) {
   const double above = (m + 1.0) / s;
   const double below = (m - 1.0) / s;
@@ -63,13 +64,14 @@ double mean_saturated(double m, double s) {
          s * (normal_density(above) - normal_density(below)) - 1.0;
 }
 
-/// Part of E[w^2] in steering_rate_rms_degps() due to the friction that the heading law feeds
-/// forward at rest, (rad/s^2)^2. With w0 = rest_speed, the fed-forward friction is
+/// Part of E[w^2] in steering_rate_rms_degps() that is due to fed-forward friction, (rad/s^2)^2.
+/// While a heading is held, noise n of the yaw rate and noise n_psi of the heading are independent.
+/// With the friction width w0 = rest_speed, the friction that the heading law feeds forward is
 ///   b = B if |n| < w0, else 0,   B = g3(w0)/I'z sat(-lambda n_psi/w0)
-/// n and n_psi, the noise of yaw rate and heading, are independent; ' marks the next sample. The
-/// part is half the mean square change of b from one sample to the next,
+/// With b', n' and B' the values at the next sample, the part is half the mean square change of b
+/// from one sample to the next,
 ///   E[b^2] - E[b b'] = P(|n| < w0) E[B^2] - P(|n| < w0, |n'| < w0) E[B B'],
-/// plus the cross term of b with -lambda k n_psi.
+/// plus the cross term of b with -lambda k n_psi, k = mu/eps.
 double resting_mean_square(const Resistance<double>& g3, const Gains<double>& gains,
                            const ConstraintContext& context) {
   const double slope = gains.heading.lambda * context.heading_noise_rad / g3.rest_speed;
@@ -99,7 +101,8 @@ double resting_mean_square(const Resistance<double>& g3, const Gains<double>& ga
          2.0 * rests_share * mean_of_product(friction, linear) * (1.0 - rho);
 }
 
-/// steering_rate_rms_degps() in the mode in which the steering makes this share of the yaw moment.
+/// RMS rate of the steering command, deg/s, as steering_rate_rms_degps(), in the mode in which the
+/// steering makes the fraction `share` of the yaw moment.
 double steering_rate_at(double share, const Gains<double>& gains,
                         const ConstraintContext& context) {
   const Plant<double>& plant = context.plant;
@@ -123,16 +126,16 @@ double steering_rate_at(double share, const Gains<double>& gains,
                  context.sample_time_s);
 }
 
-/// Shares of the yaw moment that the steering makes in the modes that steer.
+/// Returns for each mode that steers the share of the yaw moment that the steering makes.
 std::vector<double> steering_shares(const ConstraintContext& context) {
   if (!context.steers()) return {};
   if (context.mode) return {steering_share<double>(*context.mode)};
   return {steering_share<double>(YawMode::kSteering), steering_share<double>(YawMode::kCombined)};
 }
 
-/// Sets `width`, the friction width of the mode in which the steering makes the fraction `share` of
-/// the yaw moment, to the smallest value in `widths` with which the RMS steering rate is at most
-/// `limit_degps`. If there is none, it is set to the largest value.
+/// Sets one friction width of the gains, `width`, to the smallest value in `widths` with which the
+/// RMS steering rate is at most `limit_degps`. If there is none, sets it to the largest value. The
+/// width is that of the mode in which the steering makes the fraction `share` of the yaw moment.
 Gains<double> with_smallest_width(Gains<double> gains, double HeadingGains<double>::*width,
                                   Interval widths, double limit_degps, double share,
                                   const ConstraintContext& context) {
@@ -162,8 +165,8 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider) {
-  // Fixes the largest width: with it, the fed-forward friction grows with S a tenth as fast as the
-  // corrective term mu S/epsilon.
+  // The heading law has a corrective term mu S/epsilon. With the largest permitted friction width,
+  // the fed-forward friction grows with S this fraction as fast as the corrective term.
   constexpr double kMinFrictionShare = 0.1;
   HeadingGains<double>& heading = gains.heading;
   constexpr double kNarrowest = feed_forward_rest_speed<double>();
@@ -182,7 +185,7 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
                                 is_own ? &HeadingGains<double>::combined_friction_width_radps
                                        : &HeadingGains<double>::friction_width_radps,
                                 widths, *limit * (1.0 + wider), share, context);
-    // With an observer, all modes have the width of the first one, whose steering command has the
+    // With an observer, all modes have the width of the first mode, whose steering command has the
     // most noise.
     if (gains.observer.is_on()) break;
   }

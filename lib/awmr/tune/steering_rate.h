@@ -10,21 +10,23 @@ namespace awmr {
 /// largest value over the modes. Motion of the vehicle due to the noise is neglected. From the
 /// yaw-rate noise n and the heading noise n_psi, the heading law computes the yaw acceleration
 ///   w = G(n, n_psi)/I'z - (lambda + k + L) n - lambda k n_psi,   k = mu/eps,
+/// with L the bandwidth of the observer, and G the fed-forward yaw resistance (fed_forward()):
 ///   G = g3(n);   with Coulomb friction, for |n| < w0: g3(w0) sat(-lambda n_psi/w0)
-/// (fed_forward()), w0 the friction width of the mode. The steering command is d = s c I'z w/(l_f
-/// g1(u_d)), s the share of the moment that the steering makes, c = 2 (front-wheel drive: 1). With
+/// w0 is the friction width of the mode. The steering command is
+///   d = s c I'z w/(l_f g1(u_d)),
+/// with s the share of the moment that the steering makes, and c = 2 (front-wheel drive: 1). With
 /// independent readings, w changes by sqrt(2 E[w^2]) RMS from one sample to the next; correlated
 /// readings change it less. The rate is 0 without steering, or if the steady speed needs no thrust.
 double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintContext& context);
 
 /// Sets the friction width w of each mode that steers (Gains::friction_width_at()) and returns the
-/// gains. The width of a mode is the smallest in the following range with which the mode's
-/// steering rate is at most the limit times (1 + wider):
+/// gains. The width of a mode is the smallest in the following range with which the mode's steering
+/// rate is at most the limit times (1 + wider):
 ///   0.02 <= w <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
-/// c3 is the Coulomb friction in yaw. With the first upper bound, the fed-forward friction grows
-/// with S a tenth as fast as the corrective term. If no w in this range meets the limit, w is the
-/// upper bound. Without a limit, without steering or without Coulomb friction, w is 0.02 rad/s.
-/// With an observer, all modes have the width of the mode with the most noise.
+/// c3 is the Coulomb friction in yaw. With w = 10 c3 eps/(I'z mu), the fed-forward friction grows
+/// with S a tenth as fast as the corrective term mu S/eps. If no w in this range meets the limit, w
+/// is the upper bound. Without a limit, without steering or without Coulomb friction, w is 0.02
+/// rad/s. With an observer, all modes have the width of the mode with the most noise.
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 

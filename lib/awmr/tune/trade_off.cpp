@@ -10,7 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Weights of the LQI law by Bryson's rule, scaled to the vehicle (TradeOff::named).
+/// Weights of the LQI law by Bryson's rule. The acceptable values that they are computed from are
+/// described at TradeOff::named.
 LqiWeights<double> lqi_weights(const ConstraintContext& context) {
   const double error_rad = context.step_rad / 6.0;
   return {.heading_rad = error_rad,

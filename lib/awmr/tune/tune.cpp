@@ -24,8 +24,9 @@
 namespace awmr {
 namespace {
 
-/// Each scenario and mode in which fewer than 95 % of the runs settle, with the changes that let
-/// them settle. The changes are tried on the nominal vehicle and the first draws only.
+/// Returns each scenario and mode in which fewer than 95 % of the runs settle, with the changes
+/// that let them settle. To save time, the changes are tried on the nominal vehicle and the first
+/// drawn vehicles only.
 std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
                                           const ConstraintContext& context) {
   std::vector<UnsettledRuns> all;
@@ -63,17 +64,19 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
   if (samples < kMaxLatencySamples + 1e-9) return {};
   return input_error(
       ErrorCode::kTooLarge, model_file + ":/vehicle/latency_s",
-      fmt::format("{:g} s are {:.4g} samples of {:g} s, more than the limit of {} samples; give a "
-                  "longer sample_time_s, or tune without latency, noise and lag ({})",
-                  context.latency_s, samples, context.sample_time_s, kMaxLatencySamples,
-                  option_text("nominal")));
+      fmt::format(
+          "the latency of {:g} s is {:.4g} samples of {:g} s, more than the limit of {} "
+          "samples; give a longer sample_time_s, or tune without latency, noise and lag ({})",
+          context.latency_s, samples, context.sample_time_s, kMaxLatencySamples,
+          option_text("nominal")));
 }
 
-/// Number that is XORed with the seed, so that the evaluation uses other draws than the search.
+/// Number that is XORed with the seed, so that the tuned gains are evaluated on other drawn
+/// vehicles than those of the search.
 constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 
-/// Sets of gains to evaluate: tuned, baseline, the paper's, and the tuned ones without their
-/// observer.
+/// Returns the sets of gains to evaluate: the tuned ones, the baseline, the paper's, and the tuned
+/// ones without their observer.
 std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   std::vector<NamedCandidate> candidates{{kRobustGains, tuning.gains},
                                          {"baseline", tuning.baseline.gains}};
@@ -86,7 +89,8 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Runs the candidates on new draws and adds the statistics to `robust`.
+/// Evaluates the sets of gains in `candidates` on newly drawn vehicles, and adds the statistics to
+/// `robust`.
 Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
                            const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};
@@ -107,8 +111,8 @@ Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const T
   return {};
 }
 
-/// Tunes robust gains: adds draws, noise, latency and motor lag to the `setting` and `context` of
-/// the nominal search.
+/// Tunes robust gains. Adds drawn vehicles, sensor noise, latency and motor lag to the `setting`
+/// and `context`, which are those of a nominal search.
 Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
                              ConstraintContext context, const TuneOptions& options,
                              const Scenario& held_out) {

@@ -22,7 +22,8 @@ void read_weights(JsonObject json, ObjectiveWeights& weights) {
   json.reject_unknown_keys();
 }
 
-/// Raises the default numbers of draws to a multiple of the combinations of `open`.
+/// Raises the default numbers of drawn vehicles to a multiple of the number of combinations of
+/// `open`.
 void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
   const auto combinations = static_cast<int>(open.combinations());
   for (int* count : {&options.draws, &options.evaluation_draws}) {
@@ -30,16 +31,17 @@ void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
   }
 }
 
-/// Rejects the options of randomly drawn vehicles together with `nominal`. A number of 0 agrees
-/// with it.
+/// Rejects options about drawn vehicles if `nominal` is set, because a nominal search draws none.
+/// The number 0 is accepted.
 void reject_draws(JsonObject& json, const TuneOptions& options) {
   if (!options.nominal) return;
   for (const auto& [key, conflicts] :
        {std::pair("draws", options.draws != 0),
         std::pair("judged_draws", options.evaluation_draws != 0), std::pair("tail_share", true)}) {
     if (!conflicts || !json.has(key)) continue;
-    json.fault(ErrorCode::kConflict, key,
-               "needs randomly drawn vehicles, which `nominal` disables; remove one of the two");
+    json.fault(
+        ErrorCode::kConflict, key,
+        "this key needs randomly drawn vehicles, which `nominal` disables; remove one of the two");
   }
 }
 
@@ -68,8 +70,9 @@ void read_baseline(JsonObject& json, const std::filesystem::path& directory, Tun
   const std::optional<std::string> name = json.optional_string("baseline");
   if (!name) return;
   if (name->empty())
-    return json.fault(ErrorCode::kBadName, "baseline",
-                      "is empty; give \"pole-placement\", \"paper\" or the path of a gains.json");
+    return json.fault(
+        ErrorCode::kBadName, "baseline",
+        "the baseline is empty; give \"pole-placement\", \"paper\" or the path of a gains.json");
   const bool is_file = *name != kPaperSource && *name != kPolePlacement;
   Result<std::optional<Baseline>> baseline =
       baseline_named(is_file ? directory / *name : std::filesystem::path(*name));
@@ -129,7 +132,7 @@ void read_scenarios(JsonObject& json, const std::filesystem::path& directory, Tu
   }
   if (names.empty()) {
     json.fault(ErrorCode::kMissing, "scenarios",
-               "an empty list; leave the key out for the default scenarios");
+               "the list is empty; leave the key out for the default scenarios");
   }
 }
 
@@ -152,8 +155,9 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
   if (auto observer = object.optional_object("observer")) {
     config.options.observer = read_observer(std::move(*observer));
     if (!config.options.adds_observer) {
-      object.fault(ErrorCode::kConflict, "no_observer",
-                   "forbids an observer, but `observer` requests one; remove one of the two");
+      object.fault(
+          ErrorCode::kConflict, "no_observer",
+          "this key forbids an observer, but `observer` requests one; remove one of the two");
     }
   }
   if (auto limits = object.optional_object("limits")) {

@@ -32,8 +32,9 @@ void note_goal(const EvaluatedGoal& evaluated, std::vector<Finding>& findings) {
                      : std::string("increase judged_draws"))});
 }
 
-/// End of a message about runs that do not settle: the cause, or the changes with which they
-/// settle. Precondition: `unsettled` contains this scenario and mode.
+/// Returns the end of a message about runs that do not settle: why the mode cannot turn the
+/// vehicle, or the changes with which the runs settle. Precondition: `unsettled` contains this
+/// scenario and mode.
 std::string advice_for(const std::string& scenario, YawMode mode,
                        std::span<const UnsettledRuns> unsettled) {
   const auto found = std::ranges::find_if(unsettled, [&](const UnsettledRuns& runs) {
@@ -57,7 +58,8 @@ void note_unsettled(const std::string& scenario, YawMode mode, double completed_
            advice_for(scenario, mode, unsettled))});
 }
 
-/// Adds a warning if some parameters of the confidence set make the heading loop unstable.
+/// Adds a warning if the heading loop is unstable for some parameters in the model's confidence
+/// set.
 void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& findings) {
   if (certificate.damping.value > 0.0) return;
   std::string where;
@@ -73,8 +75,8 @@ void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& 
                    degrees(certificate.damping.yaw_rate_radps))});
 }
 
-/// Adds a warning if tune() added an observer, or if a requested one is tuned on runs without
-/// disturbance.
+/// Adds a warning if tune() added an observer by itself, or if no scenario has a disturbance that a
+/// requested observer could reject.
 void note_observer(const TuneOptions& options, const Tuning& tuning,
                    std::vector<Finding>& findings) {
   if (tuning.observer_added) {
@@ -114,8 +116,8 @@ void note_baseline(const Tuning& tuning, std::vector<Finding>& findings) {
                    option_text("baseline"))});
 }
 
-/// Adds findings about requests that the vehicle cannot meet, in the scenarios and in the sensor
-/// and motor conditions of the draws (unattainable_requests()).
+/// Adds findings about requests that the vehicle cannot meet: headings and speeds of the scenarios,
+/// and the sensor and motor conditions of the drawn vehicles (unattainable_requests()).
 void note_scenarios(const Model& model, const TuneOptions& options, const Tuning& tuning,
                     std::vector<Finding>& findings) {
   std::vector<Scenario> scenarios = options.scenarios;
@@ -128,7 +130,8 @@ void note_scenarios(const Model& model, const TuneOptions& options, const Tuning
   }
 }
 
-/// Findings from the runs of the nominal vehicle, for nominal gains or without fresh draws.
+/// Returns findings from the runs of the nominal vehicle. They are used if there are no runs of
+/// newly drawn vehicles.
 std::vector<Finding> nominal_findings(const Tuning& tuning) {
   std::vector<Finding> findings;
   for (const ModeScore& score : tuning.scores) {
@@ -138,10 +141,10 @@ std::vector<Finding> nominal_findings(const Tuning& tuning) {
   return findings;
 }
 
-/// Findings of the tuned gains on fresh draws, which are drawn vehicles that the search did not
-/// use: a warning for each goal that these draws do not confirm (`goal-missed`, `goal-open`), and
-/// one for each mode in which fewer than 95 % of the runs settle after every step (`unsettled`),
-/// per scenario if there are several.
+/// Returns findings from the runs of newly drawn vehicles, which the search did not use: a warning
+/// for each goal that these vehicles do not confirm (`goal-missed`, `goal-open`), and one for each
+/// mode in which fewer than 95 % of the runs settle after every step (`unsettled`). If there are
+/// several scenarios, the latter is given for each of them.
 std::vector<Finding> evaluation_findings(const RobustTuning& robust,
                                          std::span<const UnsettledRuns> unsettled) {
   std::vector<Finding> findings;

@@ -8,11 +8,11 @@
 
 namespace awmr {
 
-/// All findings of a tuning: first those of the fresh draws, then those that do not depend on the
-/// draws. For nominal gains, or without fresh draws, the runs of the nominal vehicle replace those
-/// on fresh draws. Preconditions: `tuning` is the result of tune() with `options`, and
-/// options.scenarios has all scenarios of the tuning, including default ones (needed for
-/// `observer-unpushed` and `beyond-trials`).
+/// Returns all findings of a tuning: first those from newly drawn vehicles, then all others. For
+/// nominal gains, or without newly drawn vehicles, the runs of the nominal vehicle are used
+/// instead. Preconditions: `tuning` is the result of tune() with `options`, and options.scenarios
+/// has all scenarios of the tuning, including default ones (needed for `observer-unpushed` and
+/// `beyond-trials`).
 std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
                                    const Tuning& tuning);
 

@@ -74,7 +74,7 @@ TuningGoal read_goal(JsonObject json) {
   limits.reject_unknown_keys();
   if (goal.at_most.empty()) {
     json.fault(ErrorCode::kMissing, "at_most",
-               "contains no metric; give at least one with its limit");
+               "this goal contains no metric; give at least one with its limit");
   }
   goal.share = json.optional_number("share", kGoalShare).value_or(goal.share);
   if (json.has("mode")) goal.mode = json.choice("mode", kYawModeNames);

@@ -21,7 +21,7 @@ struct ReadOption {
   void operator()(const char* key, std::optional<Interval>& value, const NumberRule& rule) const;
 };
 
-/// Reads the limits of tune.json or gains.json; missing ones get their default.
+/// Reads the limits of tune.json or gains.json. Missing keys get their default values.
 TuningLimits read_limits(JsonObject json);
 
 /// Reads `/examined` of gains.json.
@@ -30,13 +30,13 @@ ExaminedRange read_examined(JsonObject json);
 /// Reads a goal, as in tune.json.
 TuningGoal read_goal(JsonObject json);
 
-/// Reads and writes the unmodelled variation, as in tune.json.
+/// Reads and writes the unmodelled variation (key `open` of tune.json).
 UnmodelledVariation read_open(JsonObject json);
 Json open_json(const UnmodelledVariation& open);
 
-/// `/robust/quantiles` of gains.json: by mode, then gains.
+/// Writes `/robust/quantiles` of gains.json, the quantiles of the metrics by mode, then gains.
 Json quantiles_json(const std::vector<EvaluatedGains>& evaluated);
-/// `/robust/by_scenario` of gains.json: the quantiles by scenario, then mode, then gains.
+/// Writes `/robust/by_scenario` of gains.json, the quantiles by scenario, then mode, then gains.
 Json by_scenario_json(const std::vector<EvaluatedGains>& evaluated);
 /// `/certificate` of gains.json.
 Json certificate_json(const Certificate& certificate);

@@ -12,19 +12,20 @@
 namespace awmr {
 namespace {
 
-/// Largest number of RK4 steps of a search. They take some hours.
+/// Largest number of RK4 steps of a search. This many steps take some hours.
 constexpr double kMaxSearchSteps = 1e11;
 
 /// Expected duration on two cores, s, above which a search is announced.
 constexpr double kLongSearch_s = 10.0;
 /// Time of an RK4 step on two cores, s.
 constexpr double kTimeOfStep_s = 2.5e-8;
-/// For the estimated duration: number of evaluations on all draws in the last part of the search,
-/// and number of evaluations of gains on new draws.
+/// Numbers of evaluations from which the duration is estimated: on all drawn vehicles in the last
+/// part of the search, and on new drawn vehicles after it.
 constexpr double kOnAllDraws = 12.0;
 constexpr double kOnNewDraws = 3.0;
 
-/// Reports a long search. `steps`: RK4 steps of all runs on one vehicle; `modes`: number of modes.
+/// Calls `options.notice` if the search takes long. `steps`: RK4 steps of all runs on one vehicle;
+/// `modes`: number of modes.
 void announce(const TuneOptions& options, double steps, int modes) {
   double runs = static_cast<double>(options.global_evaluations) + options.local_evaluations;
   if (!options.nominal) {
@@ -53,7 +54,8 @@ Status check_search_work(const TuneOptions& options, const std::vector<Scenario>
   double evaluations = static_cast<double>(options.global_evaluations) + options.local_evaluations;
   if (!options.nominal) {
     steps *= 1.0 + options.draws;
-    // The evaluation runs about three sets of gains (candidates_of()) on each draw.
+    // After the search, about three sets of gains (candidates_of()) are evaluated on new drawn
+    // vehicles.
     evaluations += 3.0 * options.evaluation_draws / (1.0 + options.draws);
   }
   if (evaluations * steps <= kMaxSearchSteps) {

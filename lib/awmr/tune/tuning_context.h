@@ -1,5 +1,5 @@
-/// The context of the constraints (constraints.h) for one tuning, and defaults that depend on it.
-/// Private to tune/.
+/// Makes the context of the constraints (constraints.h) for one tuning, and fills in the limits
+/// whose defaults depend on it. Private to tune/.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@
 
 namespace awmr {
 
-/// Context for ideal sensors and motors. Speed, heading step and yaw rate are the largest of the
-/// scenarios.
+/// Returns the context for ideal sensors and motors. Its speed, heading step and yaw rate are the
+/// largest of all scenarios.
 ConstraintContext context_of(const TuneOptions& options, const Plant<double>& plant,
                              const Vehicle& vehicle, const std::vector<Scenario>& scenarios);
 

@@ -54,8 +54,8 @@ std::vector<std::string> changes(const TurningMoment& moment, const DrawnVehicle
   return found;
 }
 
-/// True if the run needs no turn at steady speed: it accelerates, and its only heading is commanded
-/// from the start.
+/// True if the vehicle can do its whole turn while it accelerates: the scenario starts below its
+/// speed, and has only one heading, which is commanded from the start.
 bool turns_while_accelerating(const Scenario& scenario) {
   return std::get<HeadingSteps>(scenario.guidance).steps.size() == 1 &&
          scenario.initial.u_mps < scenario.speed_mps;

@@ -12,32 +12,33 @@
 
 namespace awmr {
 
-/// Yaw moments of one mode at the speed u_d, m.
+/// Yaw moments of one mode at the speed u_d, m: the largest possible one, and the one needed to
+/// turn.
 struct TurningMoment {
   YawMode mode{};
   double speed_mps = 0.0;    ///< u_d
   double available_m = 0.0;  ///< the largest moment
-  /// g3 at kSlowest_radps, plus the tyre scrub moment times the share of `available_m` that the
-  /// difference of left and right wheel forces makes.
+  /// Moment needed to turn: the yaw resistance g3 at kSlowest_radps, plus tyre scrub. The scrub
+  /// moment is multiplied by the share of `available_m` that left and right wheel forces make.
   double needed_m = 0.0;
 
   bool turns() const { return available_m > needed_m; }
 };
 
-/// The largest moments are
-///   steering      l_f g1(u_d) tan(d_max/2), as the steady speed needs the thrust g1(u_d)
+/// Returns the yaw moments of a mode. The largest moments are
+///   steering      l_f g1(u_d) tan(d_max/2), because the steady speed needs the thrust g1(u_d)
 ///   differential  n d (F'max - F'min)/2, n the number of driven wheels
 ///   combined      the sum of both
-/// F'max and F'min are the limits after subtracting the dead zone; with front-wheel drive,
-/// tan(d_max) replaces tan(d_max/2).
+/// F'max and F'min are the limits of the wheel force after subtracting the dead zone; with
+/// front-wheel drive, tan(d_max) replaces tan(d_max/2).
 TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawMode mode);
 
-/// Describes the moments of a mode that cannot turn the vehicle, and each change of the vehicle or
-/// the scenario, with its number, that alone lets it turn.
+/// Describes why a mode cannot turn the vehicle, and names each change of the vehicle or the
+/// scenario that alone lets it turn, with the required number.
 std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle);
 
-/// Checks that at least one of the modes turns in at least one scenario. Errors (refused): none
-/// does. Precondition: the scenarios have heading guidance.
+/// Checks that the vehicle can turn in at least one mode and scenario. Errors (refused): it cannot.
+/// Precondition: the scenarios have heading guidance.
 Status check_turning(const DrawnVehicle& vehicle, std::span<const YawMode> modes,
                      std::span<const Scenario> scenarios, const std::string& model_file);
 
