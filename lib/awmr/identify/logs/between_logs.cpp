@@ -58,7 +58,7 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
 /// Result of Cochran's Q test of the hypothesis that L logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double std_error = 0.0;    ///< of the mean over logs, with the variance between logs included
+  double std_error = 0.0;    ///< standard error of the mean over logs, which may differ
   double mean_square = 0.0;  ///< Q/(L - 1); about 1 if the logs agree
 };
 

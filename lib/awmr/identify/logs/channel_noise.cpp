@@ -135,7 +135,7 @@ NoiseCandidate likeliest_share(std::span<const ErrorSeries> series, double corre
 /// drift. `white_cost`: cost without a drift.
 NoiseCandidate likeliest_drift(std::span<const ErrorSeries> series, double step_s,
                                double white_cost) {
-  // Refined only if the grid lowers -2 ln L by more than this.
+  // The best drift of the grid is refined only if it lowers -2 ln L by more than this.
   constexpr double kWorthASearch = 4.0;
   constexpr int kGrid = 7;
   constexpr int kBits = 8;
@@ -174,8 +174,8 @@ struct SecondOrder {
     ChannelNoise unit = unit_noise(logit, 0.0);
     unit.frequency_radps = std::exp(log_radps);
     unit.damping = std::exp(log_damping);
-    // Decay time of the drift. For zeta > 1 the drift is a sum of two exponentials; that of the
-    // slower one.
+    // Decay time of the drift. For zeta > 1, the drift is a sum of two exponentials, and this is
+    // the decay time of the slower one.
     const double over = std::sqrt(std::max(0.0, unit.damping * unit.damping - 1.0));
     unit.correlation_s = 1.0 / (unit.frequency_radps * (unit.damping - over));
     return unit;

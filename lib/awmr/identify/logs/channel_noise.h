@@ -28,7 +28,7 @@ namespace awmr {
 struct ChannelNoise {
   double white_std = 1.0;        ///< sigma_w, SI
   double drift_std = 0.0;        ///< sigma_d, SI; 0: no drift
-  double correlation_s = 0.0;    ///< tau, or decay time of a second-order drift; 0: no drift
+  double correlation_s = 0.0;    ///< correlation time tau, or decay time of a second-order drift
   double frequency_radps = 0.0;  ///< omega of a second-order drift; 0: first order
   double damping = 0.0;          ///< zeta of a second-order drift, > 0
   double differenced = 0.0;      ///< theta of differenced noise, 0 to 1; 0: not differenced

@@ -373,8 +373,8 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};
   BestFamily& result = comparison.result;
   for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {
-    // After a change of one axis, this decides again whether the other axis is compared, because
-    // the errors of a wrong resistance of one axis can hide those of the other.
+    // After a change of one axis, the need to compare the other axis is decided again, because the
+    // errors of a wrong resistance of one axis can hide those of the other.
     if (comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;
     if (!is_contested(power_law, result.best, contest, of_yaw)) continue;
     comparison.compare(of_yaw, other_families(comparison.families(), of_yaw));

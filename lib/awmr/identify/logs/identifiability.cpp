@@ -98,7 +98,8 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
 /// blocks counts if it exceeds the prediction of the noise model. The scatter of whole logs counts
 /// if there are at least three logs and their scatter exceeds the prediction significantly.
 void widen(const Scores& scores, Identifiability& found) {
-  constexpr double kManyDegrees = 1e6;  // so many that Student's t equals the normal distribution
+  // Practically infinite: Student's t then equals the normal distribution.
+  constexpr double kManyDegrees = 1e6;
   constexpr std::size_t kEnoughLogs = 3;
   found.degrees_of_freedom.assign(at(found.covariance.rows()), kManyDegrees);
   found.factor.assign(at(found.covariance.rows()), 1.0);

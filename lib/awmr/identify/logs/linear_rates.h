@@ -55,7 +55,7 @@ struct LinearPlant {
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
                        double longest_step_s = 0.0, const ExtraForces& extra_forces = {});
   Plant<double> plant;
-  FrictionRates<double> friction;  ///< of the friction at rest: Coulomb c plus Stribeck s
+  FrictionRates<double> friction;  ///< decelerations by the friction at rest, Coulomb plus Stribeck
   ExtraForces extra;
   LinearResistance surge;
   LinearResistance yaw;

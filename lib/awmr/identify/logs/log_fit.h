@@ -21,7 +21,7 @@ namespace awmr {
 struct LogFit {
   std::vector<FreeQuantity> quantities;
   std::vector<double> coordinates;  ///< one per quantity: its value, or the logarithm of it
-  Eigen::MatrixXd covariance;       ///< of the coordinates; a large variance means not identified
+  Eigen::MatrixXd covariance;  ///< covariance of the coordinates; large variance: not identified
   /// One per quantity; empty text: the quantity is identified.
   std::vector<std::string> refusal_reason;
   NoiseLevels noise;

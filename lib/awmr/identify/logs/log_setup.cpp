@@ -142,9 +142,9 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     const Estimate& known = model[parameter.id];
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(requested, parameter.id) || !known.value;
-    // Two parameters stay fixed if the logs cannot identify them, because they then have no effect:
-    // back-EMF, and the time constant of a servo whose command never changes. If that time constant
-    // were free, the fitted steering angle at the beginning of each window would act like a trim.
+    // Back-EMF and the servo's time constant stay fixed if the logs cannot identify them. (If the
+    // time constant of a servo whose command never changes were free, the fitted steering angle at
+    // the beginning of each window would act like a trim.)
     const bool never_acts =
         parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
     if (!can_be_requested(parameter) || !wanted) continue;

@@ -9,7 +9,7 @@ namespace awmr {
 
 /// A least-squares problem with noise levels estimated from its residuals, and its solution.
 struct NoiseIteration {
-  LogProblem problem;  ///< with the estimated noise levels and the weights of a robust loss
+  LogProblem problem;  ///< the problem with its estimated noise levels and robust weights
   SearchPoint point;
   double first_cost = 0.0;  ///< cost after the first round, under the initial noise levels
   bool gave_up = false;     ///< true: first_cost exceeds NoiseRounds::give_up_above

@@ -58,12 +58,12 @@ struct FreeQuantity {
   ///     slip or offset (m);
   ///   - 0.5 for a slope (m/s^2), 0.01 for smoothing (s^2).
   double large_change = 1.0;
-  double full_command = 1.0;  ///< for kForceSaturation: largest command F'm, > 0
-  double fastest = 1.0;     ///< for a Stribeck speed scale: largest speed of the logs, m/s or rad/s
-  bool is_at_rows = false;  ///< for kSensorLag: true: the filter makes one step per row of a log
-  double damping = 0.0;     ///< for kSensorLag: zeta of a second-order filter; 0: first order
-  bool is_mean = false;     ///< for kSmoothing: true: moving average; false: Gaussian kernel
-  bool is_ratio = false;    ///< for kWheelSlip: true: a slip ratio; false: a speed
+  double full_command = 1.0;  ///< largest command F'm, > 0 (for kForceSaturation)
+  double fastest = 1.0;  ///< largest speed of the logs, m/s or rad/s (for a Stribeck speed scale)
+  bool is_at_rows = false;  ///< true: the filter makes one step per row of a log (for kSensorLag)
+  double damping = 0.0;     ///< zeta of a second-order filter; 0: first order (for kSensorLag)
+  bool is_mean = false;     ///< true: moving average; false: Gaussian kernel (for kSmoothing)
+  bool is_ratio = false;    ///< true: a slip ratio; false: a slip speed (for kWheelSlip)
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }

@@ -15,8 +15,8 @@ namespace awmr {
 
 /// Errors of a window's n samples.
 struct WindowErrors {
-  Eigen::VectorXd raw;  ///< of length n: model + bias - measured, SI
-  /// Of length n: whitened, divided by the standard deviation, weighted.
+  Eigen::VectorXd raw;  ///< the n errors, model + bias - measured, SI
+  /// The n errors, whitened, divided by their standard deviation and weighted.
   Eigen::VectorXd standardised;
   bool finite = false;  ///< false if the simulation is not finite
 };

@@ -85,7 +85,7 @@ std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
 /// exact or rounded. Empty if the signal is not interpolated between set-points.
 std::optional<std::vector<std::size_t>> set_points_of(const Signal& t_s, const Signal& signal) {
   constexpr double kExact = 1e-3;  // tolerance for exact values, relative to the resolution
-  // For rounded values: 0.5 by the row itself, 0.5 by its two neighbours.
+  // Tolerance for rounded values: 0.5 for the row itself, 0.5 for its two neighbours.
   constexpr double kRounded = 1.05;
   const double resolution = resolution_of(signal);
   for (const double share : {kExact, kRounded}) {

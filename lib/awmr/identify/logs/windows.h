@@ -53,7 +53,7 @@ std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
 /// A component of the initial state that is fitted in every window.
 struct InitialComponent {
   LogChannel channel;  ///< the component, for example kSpeed for u
-  double prior_std;    ///< of the weak prior about the measured value, SI
+  double prior_std;    ///< standard deviation of the weak prior about the measured value, SI
 };
 
 /// Components of the initial state that influence a measured channel of the logs. They are fitted
