@@ -41,7 +41,7 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
 }
 
 std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled, Loss loss) {
-  constexpr double kShare = 0.5;  // of the delay, as the initial guess
+  constexpr double kShare = 0.5;  // initial guess of the motor lag, divided by the fitted delay
   const std::vector<FreeQuantity>& quantities = settled.problem.model.quantities;
   const auto delay = std::ranges::find(quantities, FreeQuantity::Kind::kDelay, &FreeQuantity::kind);
   if (delay == quantities.end() || has_motor_lag(settled.problem.model)) return {};
@@ -57,7 +57,7 @@ std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& set
 
 namespace {
 
-/// Range of the steering commands in a window, and 0; rad.
+/// Smallest interval, rad, that contains 0 and all steering commands of the window.
 Interval commanded_angles_rad(const FitWindow& window) {
   Interval angles{0.0, 0.0};
   const auto& commands = window.rows.log->steering_command_rad;
@@ -69,9 +69,9 @@ Interval commanded_angles_rad(const FitWindow& window) {
   return angles;
 }
 
-/// Largest steering rate that a servo without a rate limit would reach, rad/s: range of the
-/// steering commands divided by the servo's time constant. At most the rate limit of the vehicle
-/// file; 0 if the time constant is not free.
+/// Largest steering rate, rad/s, that the logged commands demand of the servo: the range of the
+/// steering commands divided by the servo's time constant. It is at most the rate limit of the
+/// vehicle file. Returns 0 if the time constant is not free.
 double demanded_rate_radps(const NoiseIteration& settled) {
   const LogModel& model = settled.problem.model;
   const auto lag = place_of(model.quantities, ParameterId::kSteeringTimeConstant);
@@ -86,8 +86,8 @@ double demanded_rate_radps(const NoiseIteration& settled) {
                   radians(model.vehicle.steering_max_rate_degps));
 }
 
-/// Of long logs, the fit to the windows with the largest ranges of steering commands: they show a
-/// rate limit of the servo best. Of other logs, `settled`.
+/// Returns a fit that shows a rate limit of the servo best. For long logs this is a new fit to the
+/// windows with the largest ranges of steering commands. For short logs it is `settled` itself.
 NoiseIteration with_largest_steering(const NoiseIteration& settled, Loss loss) {
   if (!is_long(settled.problem)) return settled;
   const std::vector<FitWindow>& windows = settled.problem.windows;

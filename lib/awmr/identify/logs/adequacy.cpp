@@ -12,8 +12,9 @@
 namespace awmr {
 namespace {
 
-/// Adds reports of the other families of surge resistance. Returns the advice to use a better
-/// family; empty if the power law is the best.
+/// Adds the fits with other formulas of the surge resistance ("families") to the reports in
+/// `adequacy`. If one of them is better than the power law, returns the advice to use it. Returns
+/// empty if the power law is the best.
 std::optional<std::string> try_alternatives(BestFamily alternatives, const FamilyFit& chosen,
                                             Adequacy& adequacy) {
   for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
@@ -56,8 +57,8 @@ bool has_only_positions(const NoiseLevels& noise) {
 /// Possible causes of a model error in a channel.
 std::string possible_causes(LogChannel channel) {
   if (channel == LogChannel::kSway) {
-    return "the tyres slide, or the sensor is turned, sits ahead of or behind the centre of "
-           "gravity, or drifts";
+    return "the tyres slide, or the sensor drifts, is mounted at an angle, or sits ahead of or "
+           "behind the centre of gravity";
   }
   const std::string causes =
       "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "

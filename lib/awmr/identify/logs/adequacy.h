@@ -14,16 +14,18 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
 
 /// Result of check_adequacy().
 struct Adequacy {
-  std::vector<EstimatorReport> alternatives;  ///< fits of other families, if any
+  /// Fits with other families of surge resistance; empty if none was tried.
+  std::vector<EstimatorReport> alternatives;
   std::vector<Finding> findings;
-  bool withdraws_intervals = false;  ///< true: a model error is so large that no interval is valid
-  bool withdraws_sway = false;       ///< true: the sway speed has a model error
+  /// True: no interval is valid, because a model error is too large.
+  bool withdraws_intervals = false;
+  bool withdraws_sway = false;  ///< true: the measured sway speed shows a model error
 };
 
-/// Reports `model-inadequate` for every channel of the fit `chosen` whose residuals show a model
-/// error (ChannelNoise::of_the_model()). If the speed is one of these channels and `try_families`
-/// is true, also fits the other families of surge resistance, and recommends a family that is
-/// better. `power_law`: options of a fit with power laws in surge and yaw.
+/// Checks every channel of the fit `chosen`. Reports `model-inadequate` for a channel whose
+/// residuals show a model error (ChannelNoise::of_the_model()). If this is the speed and
+/// `try_families` is true, also fits other formulas ("families") of the surge resistance, and
+/// recommends a better one. `power_law`: options of a fit with power laws in surge and yaw.
 Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families);
 

@@ -53,7 +53,8 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
 }
 
 LogFitOptions with_back_emf(LogFitOptions options) {
-  constexpr double kShare = 0.1;  // initial drag by back-EMF over the resistance, at 1 m/s
+  // Initial guess: back-EMF drag of all driven wheels over the resistance, both at 1 m/s.
+  constexpr double kShare = 0.1;
   double& guess = options.initial_guess[at(ParameterId::kBackEmf)];
   if (!(guess > 0.0)) {
     guess = kShare * options.initial_guess[at(ParameterId::kSurgeAlpha)] /

@@ -28,7 +28,8 @@ LogFitOptions with_back_emf(LogFitOptions options);
 /// that `fit` tested.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
-/// True if the fit with k_e lowers AIC by more than kFamilyAicThreshold and identifies k_e.
+/// True if `with`, the fit that estimates k_e, identifies k_e and has an AIC that is lower than
+/// that of `without` by more than kFamilyAicThreshold.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
 /// Returns the warning `back-emf`, which states that the model with k_e is used, the value of k_e,

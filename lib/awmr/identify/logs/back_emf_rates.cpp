@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// A vector over (u, v, r), or a row of a 3 x 3 matrix.
+/// Vector of three numbers, one each for u, v and r; or a row of a 3 x 3 matrix.
 using Vector3 = std::array<double, 3>;
 
 /// Adds share times a b^T to the matrix `to`.
@@ -20,8 +20,12 @@ void add_product(double share, const Vector3& a, const Vector3& b, std::array<Ve
 
 /// Damping matrix D of back-EMF. A wheel rolls at the speed w = J (u, v, r), with the 1 x 3 matrix
 /// J. Its force F' acts on the vehicle as (X, Y, N) = J^T F'. Back-EMF reduces F' by k_e w, so
+///
 ///     (X, Y, N) -= k_e D (u, v, r),   D = sum J^T J over the wheels whose motor is on
 ///     J_rear = (1, 0, -+d),   J_front = (cos d_r, sin d_r, l_f sin d_r -+ d cos d_r)
+///
+/// The upper sign is for left wheels, the lower for right wheels. d: half of the track width; l_f:
+/// distance of the front axle ahead of the centre of gravity; d_r: steering angle.
 struct Braking {
   std::array<Vector3, 3> by_motion{};    ///< D
   std::array<Vector3, 3> by_steering{};  ///< d D / d d_r

@@ -26,7 +26,7 @@ struct ByLog {
   std::vector<double> weights;  ///< 1/variance
 };
 
-/// Index of a quantity in a fit; empty if the fit does not identify it.
+/// Index of the quantity `name` in the fit. Empty if the fit does not identify this quantity.
 std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     if (fit.quantities[i].name() == name && fit.refusal_reason[i].empty()) return i;
@@ -55,11 +55,11 @@ ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& 
   return found;
 }
 
-/// Result of Cochran's Q test that the logs agree on a quantity.
+/// Result of Cochran's Q test of the hypothesis that L logs agree on a quantity.
 struct Heterogeneity {
   double p_value = 1.0;
-  double std_error = 0.0;    ///< standard error of the mean over logs, including tau^2
-  double mean_square = 0.0;  ///< Q/(L - 1), about 1 if the L logs agree
+  double std_error = 0.0;    ///< standard error of the mean over logs, which may differ
+  double mean_square = 0.0;  ///< Q/(L - 1); about 1 if the logs agree
 };
 
 Heterogeneity heterogeneity(const ByLog& by_log) {
@@ -83,9 +83,9 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
 }
 
 /// Raises the standard error of quantity `i` of the common fit to `std_error`, and sets the
-/// interval by Student's t. `logs`: number of logs from which `std_error` was computed. Keeps the
-/// standard error of the common fit if that is larger, because it includes the scatter between
-/// parts of the logs.
+/// interval by Student's t. `logs`: number of logs from which `std_error` was computed. A larger
+/// standard error of the common fit is kept, because it includes the scatter between parts of the
+/// logs.
 void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const Eigen::Index row = eigen_index(i);
   const double by = std::max(1.0, std_error / std::sqrt(fit.covariance(row, row)));
@@ -100,13 +100,14 @@ void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
 }
 
-/// The rows of the one log in `log`, from the fraction `from` to the fraction `to` of its duration.
-/// `which`: name of the part, for example "first half".
+/// Selects a part of a single log: its rows from the fraction `from` to the fraction `to` of its
+/// duration. `log`: a vector with this one log. `which`: name of the part, for example "first
+/// half".
 LogPart part_of(const std::vector<DrivingLog>& log, double from, double to,
                 const std::string& which) {
   const std::vector<double>& t_s = log.front().t_s;
   const double duration_s = t_s.back() - t_s.front();
-  // The interval is half-open, so the last part ends after the last row.
+  // The end of the time interval is excluded. The last part therefore ends after the last row.
   const double end_s = to < 1.0 ? t_s.front() + to * duration_s : t_s.back() + 1.0;
   return {log,
           {t_s.front() + from * duration_s, end_s},
@@ -143,11 +144,12 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
   return disagreements;
 }
 
-/// Returns the delay or command error whose score-test value differs most between the logs, among
-/// the terms that the common fit does not contain. Empty if no value differs by more than three
-/// standard errors (root mean square). The standard errors are those of the noise model, because
-/// the scatter between blocks cannot show a difference between logs: all blocks of a log have the
-/// same command error.
+/// Returns the delay or command error that the common fit lacks and that differs most between the
+/// logs. A score test on each log estimates the value of every such term. Empty if the values of no
+/// term scatter between the logs by more than three standard errors (root mean square).
+///
+/// The standard errors are those of the noise model. The scatter between blocks of a log cannot
+/// show a difference between logs, because all blocks of a log have the same command error.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {
@@ -172,8 +174,8 @@ std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>
   return strongest;
 }
 
-/// Fits strongest_missing_term() to each log. Returns the disagreement of the logs on its value, if
-/// any.
+/// Fits every log with strongest_missing_term() as an additional quantity. Returns the disagreement
+/// if the logs give significantly different values of this quantity.
 std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLog>& logs,
                                                      const std::vector<std::string>& files,
                                                      LogFitOptions options, const LogFit& common) {
@@ -189,8 +191,10 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
   return {{term->name(), p_value, by_log.files, by_log.coordinates, true}};
 }
 
-/// True for errors of steering and force commands (trim, dead band, asymmetry, imbalance,
-/// saturation, exponent), and for the forces of extra_forces.h except Stribeck friction.
+/// True if a disagreement of the logs on this term invalidates all intervals, because the other
+/// quantities absorb the effect of the term. These terms are the errors of steering and force
+/// commands (trim, dead band, asymmetry, imbalance, saturation, exponent) and the forces of
+/// extra_forces.h, except Stribeck friction.
 bool invalidates_all(std::string_view name) {
   constexpr std::string_view kOfCommands[] = {kSteeringTrimName,      kSteeringDeadBandName,
                                               kSteeringAsymmetryName, kForceImbalanceName,
@@ -225,12 +229,13 @@ LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOpti
 }  // namespace
 
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common) {
-  constexpr double kLongEnough_s = 20.0;  // shorter logs have too little information in each half
+  constexpr double kLongEnough_s = 20.0;  // half of a shorter log has too little information
   if (!common.fit.usable) return {};
   LogFitOptions options = from_optimum(common.options, common);
   options.noise = common.fit.noise;
   options.bootstrap = 0;
-  options.effort.reset();  // no limit: these searches are short and decide if intervals are valid
+  // No limit of the work: these short searches decide whether intervals are valid.
+  options.effort.reset();
   if (logs.size() == 1) {
     const std::vector<double>& t_s = logs.front().t_s;
     if (t_s.back() - t_s.front() < kLongEnough_s) return {};

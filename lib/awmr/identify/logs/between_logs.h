@@ -14,33 +14,35 @@ namespace awmr {
 /// A quantity whose estimates from single logs differ significantly.
 struct LogDisagreement {
   std::string name;
-  double p_value = 1.0;            ///< of the hypothesis that the value is the same in all logs
-  std::vector<std::string> files;  ///< logs that determine the quantity on their own
+  double p_value = 1.0;  ///< p value of the hypothesis that the value is the same in all logs
+  std::vector<std::string> files;  ///< logs of which each determines the quantity
   std::vector<double> values;      ///< estimate from each of these logs
   bool withdraws = false;          ///< true: all intervals of the common fit are invalid
-  bool refuses = false;  ///< true: the quantity gets no value, as its widened interval is too wide
+  /// True: the quantity gets no value, because its widened interval is too wide.
+  bool refuses = false;
 };
 
 /// Result of compare_logs().
 struct LogComparison {
   std::vector<LogDisagreement> disagreements;
-  /// Only for a single log: present if its halves agree, but a fit of the first half does not
-  /// predict the last fifth of the log.
+  /// Result of the prediction of the last fifth of a single log by a fit of its first half. Present
+  /// only if this prediction fails although the two halves of the log agree.
   std::optional<HeldOut> missed;
 };
 
-/// Fits every log on its own, starting from the optimum of the `common` fit of all logs, and
-/// compares the values. For a coordinate (a quantity or its logarithm) with the values x_l and the
-/// weights w_l = 1/var(x_l) in L logs,
+/// Fits every log on its own and compares the values of each quantity. Each fit starts from the
+/// optimum of `common`, the fit of all logs together. x_l is the value (or its logarithm) by log l
+/// of L logs, w_l = 1/var(x_l) is its weight, and `mean` is the weighted mean:
 ///
 ///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom if the logs agree,
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)
 ///
-/// with the variance tau^2 between logs. The logs disagree if p < 0.001 (Bonferroni over all
+/// tau^2 is the variance between logs. The logs disagree if p < 0.001 (Bonferroni over all
 /// quantities). The standard error of the common fit is then raised to at least the standard error
-/// of the mean over such logs. The interval covers that mean, not an individual log. A quantity is
-/// refused if its raised standard error exceeds kUnknown times its large change
-/// (identifiability.h). Sensor biases are not compared, because they may differ between logs.
+/// of the mean, which includes tau^2. The interval covers the mean over such logs, not an
+/// individual log. A quantity gets no value if its raised standard error exceeds kUnknown times its
+/// large change (identifiability.h). Sensor biases are not compared, because they may differ
+/// between logs.
 ///
 /// The common fit may lack a delay or command error that differs between the logs, for example a
 /// steering trim that was changed between two logs. A score test of each such term is therefore

@@ -27,7 +27,8 @@ Eigen::VectorXd drawn_sum(const std::vector<Eigen::VectorXd>& scores, const Eige
   return sum;
 }
 
-/// Ratio of `std` to the standard deviation of the draws, whose mean is 0. 1 if all draws are 0.
+/// Factor by which to scale the draws so that their standard deviation becomes `std`. The mean of
+/// the draws is 0. Returns 1 if all draws are 0.
 double scale_to(double std, const std::vector<double>& draws) {
   double squares = 0.0;
   for (const double draw : draws) squares += draw * draw;

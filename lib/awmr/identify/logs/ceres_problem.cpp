@@ -22,7 +22,8 @@ double prior_residual(const LogProblem& problem, std::size_t i, double x) {
   return (x - problem.initial[i]) / prior_std(problem, i);
 }
 
-/// Work of one evaluation of all windows with derivatives, in the unit of Effort.
+/// Work of one evaluation of all windows with derivatives: integration steps times numbers per
+/// step, as counted by Effort.
 std::int64_t numbers_integrated(const LogProblem& problem) {
   double steps = 0.0;
   for (const FitWindow& window : problem.windows) {
@@ -35,10 +36,12 @@ std::int64_t numbers_integrated(const LogProblem& problem) {
   return std::llround(steps * static_cast<double>(1 + derivatives));
 }
 
-/// Evaluates all windows in parallel at each new point, before Ceres requests the first window.
-/// Derivatives are always computed, because they take little more time than the residuals. If a
-/// coordinate is at its bound and the cost decreases towards values beyond it, the evaluator sets
-/// the derivatives with respect to this coordinate to 0, which fixes it at the bound. (Ceres would
+/// Computes the residuals and derivatives of all windows in parallel at each new point, before
+/// Ceres requests those of the first window. Derivatives are always computed, because they take
+/// little more time than the residuals.
+///
+/// A coordinate is fixed while it is at its bound and the cost decreases towards values beyond the
+/// bound. For this, the derivatives with respect to the coordinate are set to 0. (Ceres would
 /// instead cut the step at the bound, which makes the step of the other coordinates wrong.)
 class Evaluator : public ceres::EvaluationCallback {
  public:
@@ -84,11 +87,12 @@ class Evaluator : public ceres::EvaluationCallback {
   const SearchPoint& point_;
   std::vector<WindowSums> sums_;
   std::vector<Triangle> triangles_;
-  std::vector<bool> held_;  ///< one per coordinate: true if fixed at its bound
+  std::vector<bool> held_;  ///< one per coordinate: true if it is fixed at its bound
 };
 
-/// Cost function of one window. Returns the results of Evaluator, reduced to a triangular matrix.
-/// Parameter blocks: the coordinates, and the window's initial state.
+/// Cost function of one window for Ceres. It passes on the residuals and the Jacobian that
+/// Evaluator has computed and reduced to a triangular matrix. Parameter blocks: the coordinates,
+/// and the initial state of the window.
 class WindowCost : public ceres::CostFunction {
  public:
   WindowCost(const Evaluator& evaluator, std::size_t window)
@@ -180,13 +184,13 @@ ceres::Solver::Options solver_options(double function_tolerance) {
   return options;
 }
 
-/// Ends a search that makes no progress, in two cases:
+/// Ends a search that makes no progress. This is the case if one of two conditions holds:
 ///   - Two steps in a row fail, each with a predicted decrease of -ln L below 0.05. Such a decrease
 ///     corresponds to less than a third of a standard error. On this scale the cost is rough,
 ///     because Runge-Kutta steps cross the kink of the resistance wherever the speed or the yaw
 ///     rate changes its sign. Smaller steps would only find local minima.
-///   - Eight steps together decrease -ln L by less than 0.01: the search creeps along a direction
-///     that the logs do not determine.
+///   - Eight steps together decrease -ln L by less than 0.01. The search then creeps along a
+///     direction that the logs do not determine.
 class EndWithoutProgress : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) final {
@@ -207,7 +211,8 @@ class EndWithoutProgress : public ceres::IterationCallback {
  private:
   static constexpr std::size_t kSteps = 8;
 
-  /// Adds the lowest cost after a step. The cost of a failed step is that of the rejected point.
+  /// Adds the lowest cost so far to the list, after a step with this cost. For a failed step,
+  /// `cost` is the cost of the rejected point.
   void add(double cost) {
     lowest_.push_back(lowest_.empty() ? cost : std::min(lowest_.back(), cost));
   }
@@ -222,8 +227,9 @@ class EndWithoutProgress : public ceres::IterationCallback {
   std::string reason_;
 };
 
-/// Ends a search at the limit of effort. Used only for searches that run one after the other, so
-/// that the result does not depend on the number of threads.
+/// Ends a search when the work of all searches reaches its limit (Effort). Used only for searches
+/// that run one after the other. In parallel searches, the end would depend on the number of
+/// threads.
 class EndAtLimit : public ceres::IterationCallback {
  public:
   explicit EndAtLimit(const LogProblem& problem) : problem_(problem) {}
@@ -251,7 +257,7 @@ void report_end(const ceres::Solver::Summary& summary, bool at_limit, const std:
                                     : stop_reason(summary);
 }
 
-/// Treatment of search steps to points at which the simulation is not finite.
+/// What the search does if a step leads to a point at which the simulation is not finite.
 enum class LineSearch {
   /// Ceres cuts steps at the bounds and shortens steps that fail. One Jacobian per step.
   kOff,

@@ -10,18 +10,18 @@ namespace awmr {
 
 /// Result of solve().
 struct Solved {
-  SearchPoint point;  ///< end of the search, converged or not
+  SearchPoint point;  ///< point where the search ended, converged or not
   double cost = std::numeric_limits<double>::infinity();
   bool converged = false;
-  bool usable = false;  ///< true: the search did not fail and did not increase the cost
+  bool usable = false;  ///< true: the solver did not fail and did not increase the cost
   std::string stop_reason;
 };
 
-/// Minimises the cost by Levenberg-Marquardt steps within the bounds, starting at `from`. Each
-/// window's initial state is eliminated from the linear system. Converges when a step changes the
-/// cost by less than `function_tolerance` (relative), or when further steps are predicted to lower
-/// -ln L by less than 0.05. Ends without convergence after 60 steps, at the limit of effort or at
-/// the deadline.
+/// Minimises the cost by Levenberg-Marquardt steps within the bounds, starting at `from`. The
+/// initial states of the windows are eliminated from the linear system of each step. The search
+/// converges when a step changes the cost by less than `function_tolerance` (relative), or when
+/// further steps are predicted to lower -ln L by less than 0.05. It ends without convergence after
+/// 60 steps, at the limit of work (Effort) or at the deadline.
 Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance);
 
 }  // namespace awmr

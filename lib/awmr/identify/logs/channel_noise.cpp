@@ -16,7 +16,7 @@
 namespace awmr {
 namespace {
 
-/// Sums over the second differences of one channel.
+/// Sum of squares and number of the second differences of one channel's readings.
 struct Roughness {
   double squares = 0.0;
   int count = 0;
@@ -40,7 +40,7 @@ struct InnovationSums {
 
 InnovationSums innovation_sums(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
   InnovationSums sums;
-  double product = 1.0;  // product of several S_k, so that one logarithm serves for all of them
+  double product = 1.0;  // product of many S_k: one logarithm of the product replaces many
   for (const ErrorSeries& part : series) {
     Whitener whitener(noise);
     for (std::size_t k = 0; k < part.error.size(); ++k) {
@@ -73,8 +73,8 @@ Likelihood likelihood(std::span<const ErrorSeries> series, const ChannelNoise& n
   return {n * std::log(factor) + log_variances, factor};
 }
 
-/// Noise model with a total variance of 1, of which the drift has the share e^x/(1 + e^x), with x =
-/// `logit`.
+/// Noise model with a total variance of 1. The drift has the share e^x/(1 + e^x) of this variance,
+/// with x = `logit`; white noise has the rest.
 ChannelNoise unit_noise(double logit, double correlation_s) {
   const double share = 1.0 / (1.0 + std::exp(-logit));
   return {.white_std = std::sqrt(1.0 - share),
@@ -82,9 +82,9 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// Selects the errors from which a channel's drift is estimated. Returns all errors if there are
-/// fewer than 2 kEnough. Otherwise returns about kEnough to 1.5 kEnough errors, in whole windows
-/// spread over the logs. kEnough errors determine the standard deviations to 1 %.
+/// Selects the errors from which a channel's drift is estimated, to save time. Returns all errors
+/// if there are fewer than 40 000, otherwise 20 000 to 30 000 of them, in whole windows spread over
+/// the logs. (20 000 errors determine the standard deviations to 1 %.)
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;
@@ -110,13 +110,14 @@ struct NoiseCandidate {
   double cost = std::numeric_limits<double>::infinity();
 
   bool is_significantly_better_than(double other) const {
-    constexpr double kPlainly = 10.0;  // decrease of -2 ln L by two more parameters: p = 0.007
+    // Smallest decrease of -2 ln L that justifies two more parameters (p = 0.007).
+    constexpr double kPlainly = 10.0;
     return cost < other - kPlainly;
   }
 };
 
-/// Noise model with a first-order drift of the given correlation time and its most likely share of
-/// the variance.
+/// Returns the noise model with a first-order drift of the given correlation time. The drift has
+/// the share of the variance that is most likely for these errors.
 NoiseCandidate likeliest_share(std::span<const ErrorSeries> series, double correlation_s) {
   constexpr int kBits = 10;
   std::uintmax_t evaluations = 24;
@@ -128,13 +129,14 @@ NoiseCandidate likeliest_share(std::span<const ErrorSeries> series, double corre
   return {unit_noise(logit, correlation_s), least};
 }
 
-/// Most likely first-order drift. Its correlation time is between half the sample interval and the
-/// length of a window. The search evaluates a coarse grid of correlation times and then refines the
-/// best one. It omits the refinement if the grid lowers the cost so little that no drift can be
-/// significant. `white_cost`: cost without a drift.
+/// Returns the most likely first-order drift, with a correlation time from half the sample interval
+/// to the length of a window. The search evaluates a coarse grid of correlation times, then refines
+/// the best one. It skips the refinement if the best drift of the grid is hardly better than no
+/// drift. `white_cost`: cost without a drift.
 NoiseCandidate likeliest_drift(std::span<const ErrorSeries> series, double step_s,
                                double white_cost) {
-  constexpr double kWorthASearch = 4.0;  // smallest decrease of -2 ln L for a finer search
+  // The best drift of the grid is refined only if it lowers -2 ln L by more than this.
+  constexpr double kWorthASearch = 4.0;
   constexpr int kGrid = 7;
   constexpr int kBits = 8;
   const double shortest = std::log(0.5 * step_s);
@@ -172,7 +174,8 @@ struct SecondOrder {
     ChannelNoise unit = unit_noise(logit, 0.0);
     unit.frequency_radps = std::exp(log_radps);
     unit.damping = std::exp(log_damping);
-    // Decay time of the drift; for zeta > 1 that of the slower one of its two exponentials.
+    // Decay time of the drift. For zeta > 1, the drift is a sum of two exponentials, and this is
+    // the decay time of the slower one.
     const double over = std::sqrt(std::max(0.0, unit.damping * unit.damping - 1.0));
     unit.correlation_s = 1.0 / (unit.frequency_radps * (unit.damping - over));
     return unit;
@@ -196,7 +199,8 @@ NoiseCandidate as_drift(std::span<const ErrorSeries> series, const SecondOrder& 
   return {noise, likelihood(series, noise).cost};
 }
 
-/// The most likely point of a coarse grid of frequencies and shares.
+/// Returns the most likely point of a coarse grid of frequencies and of the drift's shares of the
+/// variance.
 SecondOrder likeliest_of_grid(std::span<const ErrorSeries> series, const SecondOrderRange& range) {
   constexpr int kFrequencies = 8;
   SecondOrder best;
@@ -234,7 +238,7 @@ double second_order_cost(unsigned, const double* x, double*, void* data) {
 NoiseCandidate likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
                               const SecondOrderRange& range) {
   constexpr int kMaxEvaluations = 150;
-  constexpr double kFine = 0.02;  // the search ends at changes of -2 ln L below this
+  constexpr double kFine = 0.02;  // the search ends when -2 ln L changes by less than this
   constexpr double kFirstStep = 0.5;
   const std::array<double, 3> lowest = range.lowest.as_array();
   const std::array<double, 3> highest = range.highest.as_array();
@@ -254,8 +258,8 @@ NoiseCandidate likeliest_from(std::span<const ErrorSeries> series, const SecondO
   return search.best;
 }
 
-/// Most likely second-order drift. The search starts at the second-order drift of `before`, or at
-/// the best point of a grid if there is none.
+/// Returns the most likely second-order drift. The search starts at the drift of `before` if that
+/// is of second order, else at the best point of a coarse grid.
 NoiseCandidate likeliest_second_order(std::span<const ErrorSeries> series, double step_s,
                                       const ChannelNoise& before) {
   const SecondOrderRange range(step_s);

@@ -28,11 +28,11 @@ namespace awmr {
 struct ChannelNoise {
   double white_std = 1.0;        ///< sigma_w, SI
   double drift_std = 0.0;        ///< sigma_d, SI; 0: no drift
-  double correlation_s = 0.0;    ///< tau, or decay time of a second-order drift; 0 without a drift
+  double correlation_s = 0.0;    ///< correlation time tau, or decay time of a second-order drift
   double frequency_radps = 0.0;  ///< omega of a second-order drift; 0: first order
   double damping = 0.0;          ///< zeta of a second-order drift, > 0
   double differenced = 0.0;      ///< theta of differenced noise, 0 to 1; 0: not differenced
-  double sensor_std = 0.0;       ///< white noise by sensor_noise(), from the readings only, SI
+  double sensor_std = 0.0;       ///< standard deviation of white noise by sensor_noise(), SI
   int count = 0;                 ///< number of samples
   double cost = 0.0;             ///< -2 ln L of the channel's errors, up to a constant
 
@@ -44,8 +44,8 @@ struct ChannelNoise {
   int numbers() const {
     return drift_std > 0.0 ? (second_order() ? 4 : 3) : differenced > 0.0 ? 2 : 1;
   }
-  /// True if the drift is too large and too slow to come from a sensor filter, so that it is a
-  /// model error or a drift of the sensor itself. This holds in two cases, with the sensor noise
+  /// True if the drift is too large and too slow to come from a sensor filter. It is then a model
+  /// error or a drift of the sensor itself. One of these conditions suffices, with the sensor noise
   /// `sensor_std`:
   ///   - drift_std is above 0.5 times the sensor noise, and the correlation time is at least
   ///     `longest_s`;
@@ -62,7 +62,7 @@ struct ChannelNoise {
     return of_the_model(longest_s) && drift_std > kMany * sensor_std;
   }
   /// True if the drift is above a quarter of the sensor noise and its correlation time is above 0.2
-  /// s. A term that the model lacks may cause such a drift.
+  /// s. The cause of such a drift may be an effect that the model does not contain.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
@@ -91,14 +91,15 @@ using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 /// innovations nu_k and their variances S_k (whitener.h).
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
-/// Maximum-likelihood noise model of these errors. Starts with white noise and replaces it in these
-/// steps, each only if it lowers -2 ln L by more than 10:
-///   1. white noise with a first-order drift;
-///   2. a second-order drift in place of the first-order drift, if step 1 succeeded;
-///   3. differenced noise in place of the result of steps 1 and 2.
+/// Returns the most likely noise model of these errors (maximum likelihood). Begins with white
+/// noise and makes these steps. Each step counts only if it lowers -2 ln L by more than 10:
+///   1. Add a first-order drift.
+///   2. If step 1 counts: replace the first-order drift by a second-order drift.
+///   3. Replace the result by differenced noise.
+///
 /// `free_share`: degrees of freedom of the fit over the number of errors, in (0, 1]; the variances
-/// are divided by it. `before`: noise model of the previous round. Its sensor_std is kept. If it
-/// has a second-order drift, the search for a second-order drift starts from it.
+/// are divided by it. `before`: noise model of the previous round. The result keeps its sensor_std.
+/// If `before` has a second-order drift, the search of step 2 starts there.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

@@ -12,14 +12,14 @@
 namespace awmr {
 namespace {
 
-/// An identified delay, lag or command error with its standard error.
+/// A delay, lag or error of commands or sensors that the fit identifies, with its standard error.
 struct FoundTerm {
   FreeQuantity quantity;
   double value;
   double error;
 };
 
-/// The identified and significant terms of one kind.
+/// The terms of one kind that the fit identifies and that differ significantly from 0.
 std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   std::vector<FoundTerm> found;
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
@@ -30,8 +30,8 @@ std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   return found;
 }
 
-/// Reports a dead time of the commands (value > 0), or late time stamps of the commands (< 0).
-/// `with_lag`: a motor lag is estimated too.
+/// Reports the fitted delay of the commands. A positive delay is a dead time, a negative one means
+/// that the time stamps of the commands are late. `with_lag`: true if a motor lag is estimated too.
 Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::string& file) {
   if (input.value < 0.0) {
     return {file, 0, Severity::kWarning, "late-commands",
@@ -49,9 +49,9 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
                                : "which is more likely a dead time than motor lag")};
 }
 
-/// Reports motor lag, dead time or late time stamps of the commands. If the fit has found none of
-/// these, but every measured channel (at least two) has a latency, reports that actuators or
-/// commands are the likely common cause.
+/// Reports a motor lag, a dead time or late time stamps of the commands if the fit has found them.
+/// If it has found none of these, but a latency of every measured channel (at least two), reports
+/// that actuators or commands are the likely common cause.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
@@ -139,25 +139,26 @@ std::vector<Finding> scale_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
-/// Finding `wheel-slip` for every channel that slipping wheels measure.
+/// Finding `wheel-slip` for the speed and the yaw rate, if they are measured by wheels that slip.
 std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, slip, error] : found_terms(fit, FreeQuantity::Kind::kWheelSlip)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "wheel-slip",
-         fmt::format("the wheels that measure {} slip: a wheel with the force F' (over F_max) "
-                     "rolls faster than it moves over ground, by F' times {}. The fit compensates "
-                     "this; measure without driven wheels (optical flow, GNSS, a gyroscope, a free "
-                     "wheel)",
-                     info(quantity.channel).name,
-                     quantity.is_ratio
-                         ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip, 100.0 * error)
-                         : fmt::format("{:.3f} +- {:.3f} m/s", slip, error))});
+         fmt::format(
+             "the wheels that measure {} slip: at the largest force a wheel rolls faster than "
+             "it moves over ground by {}, at smaller forces in proportion less. The fit "
+             "compensates this; measure without driven wheels (optical flow, GNSS, a "
+             "gyroscope, a free wheel)",
+             info(quantity.channel).name,
+             quantity.is_ratio ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip, 100.0 * error)
+                               : fmt::format("{:.3f} +- {:.3f} m/s", slip, error))});
   }
   return findings;
 }
 
-/// Finding `sway-sensor`, if the sway sensor is not at the centre of gravity, or is turned.
+/// Finding `sway-sensor`, if the sensor of the sideways speed is not at the centre of gravity, or
+/// not aligned with the vehicle.
 std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayOffset)) {
@@ -180,8 +181,8 @@ std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& 
   return findings;
 }
 
-/// Finding `steering-delay`, if the steering has a delay relative to the forces in addition to the
-/// servo's lag, or if the time stamps of its commands are late (negative delay).
+/// Finding `steering-delay` in two cases: the steering has a further delay in addition to the
+/// servo's lag, or the time stamps of the steering commands are late (negative delay).
 std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
@@ -201,7 +202,8 @@ std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::strin
   return findings;
 }
 
-/// Finding `servo-rate`, if the steering is slower than the rate limit of the vehicle file.
+/// Finding `servo-rate`, if the fitted rate limit of the steering is below that of the vehicle
+/// file.
 std::vector<Finding> servo_rate_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& rate : found_terms(fit, FreeQuantity::Kind::kServoRate)) {
@@ -222,7 +224,7 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
         {file, 0, Severity::kWarning, "steering-dead-band",
          fmt::format(
              "steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and "
-             "larger ones move them by that much less. The fit compensates this, but "
+             "larger commands move them by this angle less. The fit compensates this, but "
              "simulations and gains do not; reduce the play of the linkage, or increase the "
              "magnitude of every command by {:.2f} deg before it is sent, and log the "
              "commands without this increase",
@@ -272,10 +274,11 @@ std::vector<Finding> constant_error_findings(const LogFit& fit, const std::strin
   return findings;
 }
 
-/// Relative loss of force up to which the forces count as proportional to the commands.
+/// Largest loss of force, relative to the force without saturation, at which the forces still count
+/// as proportional to the commands.
 constexpr double kLinear = 0.05;
 
-/// Sharpness n of the saturation (force_saturation()): the fitted one, or the default if not free.
+/// Fitted sharpness n of the saturation (force_saturation()). The default if n was not fitted.
 double sharpness_of(const LogFit& fit) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];
@@ -284,22 +287,24 @@ double sharpness_of(const LogFit& fit) {
   return kDefaultSharpness;
 }
 
-/// Finding `force-saturation`, if the force at large commands is less than proportional to them.
+/// Finding `force-saturation`, if large commands give less force than in proportion to small ones.
 std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWithoutIntervals =
-      " (without intervals and without a comparison of parts of the logs, because the true form of "
-      "the saturation is unknown)";
+      " (the values get no intervals and parts of the logs are not compared, because the true form "
+      "of the saturation is unknown)";
   const std::string_view withdrawn = saturates_much(fit) ? kWithoutIntervals : "";
   std::vector<Finding> findings;
   for (const FoundTerm& exponent : found_terms(fit, FreeQuantity::Kind::kForceExponent)) {
     const double p = exponent.quantity.value(exponent.value);
     findings.push_back(
         {file, 0, Severity::kWarning, "force-saturation",
-         fmt::format("the wheel force is proportional to the command to the power of {:.3f} +- "
-                     "{:.3f}: large commands give less force than in proportion. The fit "
-                     "compensates this{}, but simulations and gains assume proportional forces: "
-                     "log commands that are proportional to the force, |command|^{:.2f}",
-                     p, p * exponent.error, withdrawn, p)});
+         fmt::format(
+             "the wheel force is proportional to the command to the power of {:.3f} +- "
+             "{:.3f}: large commands give less force than in proportion. The fit "
+             "compensates this{}, but simulations and gains assume proportional forces: "
+             "log |command|^{:.2f} with the sign of the command, which is proportional to the "
+             "force",
+             p, p * exponent.error, withdrawn, p)});
   }
   const double n = sharpness_of(fit);
   for (const auto& [quantity, loss, error] :

@@ -9,17 +9,17 @@
 
 namespace awmr {
 
-/// Returns one finding for each delay, lag, command error, sensor error and additional force
-/// (force_findings()) that the fit identifies. Omits values that are not significant
-/// (LogFit::is_significant()). `withdrawn`: true if the intervals of the fit are withdrawn; the
-/// messages then state this. `file`: log file that the findings name.
+/// Returns one finding for each term that the fit identifies and that is significant
+/// (LogFit::is_significant()). A term is a delay, a lag, an error of commands or sensors, or a
+/// force of extra_forces.h (force_findings()). `withdrawn`: true if the intervals of the fit are
+/// withdrawn; the messages then state this. `file`: log file that the findings name.
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::string& file);
 
-/// True if the fit has found a large saturation: more than 5 % of the force is lost at the largest
-/// command, or the exponent of the forces is below 0.95. The intervals of such a fit are too
-/// narrow, because they do not include the unknown form of the saturation. It makes the force of
-/// small commands uncertain, and with it all other values.
+/// True if the fit has found a large saturation of the forces: more than 5 % of the force is lost
+/// at the largest command, or the exponent of the forces is below 0.95. The intervals of such a fit
+/// are too narrow, because they do not include the unknown form of the saturation. A wrong form
+/// falsifies the force of small commands, and with it all other values.
 bool saturates_much(const LogFit& fit);
 
 }  // namespace awmr

@@ -12,7 +12,8 @@ HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
           log.driving_steering_rad()[rows.steering]};
 }
 
-/// Chain rule: multiplies the derivatives of one side's force f by the slope of a function of f.
+/// Applies the chain rule after a force f of one side was replaced by a function of f: multiplies
+/// the derivatives of f by `slope`, the derivative of that function.
 void scale_derivatives(double slope, double SideForces<double>::*side, DelayedCommand& at) {
   for (SideForces<double>* const by :
        {&at.by_delay, &at.by_lag, &at.by_imbalance, &at.by_exponent}) {
@@ -20,8 +21,9 @@ void scale_derivatives(double slope, double SideForces<double>::*side, DelayedCo
   }
 }
 
-/// Applies the saturation to the forces f and their derivatives. With w = (|f|/F'm)^n and
-/// s = (1 - L)^(-n) - 1:
+/// Replaces the forces f by the saturated forces f_s, with their derivatives. L: share of the force
+/// that is lost at the largest command F'm of the logs; n: sharpness of the saturation. With w =
+/// (|f|/F'm)^n and s = (1 - L)^(-n) - 1:
 ///
 ///     f_s = f (1 + s w)^(-1/n)
 ///     d f_s/d f = (1 + s w)^(-1/n - 1),   d f_s/d s = -f w/n d f_s/d f
@@ -48,7 +50,7 @@ void saturate(const CommandPath& path, DelayedCommand& at) {
   }
 }
 
-/// Replaces the forces f by |f|^p sgn f, with the derivatives
+/// Replaces the forces f by |f|^p sgn f with the fitted exponent p, and computes the derivatives
 ///
 ///     d/df = p |f|^(p - 1),   d/d ln p = p ln|f| |f|^p sgn f
 void raise_to_power(const CommandPath& path, DelayedCommand& at) {
@@ -64,7 +66,8 @@ void raise_to_power(const CommandPath& path, DelayedCommand& at) {
   }
 }
 
-/// Applies dead band and asymmetry of the linkage to the steering command.
+/// Replaces the steering command by the angle to which the linkage steers, which may have a dead
+/// band and an asymmetry between left and right.
 void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
   const double band_rad = path.steering_dead_band ? path.steering_dead_band->value : 0.0;
   const double e = path.steering_asymmetry ? path.steering_asymmetry->value : 0.0;
@@ -78,7 +81,8 @@ void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
   angle_rad = beyond_rad * share;
 }
 
-/// Applies the constant errors: linkage, trim, imbalance, exponent and saturation, in this order.
+/// Applies the constant errors of the commands in this order: dead band and asymmetry of the
+/// linkage, trim, imbalance, exponent and saturation.
 DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   if (path.steering_dead_band || path.steering_asymmetry) steer_by_linkage(path, at);
   if (path.steering_trim) {
@@ -97,7 +101,8 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   return at;
 }
 
-/// Sets force and derivatives to 0 on each side whose command is 0 (CommandPath::switches_off).
+/// Switches off the motors of each side whose command is 0: sets their forces and derivatives to 0
+/// (see CommandPath::switches_off).
 void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
   const auto off = [&](double SideForces<double>::*side) {
     if (command.*side != 0.0) return;
@@ -141,7 +146,8 @@ DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, d
 
 DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path) {
   constexpr double kMoment_s = 1e-6;
-  const auto row_at = [&](double at_s) {  // a change exactly at this time counts
+  // Row whose command acts; includes a change at this very time.
+  const auto row_at = [&](double at_s) {
     return ActingRow(signals.log->t_s, at_s + 2.0 * kSameTime_s).row();
   };
   return command_over(signals,

@@ -11,14 +11,14 @@
 
 namespace awmr {
 
-/// A delay or a lag and the column of its derivatives.
+/// A delay or a time constant (s), and the column of the derivatives with respect to it.
 struct DelayColumn {
   double delay_s;
   std::size_t column;
 };
 
-/// A constant error of the commands (trim in rad, imbalance or saturation) and the column of its
-/// derivatives.
+/// A constant error of the commands (for example trim in rad, imbalance or saturation), and the
+/// column of the derivatives with respect to it.
 struct OffsetColumn {
   double value;
   std::size_t column;
@@ -26,22 +26,29 @@ struct OffsetColumn {
 
 /// Delays, lag and constant errors between the logged commands and the wheels.
 struct CommandPath {
-  std::optional<DelayColumn> delay = {};           ///< of all commands; < 0: late time stamps
-  std::optional<DelayColumn> steering_delay = {};  ///< of the steering, in addition to `delay`
-  std::optional<LaggedForces> lag = {};            ///< forces after the motors' lag
-  std::optional<std::size_t> lag_column = {};      ///< column of the lag; present if it is free
-  std::optional<OffsetColumn> steering_trim = {};  ///< rad, added to command or logged angle
-  /// Dead band, rad, and asymmetry e of steering_asymmetry(); not for logs with measured angles.
+  /// Delay of all commands; < 0: their time stamps are late.
+  std::optional<DelayColumn> delay = {};
+  /// Delay of the steering alone, in addition to `delay`.
+  std::optional<DelayColumn> steering_delay = {};
+  std::optional<LaggedForces> lag = {};  ///< forces after the motors' lag
+  /// Column of the motors' time constant; absent if it is fixed.
+  std::optional<std::size_t> lag_column = {};
+  /// Trim, rad: added to the steering command or logged angle.
+  std::optional<OffsetColumn> steering_trim = {};
+  /// Dead band, rad, and asymmetry e of the steering linkage (steering_asymmetry()). Absent for
+  /// logs with measured steering angles.
   std::optional<OffsetColumn> steering_dead_band = {};
   std::optional<OffsetColumn> steering_asymmetry = {};
-  std::optional<OffsetColumn> servo_rate = {};  ///< rate limit, rad/s, in place of the plant's
-  std::optional<OffsetColumn> imbalance = {};   ///< e: left forces times 1 - e, right times 1 + e
-  std::optional<OffsetColumn> exponent = {};    ///< p of force_exponent(); column of ln p
-  std::optional<OffsetColumn> saturation = {};  ///< L of force_saturation()
-  double full_command = 1.0;                    ///< F'm of force_saturation()
-  std::optional<OffsetColumn> sharpness = {};   ///< n of force_saturation(); column of ln n
-  /// True for motors with back-EMF: a motor is off as soon as its command is 0, regardless of its
-  /// lag.
+  /// Steering rate limit, rad/s, instead of the vehicle file's.
+  std::optional<OffsetColumn> servo_rate = {};
+  /// Imbalance e: left forces times 1 - e, right times 1 + e.
+  std::optional<OffsetColumn> imbalance = {};
+  std::optional<OffsetColumn> exponent = {};    ///< exponent p (force_exponent()); column of ln p
+  std::optional<OffsetColumn> saturation = {};  ///< share L of lost force (force_saturation())
+  double full_command = 1.0;                    ///< largest command F'm (force_saturation())
+  std::optional<OffsetColumn> sharpness = {};  ///< sharpness n (force_saturation()); column of ln n
+  /// True for motors with back-EMF: a motor whose command is 0 gives no force, even if the lag of
+  /// earlier commands would still give one.
   bool switches_off = false;
 
   double force_delay_s() const { return delay ? delay->delay_s : 0.0; }
@@ -70,15 +77,15 @@ CommandColumns columns_of(const CommandPath& path);
 /// path.
 struct DelayedCommand {
   HeldCommand command;
-  /// d force / d delay, 1/s, of motors with lag. Without lag, LinearStepper::change_command() adds
-  /// the derivative with respect to a delay.
+  /// d force / d delay, 1/s. Set only for motors with lag. Without lag the force jumps, and
+  /// LinearStepper::change_command() adds the derivative with respect to the delay.
   SideForces<double> by_delay{};
   SideForces<double> by_lag{};         ///< d force / d time constant of the motors, 1/s
   SideForces<double> by_imbalance{};   ///< d force / d imbalance
   SideForces<double> by_exponent{};    ///< d force / d ln p
   SideForces<double> by_saturation{};  ///< d force / d L
   SideForces<double> by_sharpness{};   ///< d force / d ln n
-  double steering_by_trim = 0.0;       ///< d steering / d trim: 1 if there is a trim, else 0
+  double steering_by_trim = 0.0;       ///< d steering / d trim: 1 with a trim in the path, else 0
   double steering_by_dead_band = 0.0;  ///< d steering / d dead band
   double steering_by_asymmetry = 0.0;  ///< d steering / d asymmetry, rad
 };
@@ -95,25 +102,26 @@ void for_each_force_column(const CommandColumns& c, const DelayedCommand& comman
   if (c.sharpness) visit(*c.sharpness, command.by_sharpness);
 }
 
-/// Rows of the log whose force commands and whose steering command act at one time. The two rows
-/// differ if the steering has its own delay.
+/// The row of the log whose force commands act at a time, and the row whose steering command acts
+/// then. The two rows differ if the steering has its own delay.
 struct ActingRows {
   std::size_t forces;
   std::size_t steering;
 };
 
-/// The logged commands of these rows, changed by the constant errors of the path. Delay and lag are
-/// not applied.
+/// Returns the logged commands of the given rows with the constant errors of the path, but without
+/// its delay and lag.
 DelayedCommand command_of_rows(const DrivingLog& log, const ActingRows& rows,
                                const CommandPath& path);
 
-/// The command that reaches the wheels in the interval [t, t + h], in which the commands of `rows`
-/// act. If the motors have a lag, the forces are means over this interval.
+/// Returns the command that reaches the wheels in the interval [t, t + h]. `rows`: the rows of the
+/// log whose commands act in this interval. If the motors have a lag, the forces are means over the
+/// interval.
 DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, double t_s,
                             double h_s, const CommandPath& path);
 
-/// The command that reaches the wheels at the time t. If it changes exactly at t, returns the new
-/// one.
+/// Returns the command that reaches the wheels at the time t. If the command changes exactly at t,
+/// this is the new command.
 DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path);
 
 }  // namespace awmr

@@ -15,14 +15,15 @@
 namespace awmr {
 namespace {
 
-/// A candidate term with its score-test estimate.
+/// A candidate term with the value that its score test estimates.
 struct CandidateTerm {
   FreeQuantity quantity;
   double value;
-  double significance;  ///< |value| over its standard error (noise model)
+  double significance;  ///< |value| over its standard error by the noise model
 };
 
-/// The terms whose score test exceeds three standard errors, most significant first.
+/// The terms whose score test gives a value of more than three standard errors, most significant
+/// first.
 std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   constexpr double kWorthATry = 3.0;
   const std::vector<FreeQuantity> channels = further_terms(settled.problem);
@@ -39,17 +40,17 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   return found;
 }
 
-/// Considers a low-pass filter for each channel in `lags_s`. The initial guess of its time constant
-/// is the delay in `lags_s`. Tries a continuous filter, a filter with one step per row and two
-/// filters of second order, and takes the best of them. Keeps it only if its AIC is lower than that
-/// of the best fit so far by more than kLikelierFilter.
+/// Tries a low-pass filter in place of the delay of each channel in `lags_s`. The delay in `lags_s`
+/// is the initial guess of the time constant. Four filters are tried per channel: a continuous one,
+/// one with a step per row, and two of second order. The best of them is kept only if its AIC is
+/// lower than that of the best fit so far by more than kLikelierFilter.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {
   constexpr double kLikelierFilter = 10.0;
   constexpr double kButterworth = 0.70710678;
-  // With the speed as the only channel, its filter has the same effect as a motor lag, which is
-  // more common.
+  // If the speed is the only channel, its filter has the same effect as a motor lag, which is the
+  // more common cause. The filter is then not tried.
   if (settled.problem.model.noise.size() <= 1) return;
   for (const auto& [channel, lag_s] : lags_s) {
     NoiseIteration best = tried(settled, {{sensor_lag_of(channel), lag_s}}, loss);
@@ -65,7 +66,7 @@ void consider_filters(const NoiseIteration& settled,
   }
 }
 
-/// Largest absolute measurement of a channel; 1 without measurements.
+/// Largest absolute value that was measured of a channel; 1 if nothing was measured.
 double fastest_of(const LogProblem& problem, LogChannel channel) {
   double largest = 0.0;
   const DrivingLog* last = nullptr;
@@ -77,7 +78,8 @@ double fastest_of(const LogProblem& problem, LogChannel channel) {
   return largest > 0.0 ? largest : 1.0;
 }
 
-/// The candidate, and the terms that must be estimated together with it.
+/// The candidate, followed by the terms that only make sense together with it, for example the
+/// speed scale of Stribeck friction.
 std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateTerm& candidate) {
   std::vector<FreeTerm> terms{{candidate.quantity, candidate.value}};
   for (const auto& [force, channel] : {std::pair(ExtraForce::kSurgeStribeck, LogChannel::kSpeed),
@@ -102,13 +104,13 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
 
 /// Candidates that are much less significant than the strongest one are skipped. They are tested
 /// again after the best term was added.
-constexpr double kComparable = 0.2;  // smallest significance relative to that of the strongest
+constexpr double kComparable = 0.2;  // smallest significance over that of the strongest
 constexpr double kBeyondDoubt = 20.0;
 
-/// Considers smoothing of the channels whose smoothing is a candidate term. Tries all these
-/// channels together, because one program often smooths several channels, and the most significant
-/// channel alone; each with a Gaussian kernel and with a moving average. Returns the first of these
-/// fits.
+/// Tries smoothing of the channels whose smoothing is a candidate term. First tries all these
+/// channels together, because one program often smooths several channels, then only the most
+/// significant channel. Each trial is made with a Gaussian kernel and with a moving average.
+/// Returns the first trial: all channels with a Gaussian kernel.
 std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
                                                  const std::vector<CandidateTerm>& terms, Loss loss,
                                                  LowestAic& lowest) {
@@ -129,8 +131,9 @@ std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
   return first;
 }
 
-/// The slip of the speed and the slip of the yaw rate as two terms, both in the form of `of_speed`.
-/// Empty if the slip of the yaw rate in this form is not a candidate.
+/// Returns two terms, the slip of the speed and the slip of the yaw rate. Both have the form of
+/// `of_speed` (slip speed or slip ratio). Empty if this form of slip of the yaw rate is not a
+/// candidate.
 std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<CandidateTerm>& terms,
                                                       const CandidateTerm& of_speed) {
   const FreeQuantity yaw = wheel_slip_of(LogChannel::kYawRate, of_speed.quantity.is_ratio);
@@ -140,9 +143,9 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
-/// Considers two replacements for the fitted command delay `found_s`: a motor lag together with a
-/// delay (negative if the time stamps of the commands are late), and, if `found_s` is positive, a
-/// motor lag alone.
+/// Tries a motor lag in place of the fitted command delay `found_s`. First tries it together with a
+/// delay, which is negative if the time stamps of the commands are late. If `found_s` is positive,
+/// also tries the lag without a delay.
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;
@@ -151,12 +154,13 @@ void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss
   if (found_s > 0.0) lowest.consider(tried(settled, {{motor_lag(), found_s}}, loss));
 }
 
-/// Fits each candidate term for one round and returns the fit with the lowest AIC. If no term
-/// lowers AIC, returns the fit of the most significant candidate if its score test exceeds 20
-/// standard errors, else empty.
+/// Makes a short fit (one round) with each candidate term, and returns the fit with the lowest AIC.
+/// If no term lowers AIC, returns the fit with the most significant candidate, provided that its
+/// score test exceeds 20 standard errors. Otherwise returns empty.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   LowestAic lowest(settled);
-  std::optional<NoiseIteration> strongest;  // first candidate, if above kBeyondDoubt
+  // Fit with the most significant candidate, if above kBeyondDoubt.
+  std::optional<NoiseIteration> strongest;
   bool has_sensor = false;
   std::vector<std::pair<LogChannel, double>> filters;
   const std::vector<CandidateTerm> terms = candidate_terms(settled);
@@ -173,7 +177,8 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
       strongest = fit;
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
-    // Encoders of the wheels often measure both speed and yaw rate.
+    // The same wheel encoders often measure both speed and yaw rate, so slip of both is tried
+    // together.
     if (more.kind == FreeQuantity::Kind::kWheelSlip && more.channel == LogChannel::kSpeed) {
       if (const auto both = with_slip_of_yaw(terms, candidate_term)) {
         lowest.consider(tried(settled, *both, loss));
@@ -190,7 +195,8 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
       terms.front().quantity.kind == FreeQuantity::Kind::kSmoothing) {
     strongest = std::move(smoothed);
   }
-  // One round can be too few to lower AIC if the drift had absorbed a large effect of the term.
+  // AIC may rise in one round even if the term has a large effect, because the drift of the noise
+  // model had absorbed this effect before.
   return lowest.best() ? std::move(lowest.best()) : std::move(strongest);
 }
 
@@ -199,9 +205,9 @@ bool is_of_turning(const FreeQuantity& q) {
          q.kind == FreeQuantity::Kind::kForceImbalance;
 }
 
-/// Frees steering trim and force imbalance together if one of them is free and the commands allow
-/// both. Their effects are nearly the same, so the interval of one is valid only if the other is
-/// free too.
+/// Makes steering trim and force imbalance free together, if one of them is free and the commands
+/// allow an estimate of both. Their effects are nearly the same, so the interval of one is valid
+/// only if the other is free too.
 Extended with_both_of_turning(NoiseIteration fit) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
   std::vector<FreeQuantity> other;
@@ -212,14 +218,16 @@ Extended with_both_of_turning(NoiseIteration fit) {
                   std::vector<double>(other.size(), 0.0));
 }
 
-/// The fit with one more term free; empty if no term lowers AIC enough (settled_if_better()).
+/// Returns a converged fit with one more free term. Empty if no term lowers AIC enough
+/// (settled_if_better()).
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
   if (!more) return std::nullopt;
   return settled_if_better(settled, with_both_of_turning(*std::move(more)), loss);
 }
 
-/// The fit with the next term that lowers AIC; empty if there is none.
+/// Returns a fit with one more free term: a candidate of the score tests, else a slower servo, else
+/// a motor lag. Empty if none of them lowers AIC enough.
 std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled, Loss loss) {
   if (auto more = with_one_more(settled, loss)) return more;
   if (auto more = with_slower_servo(settled, loss)) return more;

@@ -7,9 +7,10 @@
 namespace awmr {
 
 /// Adds the terms of further_terms() one at a time to the converged fit `settled`, until none
-/// improves the fit. Score tests select candidates, and a fit of one round (settle_noise()) ranks
-/// them. The best candidate is kept if its fit to convergence lowers AIC by more than 10. (Without
-/// these terms, a latency of the speed, for example, would bias the mass upwards.)
+/// improves the fit. Score tests select the candidates, and a short fit with each of them (one
+/// round of settle_noise()) ranks them. The best candidate is kept if its converged fit lowers AIC
+/// by more than 10. Without these terms, other estimates would be biased: a latency of the speed,
+/// for example, would increase the mass.
 ///   - The delay of the commands is negative if their time stamps are late.
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
 ///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw

@@ -2,17 +2,18 @@
 /// slope of the ground, additional resistance in turns or backward, and motors whose force differs
 /// when they brake or drive backward. Private to identify/.
 ///
-/// Stribeck friction is larger at low speed than the Coulomb friction c. At the speed or yaw rate w
-/// the resistance is
+/// Stribeck friction is the part of the friction at low speed that exceeds the Coulomb friction c.
+/// Its size is s and its speed scale w_s. The resistance g(w) at the speed or yaw rate w becomes
 ///
 ///     g(w) + s exp(-(w/w_s)^2) sgn w,   at rest up to c + s
 ///
 /// On a slope, gravity accelerates the vehicle by a constant vector (p_x, p_y) in world
-/// coordinates, with the heading psi:
+/// coordinates. With the heading psi, the rates of the surge speed u and the sway speed v change by
 ///
 ///     u_dot += p_x cos psi + p_y sin psi,   v_dot += p_y cos psi - p_x sin psi
 ///
-/// In turns, the scrub of tyres or tracks increases the surge resistance at the yaw rate r to
+/// In turns, the scrub of tyres or tracks increases the surge resistance g1(u). With the yaw rate r
+/// and the fitted numbers k, p and q, it becomes
 ///
 ///     g1(u) + k |r|^p |u|^q sgn u
 ///
@@ -21,8 +22,8 @@
 /// A wheel force against the motion is 1 + e_b times its command, and a negative (backward) wheel
 /// force 1 + e_r times its command. e_b and e_r are called the excess of braking or backward
 /// forces. If the left and right commands differ in the log, "the motion" is that of the wheel's
-/// side (u - d r left, u + d r right), else that of the vehicle (u). Near rest, the effect of e_b
-/// decreases linearly to 0 (scale_by_excess() in extra_rates.cpp).
+/// side (u - d r left, u + d r right, with half the track width d), else that of the vehicle (u).
+/// Near rest, the effect of e_b decreases linearly to 0 (scale_by_excess() in extra_rates.cpp).
 #pragma once
 
 #include <array>
@@ -31,15 +32,16 @@
 
 namespace awmr {
 
-/// Quantities of these forces, in the order of kExtraForceNames (model/log_term_names.h).
+/// The fitted numbers of these forces (symbols: see above), in the order of kExtraForceNames
+/// (model/log_term_names.h).
 enum class ExtraForce {
-  kSurgeStribeck,          ///< s over F_max, of the speed
+  kSurgeStribeck,          ///< size s of the friction of the speed, over F_max
   kSurgeStribeckSpeed,     ///< w_s, m/s
-  kYawStribeck,            ///< s over F_max, m, of the yaw rate
+  kYawStribeck,            ///< size s of the friction of the yaw rate, over F_max, m
   kYawStribeckSpeed,       ///< w_s, rad/s
   kSlopeX,                 ///< p_x, m/s^2
   kSlopeY,                 ///< p_y, m/s^2
-  kTurnDrag,               ///< k over F_max, (s/rad)^p (s/m)^q
+  kTurnDrag,               ///< size k over F_max, (s/rad)^p (s/m)^q
   kTurnDragExponent,       ///< p
   kTurnDragSpeedExponent,  ///< q
   kBrakeForce,             ///< e_b
@@ -48,19 +50,21 @@ enum class ExtraForce {
 };
 inline constexpr std::size_t kExtraForceCount = 12;
 
-/// A free quantity of these forces and the column of its derivatives.
+/// One of these numbers that the fit estimates, and the column of the derivatives with respect to
+/// it.
 struct ExtraColumn {
   ExtraForce force;
   std::size_t column;
   double factor;  ///< d quantity / d coordinate
 };
 
-/// The forces at one point of a search, with their free quantities.
+/// Values of all these numbers at one point of a search, and the columns of those that the fit
+/// estimates.
 struct ExtraForces {
   std::array<double, kExtraForceCount> values{0.0, 1.0, 0.0, 1.0, 0.0, 0.0,
                                               0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
   std::vector<ExtraColumn> columns{};
-  bool has_motor_per_side = false;  ///< left and right commands differ
+  bool has_motor_per_side = false;  ///< true: left and right commands differ in the logs
 
   double operator[](ExtraForce force) const { return values[static_cast<std::size_t>(force)]; }
   double& operator[](ExtraForce force) { return values[static_cast<std::size_t>(force)]; }

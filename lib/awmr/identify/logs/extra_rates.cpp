@@ -14,9 +14,10 @@ WheelForce wheel_force(double command, double zone) {
   return {0.0, 0.0, 0.0};
 }
 
-/// Multiplies the force of a wheel by 1 + e_b if it is against the motion `w_mps` of its side, and
-/// by 1 + e_r if it is negative. For continuous rates, the effect of e_b rises linearly from 0 at
-/// rest to its full size at a small speed. The derivatives treat this speed as constant.
+/// Multiplies the force of a wheel by 1 + e_b if it acts against the motion of its side, and by 1 +
+/// e_r if it is negative. `w_mps`: speed of that side. To keep the rates continuous, the effect of
+/// e_b rises linearly from 0 at rest to its full size at a small speed. The derivatives treat this
+/// small speed as constant.
 ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& wheel) {
   constexpr double kFade_mps = 0.002;
   constexpr double kWheels = 4.0;
@@ -36,8 +37,9 @@ ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& whe
           .by_speed = braking == wanted ? slope * e_b * pure * reverse : 0.0};
 }
 
-/// Lever arm d, m, in the speed u -+ d r of the motors of one side. 0 if the left and right
-/// commands never differ, because the vehicle may then have a single motor.
+/// Half of the track width d, m, from which the speed u -+ d r of the motors of one side follows.
+/// Returns 0 if the left and right commands never differ, because the vehicle may then have a
+/// single motor, which turns at the speed u.
 double motor_side_m(const LinearPlant& plant) {
   return plant.extra.has_motor_per_side ? plant.plant.half_track_m : 0.0;
 }
@@ -82,8 +84,9 @@ void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByFo
 
 namespace {
 
-/// Subtracts from the resistance g at the speed w the part s (1 - exp(-(w/w_s)^2)) of the Stribeck
-/// friction. add_friction() adds c + s, so that the sum has its maximum c + s at rest.
+/// Subtracts s (1 - exp(-(w/w_s)^2)) from the resistance g at the speed w. Reason: add_friction()
+/// adds the friction at rest, c + s (Coulomb and Stribeck), at every speed. The sum is then c + s
+/// at rest and decreases to c at high speed.
 template <double DrivenSlopes::*kRate>
 void subtract_stribeck(const ExtraForces& extra, ExtraForce force, ExtraForce speed, double w,
                        double per_inertia, ResistanceSlopes& g, LinearRates& out) {
@@ -99,8 +102,8 @@ void subtract_stribeck(const ExtraForces& extra, ExtraForce force, ExtraForce sp
   out.by_extra[at(speed)].*kRate = -by_ratio * ratio / scale * per_inertia;
 }
 
-/// Multiplies the surge resistance g, with its Stribeck part, by 1 + e_g if the vehicle drives
-/// backward. Friction at rest is left out: add_friction() adds it.
+/// Multiplies the surge resistance g, including its Stribeck friction, by 1 + e_g if the vehicle
+/// drives backward. The friction at rest is not part of g: add_friction() adds it.
 void add_backward_drag(const LinearPlant& plant, double u_mps, ResistanceSlopes& g,
                        LinearRates& out) {
   DrivenSlopes& by = out.by_extra[at(ExtraForce::kBackwardDrag)];

@@ -7,7 +7,7 @@
 
 namespace awmr {
 
-/// Force of a wheel beyond its dead zone, with derivatives.
+/// Force of a wheel after its dead zone is subtracted from the command, with derivatives.
 struct WheelForce {
   double value;
   double by_command;
@@ -22,7 +22,8 @@ struct ByExcess {
   double by_speed = 0.0;
 };
 
-/// Forces of a left and a right wheel, with dead zone and excess.
+/// Forces of a left and a right wheel, with the effects of the dead zone and of e_b and e_r
+/// (extra_forces.h).
 struct Wheels {
   WheelForce left;
   WheelForce right;
@@ -33,16 +34,17 @@ struct Wheels {
 /// True if the motor of a wheel is on.
 inline bool is_on(const WheelForce& wheel) { return wheel.value > 0.0 || wheel.value < 0.0; }
 
-/// Forces of the left and right wheels at the commands `force`, with dead zone and excess.
+/// Computes the forces of the left and right wheels from the commands `force`, with the effects of
+/// the dead zone and of e_b and e_r (extra_forces.h).
 Wheels wheels_of(const LinearPlant& plant, const State<double>& s, const SideForces<double>& force);
 
-/// Derivatives of u_dot, v_dot and r_dot with respect to the sum of the forces, and of r_dot with
-/// respect to their difference, right minus left.
+/// Derivatives of u_dot, v_dot and r_dot with respect to the sum of the left and right wheel
+/// forces, and of r_dot with respect to their difference, right minus left.
 struct ByForces {
   DrivenSlopes sum;
   double difference;
 
-  /// Change of the rates due to changes of the left and the right force.
+  /// Change of the rates when the left and the right force change by these amounts.
   DrivenSlopes of(double left, double right) const {
     return {.u = (left + right) * sum.u,
             .v = (left + right) * sum.v,
@@ -50,19 +52,19 @@ struct ByForces {
   }
 };
 
-/// Adds the derivatives of the rates with respect to the commands, the dead zone and the excess of
-/// the wheel forces.
+/// Adds the derivatives of the rates of the state with respect to the commands of the wheels, their
+/// dead zone, and e_b and e_r (extra_forces.h).
 void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByForces& forces,
                       LinearRates& out);
 
-/// Surge resistance at the speed u, without the friction at rest, which add_friction() adds.
+/// Surge resistance at the speed u. Friction at rest is left out, because add_friction() adds it.
 ResistanceSlopes surge_resistance(const LinearPlant& plant, double u_mps, LinearRates& out);
 
-/// Yaw resistance at the yaw rate r, without the friction at rest, which add_friction() adds.
+/// Yaw resistance at the yaw rate r. Friction at rest is left out, because add_friction() adds it.
 ResistanceSlopes yaw_resistance(const LinearPlant& plant, double r_radps, LinearRates& out);
 
-/// Drag in turns, k |r|^p |u|^q sgn u, over F_max, with its derivatives with respect to u, r, k, p,
-/// q.
+/// Additional surge resistance in turns, k |r|^p |u|^q sgn u, over F_max, with its derivatives with
+/// respect to the speed u, the yaw rate r and the fitted numbers k, p and q.
 struct TurnDrag {
   double value = 0.0;
   double by_speed = 0.0;

@@ -22,8 +22,8 @@ bool is_of_yaw(ParameterId term) {
   return term == ParameterId::kYawCoulomb || term == ParameterId::kYawQuadratic;
 }
 
-/// Largest decrease of -2 ln L that the score tests predict for a term of the yaw resistance
-/// (`of_yaw`) or of the surge resistance; 0 without terms.
+/// Largest decrease of -2 ln L that a score test predicts for adding one term to the resistance of
+/// an axis (yaw if `of_yaw`, else surge). Returns 0 if no such term was tested.
 double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate_terms,
                     bool of_yaw) {
   double most = 0.0;
@@ -35,10 +35,10 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
   return most;
 }
 
-/// True if a family with more terms may be better. One of these reasons suffices: the score test of
-/// a term predicts a large decrease of -2 ln L; the errors have a slow drift, which can hide the
-/// effect of a missing term; `fit` did not converge. `of_yaw`: true for terms of yaw, false for
-/// terms of surge.
+/// True if another resistance family with more terms may be better. One of these reasons suffices:
+/// the score test of a term predicts a large decrease of -2 ln L; the errors have a slow drift,
+/// which can hide the effect of a missing term; `fit` did not converge. `of_yaw`: true for terms of
+/// yaw, false for terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
   if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
@@ -50,7 +50,7 @@ bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_ter
                 : drifts(LogChannel::kSpeed) || drifts(LogChannel::kX);
 }
 
-/// The parameter with the largest difference between two fits, and that difference in standard
+/// The name of the parameter that differs most between two fits, and the difference in standard
 /// errors.
 std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit& b) {
   std::pair<double, std::string> largest{0.0, ""};
@@ -66,8 +66,9 @@ std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit&
   return largest;
 }
 
-/// The best of the fits with a power law on one axis (yaw if `of_yaw`, else surge). Among fits that
-/// gave up, the one with the smallest error is the best. Null if there is no such fit.
+/// Returns the best of the fits that have a power law on one axis (yaw if `of_yaw`, else surge). If
+/// all of them gave up early, the best is the one with the smallest error. Null if there is no such
+/// fit.
 const FamilyFit* with_power_law(const std::vector<FamilyFit>& fits, bool of_yaw) {
   const FamilyFit* best = nullptr;
   for (const FamilyFit& one : fits) {
@@ -128,29 +129,32 @@ Finding not_compared(const std::string& file, const FamilyFit& first) {
   return {
       file, 0, Severity::kWarning, "families-not-compared",
       fmt::format(
-          "the search reached its limit before every resistance family was compared with {}, so "
-          "the intervals are withdrawn. Select the family ({}), or use a part of the logs",
+          "the search reached its limit of computation or time before every resistance family was "
+          "compared with {}, so the intervals are withdrawn. Select the family ({}), or use a part "
+          "of the logs",
           families_in_words(first.surge, first.yaw), option_text("family surge=..."))};
 }
 
 Finding terms_not_searched(const std::string& file, const FamilyFit& best) {
-  return {file, 0, Severity::kWarning, "families-not-compared",
-          fmt::format(
-              "the search reached its limit before it had looked for delays, lags and command "
-              "errors with {}, so the intervals are withdrawn. Select the family ({}), or use a "
-              "part of the logs",
-              families_in_words(best.surge, best.yaw), option_text("family surge=..."))};
+  return {
+      file, 0, Severity::kWarning, "families-not-compared",
+      fmt::format(
+          "the search reached its limit of computation or time before it had looked for delays, "
+          "lags and command errors with {}, so the intervals are withdrawn. Select the family "
+          "({}), or use a part of the logs",
+          families_in_words(best.surge, best.yaw), option_text("family surge=..."))};
 }
 
-/// Fits whose LogFit::relative_error exceeds that of the best fit by more than this factor are not
-/// refined.
+/// A fit is stopped early if its LogFit::relative_error exceeds that of the best fit by more than
+/// this factor.
 constexpr double kFarWorse = 1.5;
 
-/// LogFitOptions::give_up_above for fits that compete with `best`.
+/// Limit of LogFit::relative_error above which a fit that competes with `best` is stopped early.
 double give_up_above(const LogFit& best) { return kFarWorse * std::max(1.0, best.relative_error); }
 
-/// Index of the selected fit: the one with the lowest AIC, or that with a power law on the axis if
-/// its AIC is higher by at most `lead`.
+/// Index of the selected fit. This is the fit with a power law on the axis (yaw if `of_yaw`, else
+/// surge) if its AIC exceeds the lowest AIC by at most `lead`. Otherwise it is the fit with the
+/// lowest AIC.
 std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lead) {
   std::size_t best = 0;
   std::optional<std::size_t> power;
@@ -161,9 +165,9 @@ std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lea
   return power && aic_lead(fits[best].fit, fits[*power].fit) <= lead ? *power : best;
 }
 
-/// Fits the families `others` of one axis (yaw if `of_yaw`, else surge), and selects one of them or
-/// the family of `result.best`. If one of the others is better, the search for the family of
-/// `result.best` is repeated first (searched_again()).
+/// Fits the families `others` of one axis (yaw if `of_yaw`, else surge), and stores the best family
+/// in `result.best`. If one of the others beats the family that was the best before, the search for
+/// that family is first repeated, because it may have failed (searched_again()).
 void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool of_yaw,
              const std::vector<Families>& others, double lead, BestFamily& result) {
   std::vector<FamilyFit> fits;
@@ -203,7 +207,7 @@ std::set<std::string> names_of_terms(const LogFit& fit) {
   return names;
 }
 
-/// Fits Stribeck friction of one axis (yaw if `of_yaw`, else surge) in addition to Coulomb and
+/// Fits Stribeck friction of one axis (yaw if `of_yaw`, else surge) together with Coulomb and
 /// linear friction. Keeps this fit if it is significantly better than `result.best`. (A score test
 /// cannot replace this fit, because a power law with Coulomb friction resembles Stribeck friction.)
 void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
@@ -218,8 +222,8 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions po
   }
 }
 
-/// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error below
-/// 1.2), and each of its delays, lags and command errors is significant.
+/// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error is
+/// below 1.2), and each of its delays, lags and command errors is significant.
 bool has_right_terms(const LogFit& fit) {
   constexpr double kErrorOfSensors = 1.2;
   if (!(fit.relative_error < kErrorOfSensors)) return false;
@@ -233,9 +237,10 @@ bool has_right_terms(const LogFit& fit) {
   return true;
 }
 
-/// Searches delays, lags and command errors again for the best families. Starts without any of
-/// these terms, unless has_right_terms(). Reason: terms that were found with other families may
-/// only have compensated for a wrong resistance. Keeps the new fit if it is better.
+/// Searches delays, lags and command errors again for the best resistance families. Unless
+/// has_right_terms(), the search starts without any of these terms. Reason: terms that were found
+/// with other families may only have compensated for a wrong resistance. Keeps the new fit if it is
+/// better.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         BestFamily& result) {
   FamilyFit& best = result.best;
@@ -256,10 +261,11 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
 }
 
 /// Returns the families of one axis (yaw if `of_yaw`, else surge) to compare again, and removes
-/// them from `others`. `winner`: the fit first selected on this axis. `best`: the fit after the
-/// other axis and the delays were selected too. A family is compared again for one of two reasons:
-///   - Its AIC exceeds that of `winner` by less than the amount by which `best` has improved on
-///     `winner`.
+/// them from `others`. `winner`: the fit that was first selected on this axis. `best`: the fit
+/// after the family of the other axis and the delays were selected too. A family is compared again
+/// for one of two reasons:
+///   - Its AIC is close to that of `winner`: the difference is less than the amount by which the
+///     AIC of `best` is below that of `winner`.
 ///   - Its fit had other delays, lags or command errors than `best`. With wrong terms, the AIC of
 ///     the true family can be too high by any amount.
 std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
@@ -278,7 +284,8 @@ std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const 
   return again;
 }
 
-/// The findings of undecided() for the best alternative on each axis.
+/// Calls undecided() for each axis, with the best alternative family of this axis. Returns its
+/// findings.
 std::vector<Finding> undecided_axes(const std::string& file, const BestFamily& result) {
   std::vector<Finding> findings;
   for (const bool of_yaw : {false, true}) {
@@ -296,7 +303,8 @@ std::vector<Finding> undecided_axes(const std::string& file, const BestFamily& r
   return findings;
 }
 
-/// True if other yaw families (`of_yaw`) or surge families are to be fitted, according to `fit`.
+/// True if the families of one axis (yaw if `of_yaw`, else surge) have to be compared. `fit`: the
+/// best fit so far.
 bool is_contested(const LogFitOptions& power_law, const FamilyFit& fit,
                   const FamilyContest& contest, bool of_yaw) {
   if (!contest.open.has(of_yaw)) return false;
@@ -336,11 +344,12 @@ struct FamilyComparison {
   const LogFitOptions& power_law;
   const FamilyContest& contest;
   BestFamily result;
-  std::map<bool, LogFit> winners;  ///< key true: yaw; fits before delays were searched again
+  std::map<bool, LogFit> winners;  ///< fit first selected on each axis (key: true for yaw)
 
   Families families() const { return {result.best.surge, result.best.yaw}; }
 
-  /// Fits the families `others` of an axis. If the best fit changes, the terms are searched again.
+  /// Fits the families `others` of one axis (yaw if `of_yaw`, else surge). If the best fit changes,
+  /// searches delays, lags and command errors again.
   void compare(bool of_yaw, const std::vector<Families>& others) {
     const Families before = families();
     const std::set<std::string> terms = names_of_terms(result.best.fit);
@@ -357,15 +366,15 @@ struct FamilyComparison {
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  // The axis (surge or yaw) whose score tests have the larger gain goes first, because a wrong
-  // resistance law of one axis also causes errors in the other axis.
+  // The axis (surge or yaw) whose score tests predict the larger improvement goes first, because a
+  // wrong resistance of one axis also causes errors in the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};
   BestFamily& result = comparison.result;
   for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {
-    // Whether an axis is compared is decided again after a change of the other axis, because the
-    // errors of a wrong law of one axis can hide those of the other.
+    // After a change of one axis, the need to compare the other axis is decided again, because the
+    // errors of a wrong resistance of one axis can hide those of the other.
     if (comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;
     if (!is_contested(power_law, result.best, contest, of_yaw)) continue;
     comparison.compare(of_yaw, other_families(comparison.families(), of_yaw));

@@ -1,4 +1,5 @@
-/// Selection of the surge and yaw resistance families of a log fit. Private to identify/.
+/// Selection of the resistance families of a log fit. A family is a form of the resistance law, for
+/// example a power law; surge and yaw have one each. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -7,13 +8,14 @@
 
 namespace awmr {
 
-/// Options of best_family(), which compares other families with those of a fit `first`.
+/// Options of best_family(), which compares the families of a fit `first` with other families.
 struct FamilyContest {
-  OpenAxes open = {};  ///< the other axes keep the family of `first`
-  double lead = 0.0;   ///< a family replaces a power law if its AIC is lower by more than this
-  /// True: fits other families of an axis (surge or yaw) only for one of these reasons: a score
-  /// test or a slow drift indicates that a term is missing, the fit did not converge, or the current
-  /// family of the axis is not the power law.
+  OpenAxes open = {};  ///< axes whose family is compared; other axes keep theirs
+  /// a power law is replaced only if the AIC of a family is lower by more than this.
+  double lead = 0.0;
+  /// True: compares the families of an axis (surge or yaw) only if there is a reason. One of these
+  /// suffices: a score test or a slow drift indicates that a term is missing, the fit did not
+  /// converge, or the current family of the axis is not the power law.
   bool only_candidates = true;
 };
 
@@ -21,10 +23,10 @@ struct FamilyContest {
 struct BestFamily {
   FamilyFit best;
   std::vector<FamilyFit> others;  ///< the other fits that were made
-  /// The findings `power-law-inadequate`, `family-undecided` and `families-not-compared`, as far as
-  /// they apply.
+  /// Findings `power-law-inadequate`, `family-undecided` and `families-not-compared`, if they
+  /// apply.
   std::vector<Finding> findings;
-  /// True: the limit of effort or time was reached before all comparisons were done.
+  /// True: the limit of work (Effort) or time was reached before all comparisons were done.
   bool is_out_of_time = false;
 };
 
@@ -35,14 +37,15 @@ std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
 
 /// Estimated number of families that best_family() compares with those of `first`. The actual
 /// number of fits can be larger, because families with a similar AIC are fitted again, and because
-/// a change of one axis can add the families of the other axis. It is smaller if the limit of
-/// effort or time is reached.
+/// a change of one axis can add the families of the other axis. It is smaller if the limit of work
+/// or time is reached.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 
-/// Fits the families one after the other and returns the best converged fit, compared as in
-/// family_score.h. Each fit starts from the best optimum so far, so that it is at least as good as
-/// every special case of its family. `first`: the fit to improve on, usually of power laws.
+/// Fits the resistance families one after the other and returns the best converged fit by AIC
+/// (family_score.h). Each fit starts from the best optimum so far. A family is therefore never
+/// worse than a simpler family that it contains. `first`: the fit to improve on, usually of power
+/// laws.
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest);
 

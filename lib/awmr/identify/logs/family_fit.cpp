@@ -15,7 +15,7 @@
 namespace awmr {
 namespace {
 
-/// Fixes an exponent at 1, for families without a free exponent.
+/// Fixes an exponent of the resistance at 1. Called for families without a free exponent.
 void hold_exponent(LogFitOptions& options, ParameterId beta) {
   std::erase(options.free, beta);
   options.initial_guess[at(beta)] = 1.0;
@@ -30,7 +30,8 @@ void free_term(LogFitOptions& options, ParameterId id, double guess) {
 }
 
 LogFitOptions with_families(LogFitOptions options, Family surge_family, Family yaw_family) {
-  constexpr double kCoulombShare = 0.1;  // initial guess, relative to alpha, the force at 1 m/s
+  // Initial guess of Coulomb friction over the resistance at 1 m/s or 1 rad/s.
+  constexpr double kCoulombShare = 0.1;
   const FamilyTerms surge = terms_of(surge_family);
   const FamilyTerms yaw = terms_of(yaw_family);
   const double surge_force = options.initial_guess[at(ParameterId::kSurgeAlpha)];
@@ -45,8 +46,9 @@ LogFitOptions with_families(LogFitOptions options, Family surge_family, Family y
   return options;
 }
 
-/// Options that start the families `surge` and `yaw` at the optimum of `inner`. Terms that these
-/// families lack, and terms that are 0 in `inner`, get the initial values of `power_law`.
+/// Returns the options of a fit of the families `surge` and `yaw` that starts at the optimum of
+/// `inner`, a fit of other families. Terms that the new families lack, and terms that are 0 in
+/// `inner`, get the initial values of `power_law`.
 LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inner, Family surge,
                             Family yaw) {
   LogFitOptions options = from_optimum(power_law, inner);
@@ -68,8 +70,8 @@ double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
   return most > 0.0 ? most : 1.0;
 }
 
-/// Sets the resistance parameters in `values` so that the curves of the families `surge` and `yaw`
-/// are nearest to the curves of `inner`.
+/// Sets the resistance parameters in `values`, the initial guess of a fit of the families `surge`
+/// and `yaw`, so that their curves are as close as possible to the fitted curves of `inner`.
 void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Family surge,
                 Family yaw, ParameterValues<double>& values) {
   const Vehicle& vehicle = inner.options.vehicle;
@@ -95,8 +97,9 @@ void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Fam
   }
 }
 
-/// The options for the families `surge` and `yaw`, with the curves nearest to those of `inner` as
-/// initial guess. `at_optimum`: the result of without_terms().
+/// Returns the options of a fit of the families `surge` and `yaw`. The initial guess are the curves
+/// of these families that are nearest to the fitted curves of `inner`. `at_optimum`: result of
+/// without_terms().
 LogFitOptions near_options(const std::vector<DrivingLog>& logs, LogFitOptions at_optimum,
                            const FamilyFit& inner, Family surge, Family yaw) {
   begin_near(logs, inner, surge, yaw, at_optimum.initial_guess);
@@ -163,7 +166,7 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
 
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const FamilyFit& inner, bool of_yaw) {
-  constexpr double kShare = 0.3;  // initial guess of the friction, relative to the resistance
+  constexpr double kShare = 0.3;  // initial guess of Stribeck friction over the resistance
   const Plant<double> plant =
       plant_of(inner.options.vehicle, fitted_values(inner.options, inner.fit));
   const ExtraForce force = of_yaw ? ExtraForce::kYawStribeck : ExtraForce::kSurgeStribeck;

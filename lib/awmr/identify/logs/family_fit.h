@@ -1,4 +1,5 @@
-/// Log fits under given surge and yaw resistance families. Private to identify/.
+/// Log fits with given resistance families of surge and yaw. A family is a form of the resistance
+/// law, for example a power law. Private to identify/.
 #pragma once
 
 #include <string>
@@ -12,15 +13,16 @@ namespace awmr {
 struct FamilyFit {
   Family surge = Family::kPower;
   Family yaw = Family::kPower;
-  LogFitOptions options;  ///< options of the fit; the terms of both families are free
+  LogFitOptions options;  ///< options of the fit; they free the terms of both families
   LogFit fit;
 };
 
-/// True if the limit of effort or of time is reached, so that no further model may be fitted.
+/// True if the limit of work (Effort) or of time is reached, so that no further model may be
+/// fitted.
 bool is_over(const LogFitOptions& options);
 
-/// Returns the options for a fit that starts only at the optimum of `fit`. The new fit has the
-/// delays and command errors of `fit` and searches no others.
+/// Returns the options of a fit that starts at the optimum of `fit` and nowhere else. The new fit
+/// has the delays and command errors of `fit`, and does not search for others.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
 /// Fits the logs under the families `surge` and `yaw`. Precondition: `options` already frees the
@@ -28,23 +30,25 @@ LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, Family surge,
                    Family yaw);
 
-/// Fits the logs under the families `surge` and `yaw`. `power_law`: options of a fit of power laws.
+/// Fits the logs under the families `surge` and `yaw`. `power_law`: options of a fit of power laws,
+/// from which the options of this fit are derived.
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw);
 
 /// Fits the logs under the families `surge` and `yaw`, starting from the optimum of `inner`, a fit
-/// of other families. Starts two searches:
-///   - from the curves of the new families that are nearest to the curves of `inner`;
-///   - from the values of `inner`. Terms that are 0 in `inner` start at the initial guess of
-///     `power_law`.
-/// If `inner` did not converge, returns fit_family(), without `more`. `more`: further terms to
-/// estimate.
+/// of other families. `more`: further terms to estimate. Starts two searches:
+///   - from the curves of the new families that are nearest to the fitted curves of `inner`;
+///   - from the parameter values of `inner`. Terms that are 0 in `inner` start at the initial guess
+///     of `power_law`.
+///
+/// If `inner` did not converge, returns fit_family() without the terms `more`.
 FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const FamilyFit& inner, Family surge, Family yaw,
                    const std::vector<FreeTerm>& more = {});
 
-/// Calls fit_roughly() under the families `surge` and `yaw`, starting from the curves of these
-/// families that are nearest to the curves of `inner`.
+/// Makes a rough fit (fit_roughly()) of the families `surge` and `yaw`. It starts from the curves
+/// of these families that are nearest to the fitted curves of `inner`. `more`: further terms to
+/// estimate.
 FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const FamilyFit& inner, Family surge, Family yaw,
                            const std::vector<FreeTerm>& more);
@@ -54,9 +58,9 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const FamilyFit& inner, bool of_yaw);
 
-/// If the AIC of `alternative` is lower than that of `first` by more than 2, repeats the search for
-/// the families of `first` from the optimum of `alternative`, so that `first` does not lose only
-/// because its search failed. Returns `first` or, if better, the repeated fit.
+/// Gives the families of `first` a second chance against `alternative`. If the AIC of `alternative`
+/// is lower by more than 2, fits the families of `first` again from the optimum of `alternative`,
+/// because the first search may have failed. Returns the better of `first` and the new fit.
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 

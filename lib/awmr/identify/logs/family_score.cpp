@@ -6,7 +6,8 @@
 namespace awmr {
 namespace {
 
-/// Logarithmic size of a fit's errors: sum over channels of n ln(sum e^2/n), with n errors e each.
+/// Measure of the size of a fit's errors, to compare two fits. It is the sum of n ln(sum e^2/n)
+/// over all channels, where n is the number of errors e of a channel.
 double log_size_of_errors(const LogFit& fit) {
   double size = 0.0;
   for (const auto& [channel, errors] : fit.errors) {

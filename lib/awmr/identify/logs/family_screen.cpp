@@ -11,7 +11,7 @@ namespace awmr {
 std::vector<Families> other_families(const Families& from, bool of_yaw) {
   std::vector<Families> others;
   for (const Family family : values_in(kFamilyNames)) {
-    if (of_yaw && family == Family::kDeadZone) continue;  // wheels have dead zones, yaw has none
+    if (of_yaw && family == Family::kDeadZone) continue;  // yaw has no dead zone
     const Families other = of_yaw ? Families{from.surge, family} : Families{family, from.yaw};
     if (other != from) others.push_back(other);
   }
@@ -20,13 +20,13 @@ std::vector<Families> other_families(const Families& from, bool of_yaw) {
 
 namespace {
 
-/// A model that differs from another in one family, or has one more term.
+/// A model that differs from the current one in one family, or by one additional term.
 struct Neighbour {
   Families families;
   std::vector<FreeTerm> more = {};
 };
 
-/// A delay of the commands and a lag of the motors, unless the fit has them.
+/// A delay of the commands and a lag of the motors, except those that the fit already contains.
 std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
   constexpr double kBegin_s = 0.05;
   std::vector<FreeTerm> terms;
@@ -40,7 +40,9 @@ std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
   return terms;
 }
 
-/// The families of the open axes but that in `is_done`, and the late terms.
+/// Returns the models to try next. Each changes the family of an open axis, or adds one of
+/// late_terms(). `is_done`: axis that is not changed, because it was changed last (true: yaw,
+/// false: surge).
 std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
                                      std::optional<bool> is_done) {
   const Families families{fit.surge, fit.yaw};
@@ -62,7 +64,7 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
   constexpr int kMostChanges = 8;
   const FamilyFit same = fit_roughly_from(logs, power_law, first, first.surge, first.yaw, {});
   FamilyFit best = same;
-  std::optional<bool> changed_yaw;  // the axis that was changed last
+  std::optional<bool> changed_yaw;  // axis that was changed last (true: yaw)
   for (int changes = 0; changes < kMostChanges && !is_over(power_law); ++changes) {
     const std::vector<Neighbour> neighbours = neighbours_of(best, open, changed_yaw);
     std::vector<FamilyFit> fits(neighbours.size());
@@ -81,7 +83,8 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
     if (least->surge != best.surge) changed_yaw = false;
     best = std::move(*least);
   }
-  // If no family decreases the errors much, their cause is something else, such as unequal motors.
+  // If the best families decrease the errors only a little, the cause of the errors is something
+  // else, such as unequal motors. The original families are then kept.
   const double excess = std::max(0.0, best.fit.relative_error - 1.0);
   return excess < kExplained * (same.fit.relative_error - 1.0) ? best : same;
 }

@@ -1,4 +1,5 @@
-/// Quick selection of the resistance families with which a log fit begins. Private to identify/.
+/// Quick selection of the resistance families (forms of the resistance law) with which a log fit
+/// begins. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -14,7 +15,8 @@ struct Families {
   bool operator==(const Families&) const = default;
 };
 
-/// The pairs of families that differ from `from` in the yaw family (`of_yaw`) or the surge family.
+/// Returns the pairs of families that differ from `from` only in the yaw family (if `of_yaw`) or
+/// only in the surge family (if not).
 std::vector<Families> other_families(const Families& from, bool of_yaw);
 
 /// Axes whose family may be changed.
@@ -25,17 +27,19 @@ struct OpenAxes {
   bool any() const { return surge || yaw; }
 };
 
-/// Fits all families of the open axes roughly (fit_roughly()), starting at the optimum of `first`,
-/// and the same families with a delay of the commands or a lag of the motors, because families can
-/// compensate for these. Changes one family or adds one of these terms at a time as long as
-/// LogFit::relative_error decreases by more than 2 %, at most eight times. Returns the last rough
-/// fit if the excess of its relative error above 1 is less than 0.7 times that of the families of
-/// `first`, else the rough fit of these families.
+/// Selects families by rough fits (fit_roughly()), starting at the optimum of `first`. Each round
+/// tries every change of the family of one open axis. It also tries an additional delay of the
+/// commands or lag of the motors, because a wrong family can compensate for these. The best change
+/// is kept if it lowers LogFit::relative_error by more than 2 %; there are at most eight rounds.
+///
+/// Let E be the amount by which the relative error exceeds 1. Returns the last rough fit if its E
+/// is less than 0.7 times that of the families of `first`. Otherwise returns the rough fit of these
+/// families.
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open);
 
-/// Fits the families of `rough`, starting at its optimum, but without its delay and lag. Searches
-/// delays and command errors, and tests the candidate terms of `power_law`.
+/// Fits the families of the rough fit `rough`, starting at its optimum, but without its delay and
+/// lag. Then searches delays and command errors, and tests the candidate terms of `power_law`.
 FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                  const FamilyFit& rough);
 

@@ -41,9 +41,10 @@ void FilteredChannel::next(double u, const double* by, double h_s, std::size_t c
   by_column_ = single_->by_column();
 }
 
-/// While u rises at the constant rate a, the output of the first stage is below u by T_1 a, and
-/// that of the second stage by (T_1 + T_2) a. This gives the output of the first stage from u and
-/// the first reading y:
+/// Starts the two stages of a filter of second order, with the time constants T_1 and T_2. If the
+/// input u rises at a constant rate a, the output of the first stage is below u by T_1 a, and that
+/// of the second stage by (T_1 + T_2) a. The output y_1 of the first stage then follows from u and
+/// y, the first reading:
 ///
 ///     y_1 = u - T_1/(T_1 + T_2) (u - y)
 void FilteredChannel::start_pair(double u, const std::vector<Complex>& by) {

@@ -15,24 +15,24 @@ namespace awmr {
 /// The filter of a sensor.
 struct SensorFilter {
   DelayColumn lag;       ///< time constant T, s
-  bool is_at_rows;       ///< true: one step for each row of the log; false: continuous
-  double damping = 0.0;  ///< zeta, (0, 1], of a filter of second order; 0: of first order
+  bool is_at_rows;       ///< true: one filter step per row of the log; false: continuous
+  double damping = 0.0;  ///< zeta, in (0, 1], if the filter is of second order; else 0
 };
 
-/// Output y of a filter of first order with the input u and the time constant T, and its
-/// derivatives with respect to the columns of the fit (linear_stepper.h). With rows h apart and e =
-/// exp(-h/T),
+/// Output y of a filter of first order with the input u and the time constant T, and the
+/// derivatives of y with respect to the columns of the fit (linear_stepper.h). With the time h
+/// between two rows and e = exp(-h/T),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
-///     q = (T/h)(1 - e)   continuous, T dy/dt = u - y, u linear between rows
-///     q = e              at the rows, y(t + h) = e y(t) + (1 - e) u(t + h)
+///     q = (T/h)(1 - e)   continuous filter: T dy/dt = u - y, u linear between rows
+///     q = e              one step per row:  y(t + h) = e y(t) + (1 - e) u(t + h)
 ///
 /// `Scalar`: double, or complex for one of the two stages of a filter of second order.
 template <class Scalar>
 class FilterStage {
  public:
-  /// `direction`: derivative of this stage's time constant with respect to that of the filter. The
-  /// output begins at `first`, with the derivatives `by_column`.
+  /// `direction`: time constant of this stage over that of the whole filter (complex for a filter
+  /// of second order). `first`: initial output, with the derivatives `by_column`.
   FilterStage(const SensorFilter& filter, Scalar direction, Scalar first,
               std::vector<Scalar> by_column)
       : lag_s_(direction * filter.lag.delay_s),
@@ -61,18 +61,18 @@ class FilterStage {
   std::vector<Scalar> by_before_;
 };
 
-/// A filter of first order, or of second order:
+/// A sensor's filter of first order, or of second order:
 ///
 ///     T^2 d2y/dt2 + 2 zeta T dy/dt + y = u
 ///
-/// A filter of second order is computed as two stages in series with the complex time constants T
-/// exp(i phi) and T exp(-i phi), cos phi = zeta. y starts at the first reading of the window. The
-/// noise of that reading decays with the time constant T. The output of the first of two stages
+/// A filter of second order is computed as two stages in series, with the complex time constants T
+/// exp(i phi) and T exp(-i phi), cos phi = zeta. The output y starts at the first reading of the
+/// window. The noise of that reading decays with the time constant T. The first of the two stages
 /// starts as if the input had risen at a constant rate before.
 class FilteredChannel {
  public:
-  /// `first`: first reading of the window. `columns`: number of columns of the fit, by which y is
-  /// differentiated; 0: only y is computed.
+  /// `first`: first reading of the window. `columns`: number of columns of the fit, one for each
+  /// derivative of y; 0: only y is computed.
   FilteredChannel(const SensorFilter& filter, double first, std::size_t columns)
       : filter_(filter), y_(first), by_column_(columns, 0.0) {}
 

@@ -13,7 +13,8 @@
 namespace awmr {
 namespace {
 
-constexpr double kStandardErrors = 2.0;  // smallest reported force, in its standard errors
+// a force is reported if it is above this many standard errors.
+constexpr double kStandardErrors = 2.0;
 
 /// An identified quantity with its standard error.
 struct FoundForce {
@@ -32,14 +33,14 @@ std::optional<FoundForce> found_force(const LogFit& fit, ExtraForce force) {
   return std::nullopt;
 }
 
-/// The force, if it is more than kStandardErrors standard errors from 0.
+/// The force, if it differs from 0 by more than kStandardErrors standard errors; else empty.
 std::optional<FoundForce> significant(const LogFit& fit, ExtraForce force) {
   const auto found = found_force(fit, force);
   if (!found || !(std::abs(found->value) > kStandardErrors * found->error)) return std::nullopt;
   return found;
 }
 
-/// Value of a parameter of the fit; 0 if it is not free.
+/// Fitted value of a parameter; 0 if the parameter is not free.
 double fitted_value(const LogFit& fit, ParameterId id) {
   const auto i = place_of(fit.quantities, id);
   return i ? fit.quantities[*i].value(fit.coordinates[*i]) : 0.0;
@@ -47,14 +48,14 @@ double fitted_value(const LogFit& fit, ParameterId id) {
 
 /// Stribeck friction of one axis of a fit.
 struct FoundStribeck {
-  std::string_view axis;  ///< prefix of the parameters of its resistance
+  std::string_view axis;  ///< "surge." or "yaw.", with which parameter names begin
   std::string_view what;
   std::string_view unit;
   FoundForce force;
   double coulomb;               ///< Coulomb friction c
-  std::optional<double> speed;  ///< w_s; empty if it is not identified
+  std::optional<double> speed;  ///< speed scale w_s; empty if not identified
 
-  /// True if the friction at rest is more than 5 % above c.
+  /// True if the Stribeck friction is more than 5 % of the Coulomb friction.
   bool is_large() const { return force.value > 0.05 * coulomb; }
 };
 
@@ -86,7 +87,8 @@ std::vector<Finding> stribeck_findings(const LogFit& fit, const std::string& fil
                      one.what, one.force.value, one.force.error, one.coulomb,
                      one.speed ? fmt::format(", mainly below {:.2g} {}", *one.speed, one.unit) : "",
                      one.is_large() ? fmt::format("; the intervals of {}* are withdrawn, because "
-                                                  "the true form is unknown",
+                                                  "the true form of the friction is "
+                                                  "unknown",
                                                   one.axis)
                                     : "")});
   }
@@ -139,12 +141,13 @@ std::vector<Finding> force_excess_findings(const LogFit& fit, const std::string&
     if (!excess) return;
     findings.push_back(
         {file, 0, Severity::kWarning, std::string(code),
-         fmt::format("{} push {:.1f} +- {:.1f} % {} than {} (in logs that only drive forward, "
-                     "braking and negative forces are the same). The fit compensates this, but "
-                     "simulations and gains do not; divide such commands by {:.3g} before they are "
-                     "sent to the motors, and log the undivided ones",
-                     which, 100.0 * std::abs(excess->value), 100.0 * excess->error,
-                     excess->value > 0.0 ? "more" : "less", reference, 1.0 + excess->value)});
+         fmt::format(
+             "{} push {:.1f} +- {:.1f} % {} than {} (in logs that only drive forward, every "
+             "negative force brakes). The fit compensates this, but simulations and gains "
+             "do not; divide such commands by {:.3g} before they are sent to the motors, "
+             "and log the commands before this division",
+             which, 100.0 * std::abs(excess->value), 100.0 * excess->error,
+             excess->value > 0.0 ? "more" : "less", reference, 1.0 + excess->value)});
   };
   add(ExtraForce::kBrakeForce, "brake-force", "forces against the motion", "forces along it");
   add(ExtraForce::kReverseForce, "reverse-force", "negative forces", "positive ones");

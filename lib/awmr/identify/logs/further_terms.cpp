@@ -24,7 +24,8 @@ double largest_command(const LogProblem& problem) {
   return largest;
 }
 
-/// Adds delays of the commands and of the measured channels, and smoothing of these channels.
+/// Adds delays of the commands and of the measured channels, and symmetric smoothing of the
+/// channels that are often filtered.
 void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
@@ -57,12 +58,14 @@ bool has_both_directions(const DrivingLog& log) {
   return any([](double f) { return f > kLeast; }) && any([](double f) { return f < -kLeast; });
 }
 
-/// Adds the forces of extra_forces.h that can still be added:
-///   - Stribeck friction, to a resistance with Coulomb friction;
+/// Adds those forces of extra_forces.h that the fit does not yet contain and that the logs can
+/// show:
+///   - Stribeck friction, if the resistance has Coulomb friction;
 ///   - a slope, if heading or position is measured;
 ///   - drag in turns, if the commands turn the vehicle;
-///   - if the log has forces in both directions: an excess of braking or of backward forces (a fit
-///     contains at most one of the two), and of the backward resistance.
+///   - a different resistance backward, if the log has forces in both directions;
+///   - an excess of braking or of backward forces, if the log has forces in both directions. A fit
+///     contains at most one of the two.
 void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   for (const auto& [force, coulomb] :
@@ -83,7 +86,8 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
     found.push_back(extra_force(ExtraForce::kTurnDrag));
   }
   if (!any_log(problem, has_both_directions)) return;
-  // A fit has either slip or an excess: wheel_slip.h computes the slip without an excess.
+  // A fit contains either wheel slip or an excess of wheel forces, because wheel_slip.h computes
+  // the slip without the excess.
   if (!has_force_excess(quantities) && !has_kind(quantities, FreeQuantity::Kind::kWheelSlip)) {
     found.push_back(extra_force(ExtraForce::kBrakeForce));
     found.push_back(extra_force(ExtraForce::kReverseForce));
@@ -107,8 +111,9 @@ void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-/// Adds the slip of the wheels that measure speed or yaw rate, in both forms (WheelSlip::is_ratio).
-/// If the fit already has slip of one channel, adds only the same form for the other.
+/// Adds the slip of the wheels that measure speed or yaw rate. The slip has two forms, a speed or a
+/// ratio (WheelSlip::is_ratio). If the fit already has slip of one of these channels, only the same
+/// form is added for the other channel.
 void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   if (has_force_excess(quantities)) return;
@@ -153,7 +158,8 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> found;
   add_times(problem, found);
-  // If no steering delay is fitted, a free time constant of the servo absorbs its dead time.
+  // Without a delay of the steering in the fit, a free time constant of the servo absorbs the dead
+  // time of the servo.
   if (place_of(quantities, ParameterId::kSteeringTimeConstant) &&
       !has_kind(quantities, Kind::kSteeringDelay)) {
     found.push_back(steering_delay());
@@ -163,8 +169,8 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(force_imbalance());
   }
   const double full_command = largest_command(problem);
-  // Only one of exponent and saturation is added: both together fit every curve, even one with
-  // wrong forces at small commands.
+  // A fit contains either an exponent or a saturation of the forces. Both together would fit every
+  // curve, even one with wrong forces at small commands.
   if (full_command > 0.0 && !has_kind(quantities, Kind::kForceExponent) &&
       !has_kind(quantities, Kind::kForceSaturation)) {
     found.push_back(force_exponent());

@@ -8,7 +8,7 @@
 
 namespace awmr {
 
-/// Terms that can still be added to the fit:
+/// Terms that the fit does not contain yet and that the logs can show:
 ///   - a delay of the commands and of every measured channel (one for x and y together). At least
 ///     one of these signals keeps the delay 0, as the time reference of the others;
 ///   - symmetric smoothing of the channels that are often filtered, unless a filter or smoothing is
@@ -23,7 +23,7 @@ namespace awmr {
 ///     a position is measured;
 ///   - slip of the wheels that measure the speed, or the yaw rate if left and right forces differ,
 ///     unless an excess of wheel forces is estimated;
-///   - position and direction of a sway sensor.
+///   - position and direction of a sensor of the sideways (sway) speed.
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 
 /// True for channels that are often filtered before logging: speed, yaw rate and heading.

@@ -16,7 +16,8 @@
 namespace awmr {
 namespace {
 
-/// The least-squares problem of these rows, with the noise levels of the fit.
+/// The least-squares problem of these rows of a log, with the noise levels that `fit` has estimated
+/// from other rows.
 LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
                       const LogFitOptions& options) {
   LogProblem problem = log_problem(rows, options);
@@ -25,8 +26,9 @@ LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
   return problem;
 }
 
-/// One Gauss-Newton step of the initial states `states` (one column for each window) at fixed
-/// coordinates. Returns the largest decrease of a window's cost that the step predicts.
+/// Makes one Gauss-Newton step of the initial states of the windows, while the fitted quantities
+/// stay fixed. `states`: one column for each window. Returns the largest predicted decrease of a
+/// window's cost.
 double step_initial_states(const std::vector<WindowSums>& sums, Eigen::Index coordinates,
                            Eigen::Map<Eigen::MatrixXd> states) {
   const Eigen::Index n = coordinates;
@@ -41,13 +43,15 @@ double step_initial_states(const std::vector<WindowSums>& sums, Eigen::Index coo
   return largest;
 }
 
-/// Fits the initial states of all windows at fixed coordinates. Gauss-Newton steps from the
-/// measured states suffice, because the motion is nearly linear in the states (except for a servo
-/// at its rate limit). Steps end when no state changes by more than 0.1 standard errors:
-/// smaller steps hardly change the scores, and a window with rest can go to and fro between them.
+/// Fits the initial states of all windows, while the fitted quantities stay fixed. Gauss-Newton
+/// steps from the measured states suffice, because the motion is nearly linear in the states
+/// (except for a servo at its rate limit). The steps end when no state changes by more than 0.1
+/// standard errors. Smaller steps hardly change the scores, and in a window in which the vehicle
+/// rests they may alternate without end.
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
   constexpr int kSteps = 10;
-  constexpr double kSmall = 0.5 * 0.1 * 0.1;  // a step of d standard errors gains d^2/2
+  // Cost of a step of 0.1 standard errors; a step of d gains d^2/2.
+  constexpr double kSmall = 0.5 * 0.1 * 0.1;
   const Eigen::Index n = rows_of(coordinates);
   const Eigen::Index k = rows_of(problem.model.initial);
   SearchPoint point = from_measured(problem, std::move(coordinates));
@@ -60,8 +64,8 @@ SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> c
   return point;
 }
 
-/// Indices of the coordinates to compare, and of the biases, which may differ between parts of a
-/// log.
+/// Indices of the coordinates to compare. Biases are listed apart, because they may differ between
+/// parts of a log. Coordinates at an end of their range are left out.
 struct Places {
   std::vector<Eigen::Index> compared;
   std::vector<Eigen::Index> biases;
@@ -78,8 +82,9 @@ Places places_of(const LogProblem& problem, const std::vector<double>& coordinat
   return places;
 }
 
-/// Information and score of the compared coordinates c, each in units of its large change, after
-/// elimination of the biases b: H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
+/// Information and score of the compared coordinates c, each in units of its large change. The
+/// biases b are eliminated: with information H and score S of all coordinates, the result is H_cc -
+/// H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
 FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::VectorXd& scale,
                             const Places& places) {
   const FitEvidence all = fit_evidence(sums, scale.size());
@@ -92,17 +97,18 @@ FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::Ve
   return {h(c, c) - by_bias * h(b, c), s(c) - by_bias * s(b)};
 }
 
-/// Change d of the compared coordinates, each divided by its large change, with its covariance.
-/// `directions`: number of directions that the rows determine.
+/// Change of the compared coordinates from the fit to the tested rows, each divided by its large
+/// change (FreeQuantity::large_change). `directions`: number of directions that the rows determine.
 struct Change {
-  Eigen::VectorXd size;  ///< d, one per compared coordinate
+  Eigen::VectorXd size;  ///< the change d, one number per compared coordinate
   Eigen::MatrixXd covariance;
   double p_value = 1.0;
   Eigen::Index directions = 0;
 };
 
-/// Computes d, cov d and the p value of X^2 (see predict()). `c`: covariance C of the fit. `f`: its
-/// widening factor.
+/// Computes the change d, its covariance and the p value of the test statistic X^2 (see predict()).
+/// `rows`: information and score of the tested rows. `c`: covariance of the fit. `f`: factor by
+/// which the standard errors of the fit were raised.
 Change change_of(const FitEvidence& rows, const Eigen::MatrixXd& c, double f) {
   constexpr double kShown = 1.0 / (kUnknown * kUnknown);
   const SymmetricEigen eigen = symmetric_eigen(rows.information);

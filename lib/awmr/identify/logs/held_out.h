@@ -14,21 +14,21 @@ namespace awmr {
 struct LogPart {
   const std::vector<DrivingLog>& log;  ///< list with exactly one log
   Interval only_s;                     ///< time interval of the rows, s
-  std::string name;                    ///< for messages: "the last fifth of log.csv"
+  std::string name;  ///< name in messages, for example "the last fifth of log.csv"
 };
 
 /// Result of predict().
 struct HeldOut {
-  std::string rows;      ///< name of the tested rows: "the last fifth of log.csv"
-  double p_value = 1.0;  ///< of the hypothesis that the fit's values describe these rows too
-  std::string quantity;  ///< the quantity with the largest change over its standard error
+  std::string rows;      ///< name of the tested rows, for example "the last fifth of log.csv"
+  double p_value = 1.0;  ///< p value of the hypothesis that the fit describes these rows too
+  std::string quantity;  ///< the quantity that changes most, in standard errors
   double by_fit = 0.0;   ///< value of that quantity in the fit
   double by_rows = 0.0;  ///< value of that quantity estimated from the tested rows
 };
 
-/// Tests whether `rows` agree with `fit`, a fit of other rows with these options. d is the change
-/// of the fitted coordinates in one Gauss-Newton step of a fit to `rows`. It gives the test
-/// statistic X^2:
+/// Tests whether `rows` agree with `fit`, a fit of other rows with these options. The test
+/// statistic X^2 follows from d, the change of the fitted coordinates in one Gauss-Newton step
+/// towards a fit of `rows`:
 ///
 ///     d = -H^-1 S,   cov d = f^2 H^-1 + C,   X^2 = d^T (cov d)^-1 d,   chi-squared
 ///
@@ -38,8 +38,8 @@ struct HeldOut {
 /// determine (identifiability.h). Quantities at an end of their range are fixed.
 ///
 /// The noise levels are those of the fit. (Noise levels estimated from the tested rows would absorb
-/// a change of the vehicle as sensor drift.) Empty if the rows determine no direction or cannot be
-/// simulated.
+/// a change of the vehicle as sensor drift.) Returns empty if the rows determine no direction or
+/// cannot be simulated.
 std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
 
 /// A delay or command error that a fit does not contain, with its score test (score_test.h).

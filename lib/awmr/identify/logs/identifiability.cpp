@@ -16,29 +16,33 @@
 namespace awmr {
 namespace {
 
-/// Largest standard error of an identified quantity, in its large changes. The limit is lower for
-/// the sway resistance a_s, so that 1/a_s is at least 4 standard errors from 0. Reason: the logs
-/// measure the reciprocal, because the lateral speed is v ~ m' r u / a_s. The standard error of ln
-/// a_s is a_s times that of 1/a_s. If noise makes a_s too small, the standard error of ln a_s is
-/// therefore too small as well, and the common limit would accept such values more often.
+/// Largest standard error of an identified quantity, in its large changes
+/// (FreeQuantity::large_change).
+///
+/// The limit is lower for the sway resistance a_s, so that 1/a_s is at least 4 standard errors from
+/// 0. Reason: the logs measure 1/a_s, because the lateral speed is v ~ m' r u / a_s. The standard
+/// error of ln a_s is a_s times that of 1/a_s. If noise makes a_s too small, it makes the standard
+/// error of ln a_s too small as well. With the limit of the other quantities, such values would be
+/// accepted too often.
 double unknown_from(const FreeQuantity& q) {
   constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;
 }
 
-/// Describes why a quantity is not identified. `std`: its standard error in large changes.
-/// `unknown`: the limit of `std`.
+/// Text that states how uncertain a quantity is. `std`: its standard error, in large changes
+/// (FreeQuantity::large_change). `unknown`: largest accepted `std`.
 std::string uncertainty_text(double std, double unknown = kUnknown) {
   if (!std::isfinite(std) || std > 1e3) return "no measurement depends on it";
   return fmt::format("the standard error is {:.2g} times the accepted limit", std / unknown);
 }
 
-/// Refuses every quantity that contributes to a direction (of length 1) which the logs do not
-/// determine. `std`: standard error along the direction.
+/// Refuses every quantity with a considerable part in a direction that the logs do not determine.
+/// `direction`: this direction in the space of the coordinates, of length 1. `std`: standard error
+/// along it.
 void refuse_direction(const Eigen::VectorXd& direction, double std,
                       const std::vector<FreeQuantity>& quantities,
                       std::vector<std::string>& refusal_reason) {
-  constexpr double kPart = 0.1;  // smallest contribution to the squared length
+  constexpr double kPart = 0.1;  // smallest share of the squared length that counts
   std::vector<std::size_t> parts;
   std::vector<std::string> names;
   for (Eigen::Index i = 0; i < direction.size(); ++i) {
@@ -53,9 +57,10 @@ void refuse_direction(const Eigen::VectorXd& direction, double std,
   for (const std::size_t i : parts) refusal_reason[i] = why;
 }
 
-/// True if the search stopped at an end of the quantity's range. Two cases do not count, because
-/// the end of the range is a possible value: a delay, lag or term of a family at 0, and the form of
-/// a force (FreeQuantity::is_form(), for example the sharpness of a saturation).
+/// True if the search stopped at an end of the quantity's range that is not a plausible value. Two
+/// ends are plausible: 0 for a delay, a lag or a term of a resistance family, and both ends for a
+/// quantity that only describes the form of a force (FreeQuantity::is_form(), for example the
+/// sharpness of a saturation).
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   if (q.is_form()) return false;
   if (q.may_be_zero()) return coordinate >= bounds.hi;
@@ -74,9 +79,9 @@ Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
   return m / (m - 1.0) * variances;
 }
 
-/// Raises the factors of the standard errors according to the scatter of these parts (blocks or
-/// logs). A factor is raised if the variance by scatter exceeds `allowed` times the variance by the
-/// noise model.
+/// Raises the factors of the standard errors according to the scatter of these parts (blocks of
+/// seconds, or whole logs). A factor is raised only if the variance by this scatter exceeds
+/// `allowed` times the variance by the noise model.
 void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
                   Identifiability& found) {
   if (scores.size() < 2) return;
@@ -89,11 +94,12 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Raises standard errors to those computed from the scatter of the scores. Blocks count if they
-/// scatter more than the noise model predicts, whole logs if there are at least three and they
-/// scatter significantly more.
+/// Raises standard errors to those that follow from the scatter of the scores. The scatter of
+/// blocks counts if it exceeds the prediction of the noise model. The scatter of whole logs counts
+/// if there are at least three logs and their scatter exceeds the prediction significantly.
 void widen(const Scores& scores, Identifiability& found) {
-  constexpr double kManyDegrees = 1e6;  // with these, Student's t is the normal distribution
+  // Practically infinite: Student's t then equals the normal distribution.
+  constexpr double kManyDegrees = 1e6;
   constexpr std::size_t kEnoughLogs = 3;
   found.degrees_of_freedom.assign(at(found.covariance.rows()), kManyDegrees);
   found.factor.assign(at(found.covariance.rows()), 1.0);
@@ -106,11 +112,11 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses all quantities whose correlation with the quantity `stopped` exceeds kDependent in
-/// magnitude. `stopped`: index of a quantity whose search ended at a bound.
+/// Refuses all quantities that are correlated with the quantity `stopped` by more than kDependent
+/// in magnitude. `stopped`: index of a quantity whose search ended at an end of its range.
 void refuse_dependent(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
                       Identifiability& found) {
-  constexpr double kDependent = 0.3;  // smallest correlation that counts
+  constexpr double kDependent = 0.3;  // smallest correlation for which a quantity is refused
   const Eigen::MatrixXd& c = found.covariance;
   for (Eigen::Index i = 0; i < c.rows(); ++i) {
     const double correlation = c(i, stopped) / std::sqrt(c(i, i) * c(stopped, stopped));
@@ -132,9 +138,9 @@ std::string why_stopped(const FreeQuantity& q, double coordinate) {
   return why;
 }
 
-/// If the parameter `cause` is refused, returns a pointer to the refusal reason of `dependent`, for
-/// the caller to set. Null if `cause` is not refused, `dependent` already has a reason, or one of
-/// them is not free.
+/// Decides whether the parameter `dependent` has to be refused because `cause` was refused. If so,
+/// returns a pointer to the refusal reason of `dependent`, which the caller has to set. Null if
+/// `cause` is not refused, if `dependent` already has a reason, or if one of the two is not free.
 std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, ParameterId dependent,
                            ParameterId cause, Identifiability& found) {
   const auto place = place_of(quantities, dependent);
@@ -148,7 +154,8 @@ std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, Paramete
 
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities) {
-  // Information of the search's weak prior: a standard deviation of kPriorStd large changes.
+  // Information of the weak prior of the search, whose standard deviation is kPriorStd large
+  // changes.
   constexpr double kPrior = 1.0 / (kPriorStd * kPriorStd);
   constexpr double kNull = 1e-12;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -12,9 +12,10 @@
 
 namespace awmr {
 
-/// Largest standard error of an identified quantity, divided by the large change of its coordinate
-/// (FreeQuantity::large_change). At this limit, the 95 % interval of a quantity with a logarithmic
-/// coordinate extends from 1/2.7 to 2.7 times its value, and that of an exponent is +-1.
+/// Largest standard error of an identified quantity, in units of the change of its coordinate that
+/// counts as large (FreeQuantity::large_change). At this limit, the 95 % interval of a quantity
+/// with a logarithmic coordinate extends from 1/2.7 to 2.7 times its value, and that of an exponent
+/// is +-1.
 inline constexpr double kUnknown = 0.5;
 
 /// Covariance and identifiability of the n coordinates of a log fit.
@@ -22,38 +23,47 @@ struct Identifiability {
   /// Covariance of the coordinates, n x n. A coordinate that the logs do not identify has a large
   /// variance, which propagates to all correlated coordinates.
   Eigen::MatrixXd covariance;
-  std::vector<double> degrees_of_freedom;   ///< one per quantity, of its standard error
-  std::vector<std::string> refusal_reason;  ///< one per quantity; empty text: it is identified
-  int rank = 0;                             ///< number of directions that the logs determine
-  double condition_number = 0.0;  ///< of the Jacobian, with coordinates in units of large changes
-  /// One per quantity: factor by which its standard error was multiplied, >= 1. Above 1: parts of
-  /// the logs scatter more than the noise model predicts.
+  /// Degrees of freedom of each standard error, one per quantity.
+  std::vector<double> degrees_of_freedom;
+  /// One per quantity; empty text: the quantity is identified.
+  std::vector<std::string> refusal_reason;
+  int rank = 0;  ///< number of directions that the logs determine
+  /// Condition number of the Jacobian, with coordinates in units of large changes.
+  double condition_number = 0.0;
+  /// One per quantity: factor >= 1 by which its standard error was raised. It is above 1 if parts
+  /// of the logs scatter more than the noise model predicts.
   std::vector<double> factor;
 
   /// Largest of the factors.
   double widened() const { return factor.empty() ? 1.0 : std::ranges::max(factor); }
 };
 
-/// Computes the covariance from the information H (n x n), a weak prior P and the scores s_b of m
-/// parts of the logs. The scatter of the scores corrects for errors of the noise model. In units of
-/// large changes,
+/// Computes the covariance of the coordinates and decides which quantities are identified.
+///
+/// The covariance follows from the information H (n x n), a weak prior P and the scores s_b of m
+/// parts of the logs. The scatter of the scores corrects errors of the noise model. C is the
+/// covariance by the noise model, V that by the scatter. In units of large changes
+/// (FreeQuantity::large_change),
 ///
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
 ///     D_ii^2 = max(1, V_ii / C_ii)
 ///
 /// The parts are blocks of some seconds. With three or more logs, whole logs are used as parts too
 /// if their scatter exceeds the prediction significantly (5 %), as with a model error that differs
-/// between logs. The larger D_ii then applies. A quantity is refused for one of two reasons: its
-/// standard error exceeds kUnknown large changes (half of that for the sway resistance), or it
-/// contributes a tenth or more to the squared length of a direction (eigenvector of H) that the
-/// logs do not determine.
+/// between logs. The larger D_ii then applies.
+///
+/// A quantity is refused for one of two reasons:
+///   - Its standard error exceeds kUnknown large changes (half of that for the sway resistance).
+///   - It contributes a tenth or more to the squared length of a direction (eigenvector of H) that
+///     the logs do not determine.
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
 /// Refuses every quantity whose search ended at an end of its range, and every quantity whose
-/// correlation with such a quantity exceeds 0.3 in magnitude. If c, q or the dead zone of a
-/// resistance is refused, also refuses its coefficient alpha. If alpha is refused, also refuses the
-/// exponent beta.
+/// correlation with such a quantity exceeds 0.3 in magnitude. A resistance has the Coulomb friction
+/// c, the coefficient alpha, the exponent beta, the quadratic coefficient q and the dead zone. If
+/// c, q or the dead zone is refused, alpha is refused too. If alpha is refused, beta is refused
+/// too.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

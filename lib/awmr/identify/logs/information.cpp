@@ -9,15 +9,17 @@
 namespace awmr {
 namespace {
 
-/// (J_s^T J_s)^-1 J_s^T J_t: least-squares change of a window's initial state per change of each
-/// coordinate.
+/// Least-squares change of a window's initial state per change of each coordinate, (J_s^T J_s)^-1
+/// J_s^T J_t. J_t and J_s are the Jacobians of the residuals with respect to the coordinates and
+/// the initial state.
 Eigen::MatrixXd compensation(const WindowSums& window, Eigen::Index n) {
   const Eigen::Index k = window.products.rows() - 1 - n;
   return solve_ldlt(window.products.block(n, n, k, k), window.products.block(n, 0, k, n));
 }
 
-/// Score g_t - J_t^T J_s (J_s^T J_s)^-1 g_s (information.h). `gradient`: g_t, then g_s.
-/// `by_initial`: J_t^T J_s (J_s^T J_s)^-1 of the window.
+/// Score of the coordinates after elimination of a window's initial state, FitEvidence::score.
+/// `gradient`: g_t, then g_s (symbols of FitEvidence). `by_initial`: J_t^T J_s (J_s^T J_s)^-1 of
+/// the window.
 Eigen::VectorXd score(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& by_initial) {
   const Eigen::Index n = by_initial.rows();
   return gradient.head(n) - by_initial * gradient.segment(n, by_initial.cols());

@@ -8,9 +8,9 @@
 
 namespace awmr {
 
-/// Information and score of the n coordinates, after elimination of each window's initial state. r:
-/// residuals; J_t, J_s: Jacobians with respect to the coordinates and the initial state; g_t =
-/// J_t^T r and g_s = J_s^T r. Summed over the windows:
+/// Information H and score S of the n coordinates, after elimination of each window's initial
+/// state. With the residuals r of a window and their Jacobians J_t and J_s with respect to the
+/// coordinates and the initial state, g_t = J_t^T r and g_s = J_s^T r. Summed over the windows:
 ///
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
 ///     S = g_t       - J_t^T J_s (J_s^T J_s)^-1 g_s
@@ -22,8 +22,8 @@ struct FitEvidence {
 FitEvidence fit_evidence(const std::vector<WindowSums>& sums, Eigen::Index n);
 
 /// Score vectors S of length n (see FitEvidence) of parts of the logs, each computed from the
-/// gradients of that part alone. Their scatter gives the variance of the estimates without relying
-/// on the noise model.
+/// gradients of that part alone. The scatter of these vectors gives the variance of the estimates
+/// without relying on the noise model.
 struct Scores {
   std::vector<Eigen::VectorXd> blocks;  ///< blocks of some seconds within a window
   std::vector<Eigen::VectorXd> logs;    ///< whole logs: sums over their blocks
@@ -33,8 +33,8 @@ struct Scores {
 Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<WindowSums>& sums,
                  Eigen::Index n);
 
-/// Length of nearly independent blocks of a log, s: five times the longest correlation time, at
-/// least 1 s, at most kWindow_s.
+/// Length, s, of the blocks into which a log is divided so that they are nearly independent: five
+/// times the longest correlation time of the noise, at least 1 s, at most kWindow_s.
 double block_length_s(const NoiseLevels& noise);
 
 /// AIC of a fit under its own noise model: -2 ln L + 2 (n + number of noise parameters), up to a

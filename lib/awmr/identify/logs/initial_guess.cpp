@@ -13,7 +13,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-/// Root mean squares over one log, or their means over several logs.
+/// Root mean squares of forces and speeds over one log, or the means of these over several logs.
 struct Magnitudes {
   double thrust = 0.0;    ///< tau_speed, dimensionless
   double speed = 0.0;     ///< m/s

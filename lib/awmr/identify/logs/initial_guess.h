@@ -9,9 +9,10 @@
 
 namespace awmr {
 
-/// Guesses the order of magnitude of each parameter. The resistances balance the root mean square
-/// forces at the root mean square speed and yaw rate. m' gives a time constant m'/a1 of 0.3 s. I'z
-/// is m' times Iz/m of the vehicle. Terms that only some families have are 0.
+/// Guesses the order of magnitude of each parameter. The surge and yaw resistances balance the root
+/// mean square forces at the root mean square speed and yaw rate. m' is guessed so that the time
+/// constant m'/a1 is 0.3 s, with the surge resistance a1. I'z is m' times Iz/m of the vehicle.
+/// Terms that only some resistance families have are 0.
 ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
                                         const Vehicle& vehicle);
 

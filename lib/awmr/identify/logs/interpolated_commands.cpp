@@ -11,7 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Parts into which the time between two rows is divided. Commands are constant in each part.
+/// Number of parts into which the time between two rows is divided. The commands of the
+/// interpolated log are constant in each part.
 constexpr std::size_t kParts = 4;
 
 /// True if forces or steering command change in at least half of the rows.
@@ -24,8 +25,8 @@ bool changes_often(const DrivingLog& log) {
   return 2 * changes >= log.rows();
 }
 
-/// Time of one row of an interpolated log: after row `row` of the original log, by the fraction
-/// `share` of the time to the next row, 0 <= share < 1.
+/// Time of one row of the interpolated log. It is between the row `row` of the original log and the
+/// next one, at the fraction `share` of the time between them, 0 <= share < 1.
 struct RowPart {
   std::size_t row;
   double share;
@@ -43,8 +44,8 @@ std::vector<RowPart> places_of(const DrivingLog& log) {
   return places;
 }
 
-/// The signal at the times of the row parts, linearly interpolated. `later`: fraction of the time
-/// between two rows by which these times are shifted, < 1.
+/// The signal, linearly interpolated to the times `places` plus a shift. `later`: this shift, as a
+/// fraction (< 1) of the time between two rows.
 std::vector<double> at_places(const std::vector<double>& signal, const std::vector<RowPart>& places,
                               double later) {
   std::vector<double> values;
@@ -59,7 +60,7 @@ std::vector<double> at_places(const std::vector<double>& signal, const std::vect
 }
 
 DrivingLog interpolated(const DrivingLog& log) {
-  constexpr double kMiddle = 0.5 / kParts;  // middle of a part, where the command has its mean
+  constexpr double kMiddle = 0.5 / kParts;  // middle of a part: mean of the line over the part
   const std::vector<RowPart> places = places_of(log);
   DrivingLog fine = log;
   fine.has_interpolated_commands = true;

@@ -10,8 +10,9 @@
 namespace awmr {
 namespace {
 
-/// Adds the servo: d_r_dot = sat((target - d_r)/T, d_rate_max). At the rate limit, all derivatives
-/// are 0 except that with respect to d_rate_max.
+/// Adds the rate of the steering angle d_r, which the servo moves to the command with the time
+/// constant T and at most at the rate d_rate_max: d_r_dot = sat((command - d_r)/T, d_rate_max). At
+/// the rate limit, the only derivative that is not 0 is that with respect to d_rate_max.
 void add_servo(const LinearPlant& plant, const State<double>& s, double command_rad,
                LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -40,8 +41,8 @@ void add_kinematics(const State<double>& s, LinearRates& out) {
   out.by_state.y_v = c;
 }
 
-/// Adds the derivatives of a rate with respect to the parameters of its resistance: -(dg/d
-/// parameter)/inertia.
+/// Adds the derivatives of a rate of the state with respect to the parameters p of its resistance
+/// g: -(dg/dp)/inertia.
 template <double DrivenSlopes::*kRate>
 void add_resistance(const ResistanceSlopes& g, double per_inertia, ParameterId alpha,
                     ParameterId beta, ParameterId coulomb, ParameterId quadratic,
@@ -58,15 +59,16 @@ Plant<double> with_stribeck(Plant<double> p, const ExtraForces& extra) {
   return p;
 }
 
-/// True if the force `one` is not 0, or if `one` or `other` is free.
+/// True if the rates depend on the force `one`: if its size is not 0, or if it is free. `other`:
+/// quantity of the same force, for which the same holds if it is free.
 bool has_force(const ExtraForces& extra, ExtraForce one, ExtraForce other) {
   return extra[one] != 0.0 || std::ranges::any_of(extra.columns, [&](const ExtraColumn& column) {
            return column.force == one || column.force == other;
          });
 }
 
-/// The factor k |r|^p sgn r of the drag in turns, as a resistance law of the yaw rate r. Below 0.01
-/// rad/s it is proportional to r.
+/// Returns k |r|^p sgn r, the part of the drag in turns (extra_forces.h) that depends on the yaw
+/// rate r, as a resistance law. Below 0.01 rad/s it is proportional to r.
 Resistance<double> turn_drag_law(const ExtraForces& extra) {
   constexpr double kRest_radps = 0.01;
   return {.alpha = extra[ExtraForce::kTurnDrag],
@@ -143,13 +145,14 @@ ResistanceSlopes LinearResistance::operator()(double speed) const {
 
 namespace {
 
-/// Forces of a left and a right wheel, and their direction.
+/// Sum and difference of the forces of a left and a right wheel, with the direction of steered
+/// wheels.
 struct SteeredForces {
   double sum;
   double difference;  ///< right minus left
   double sin_d;       ///< sin d_r
   double cos_d;       ///< cos d_r
-  double reach;       ///< rho + cos d_r: forward force of front and rear wheel over F'
+  double reach;       ///< rho + cos d_r, with rho = 1 if rear wheels are driven, else 0
 };
 
 SteeredForces steered_forces(const Wheels& wheels, double rear_driven, double steering_rad) {
@@ -161,8 +164,10 @@ SteeredForces steered_forces(const Wheels& wheels, double rear_driven, double st
           .reach = cos_d + rear_driven};
 }
 
-/// Adds u_dot = (sum (rho + cos d_r) - g1(u) - D)/m' + r v,   rho: 1 with driven rear wheels,
-/// else 0; D: drag in turns.
+/// Adds the rate of the speed u, with the sum of the left and right wheel forces and the steering
+/// angle d_r. rho: 1 if the rear wheels are driven, else 0; D: drag in turns.
+///
+///     u_dot = (sum (rho + cos d_r) - g1(u) - D)/m' + r v
 void add_surge(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,
                LinearRates& out) {
   const ResistanceSlopes g1 = surge_resistance(plant, s.u_mps, out);
@@ -180,7 +185,8 @@ void add_surge(const LinearPlant& plant, const State<double>& s, const SteeredFo
   add_turn_drag(drag, plant.per_mass, out);
 }
 
-/// Adds v_dot = (sum sin d_r - a_s v)/m' - r u.
+/// Adds the rate of the sway speed, v_dot = (sum sin d_r - a_s v)/m' - r u, with the sum of the
+/// left and right wheel forces.
 void add_sway(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,
               LinearRates& out) {
   const double alpha = plant.plant.sway_alpha;
@@ -194,7 +200,10 @@ void add_sway(const LinearPlant& plant, const State<double>& s, const SteeredFor
   out.by_parameter[at(ParameterId::kMassNorm)].v = -sway * plant.per_mass;
 }
 
-/// Adds r_dot = (l_f sum sin d_r + d difference (rho + cos d_r) - g3(r))/I'z.
+/// Adds the rate of the yaw rate r, with the sum of the left and right wheel forces and their
+/// difference (right minus left):
+///
+///     r_dot = (l_f sum sin d_r + d difference (rho + cos d_r) - g3(r))/I'z
 void add_yaw(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,
              LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -240,9 +249,9 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
 
 namespace {
 
-/// Adds the deceleration `friction` = c/inertia to the rate of one speed w and to its derivatives:
-/// w_dot -= sgn(w) c/inertia. The inertia is m' or I'z. c: friction at rest (Coulomb plus
-/// Stribeck).
+/// Adds the effect of the friction at rest, c (Coulomb plus Stribeck), to the rate of one speed w
+/// (u or r) and to the derivatives of this rate: w_dot -= sgn(w) c/inertia. `way`: sgn(w).
+/// `friction`: c/inertia; the inertia is m' for u, I'z for r.
 template <double DrivenSlopes::*kRate>
 void brake(double way, double friction, double per_inertia, ParameterId coulomb,
            ExtraForce stribeck, ParameterId inertia, double& rate, LinearRates& out) {

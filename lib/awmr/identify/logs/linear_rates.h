@@ -1,9 +1,9 @@
 /// Rates of change of the vehicle's state and their partial derivatives, for log fits. Private to
 /// identify/.
 ///
-/// The equations are those of model/dynamics.h for left and right wheel forces. Their derivatives
-/// are coded by hand, because automatic differentiation takes ten times as long. A test compares
-/// the results of both.
+/// The equations are those of model/dynamics.h for left and right wheel forces. The derivatives are
+/// coded by hand, because automatic differentiation takes ten times as long. A test compares them
+/// with those by automatic differentiation.
 #pragma once
 
 #include <algorithm>
@@ -26,12 +26,12 @@ struct ResistanceSlopes {
   double by_quadratic = 0.0;
 };
 
-/// Resistance with derivatives. Below the law's rest_speed, the straight line through 0 and the
-/// curve's point at rest_speed replaces the curve, so that integration steps stay stable.
+/// Resistance law with derivatives. Below the law's rest_speed, a straight line from 0 to the value
+/// at rest_speed replaces the law, so that integration steps stay stable.
 class LinearResistance {
  public:
   explicit LinearResistance(const Resistance<double>& law);
-  /// Computes the value and the derivatives at the speed w. With L = ln |w|,
+  /// Computes the resistance g and its derivatives at the speed w. With L = ln |w|,
   ///
   ///     g = c + alpha e^(beta L) + q w^2,   dg/dw = (alpha beta e^(beta L))/|w| + 2 q |w|
   ///
@@ -46,33 +46,35 @@ class LinearResistance {
   ResistanceSlopes at_rest_speed_;
 };
 
-/// Plant with precomputed reciprocals, for repeated evaluation of its rates. linear_rates()
-/// excludes Coulomb friction; add_friction() adds it.
+/// Vehicle model with precomputed reciprocals, for repeated evaluation of its rates. linear_rates()
+/// computes the rates without friction at rest, which add_friction() adds.
 struct LinearPlant {
   /// `by_back_emf`: if true, computes the derivatives with respect to k_e even if k_e is 0.
-  /// `longest_step_s`: longest Runge-Kutta step that will be used; 0: all steps are short enough
-  /// for the sway motion.
+  /// `longest_step_s`: longest Runge-Kutta step that will be used; 0 if all steps are short
+  /// compared with the time constant of sway.
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
                        double longest_step_s = 0.0, const ExtraForces& extra_forces = {});
   Plant<double> plant;
-  FrictionRates<double> friction;  ///< friction at rest: Coulomb c plus Stribeck s
+  FrictionRates<double> friction;  ///< decelerations by the friction at rest, Coulomb plus Stribeck
   ExtraForces extra;
   LinearResistance surge;
   LinearResistance yaw;
   double per_mass;
   double per_inertia;
   double per_lag;
-  /// Factor on v_dot, <= 1. It is below 1 if the time constant m'/a_s of sway is shorter than a
-  /// step: v then approaches the same steady value with a time constant of one step.
+  /// Factor on v_dot, <= 1, that keeps the integration stable. It is below 1 if the time constant
+  /// m'/a_s of sway is shorter than a step. The sway speed v then approaches the same steady value
+  /// with a time constant of one step.
   double sway_pace;
-  LinearResistance turn_drag_of_yaw;  ///< k |r|^p sgn r of the drag in turns
-  double step_per_mass;  ///< longest step / m', m/s: change of u that F_max causes in one step
+  /// k |r|^p sgn r, a factor of the drag in turns (extra_forces.h).
+  LinearResistance turn_drag_of_yaw;
+  double step_per_mass;  ///< longest step / m', m/s: change of the speed by F_max in one step
   bool has_back_emf;
   bool has_surge_stribeck;
   bool has_yaw_stribeck;
   bool has_slope;
   bool has_turn_drag;
-  bool has_force_excess;  ///< forces against the motion, or backward forces
+  bool has_force_excess;  ///< true: e_b or e_r (extra_forces.h) is free or not 0
 };
 
 /// Wheel forces and steering command, held constant over a step.
@@ -81,8 +83,8 @@ struct HeldCommand {
   double steering_rad = 0.0;
 };
 
-/// Partial derivatives of the rates with respect to the state; x_psi is d x_dot / d psi. The others
-/// are 0, except d psi_dot / d r = 1.
+/// Partial derivatives of the rates of the state with respect to the state. The name x_psi means d
+/// x_dot / d psi. Derivatives that are not listed are 0, except d psi_dot / d r = 1.
 struct StateSlopes {
   double x_psi, x_u, x_v;
   double y_psi, y_u, y_v;
@@ -101,7 +103,8 @@ struct DrivenSlopes {
   double steering = 0.0;
 };
 
-/// Rates of the state with all partial derivatives.
+/// Rates of the state, with their partial derivatives with respect to the state, the parameters,
+/// the extra forces and the commands.
 struct LinearRates {
   State<double> rates{};
   StateSlopes by_state{};
@@ -110,7 +113,8 @@ struct LinearRates {
   DrivenSlopes by_force_left;
   DrivenSlopes by_force_right;
   double steering_by_command = 0.0;
-  double steering_by_max_rate = 0.0;  ///< 1 or -1 while the servo turns at its largest rate, else 0
+  /// d steering rate / d rate limit: 1 or -1 at the rate limit of the servo, else 0.
+  double steering_by_max_rate = 0.0;
 };
 
 /// Computes the rates at the state `s`. `out` must be LinearRates{} before the first call, because
@@ -118,9 +122,9 @@ struct LinearRates {
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
 
-/// Adds Coulomb friction to the rates. If friction holds the vehicle at u = 0 or r = 0, the rate of
-/// that speed and the derivatives of the rate are set to 0. `way`: direction of u and r; 0 for a
-/// speed that friction holds at 0.
+/// Adds the friction at rest to the rates of u and r. `way`: direction of u and r; 0 for a speed
+/// that friction holds at 0. The rate of such a speed and the derivatives of this rate are set to
+/// 0.
 void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out);
 
 }  // namespace awmr

@@ -7,8 +7,9 @@
 namespace awmr {
 namespace {
 
-/// Adds the derivatives with respect to the delays at the time at which the acting rows change from
-/// `before` to `after`. The forces of motors with lag are left out, because they do not jump.
+/// Updates the derivatives with respect to the delays at a time at which other rows of the log
+/// begin to act: `before` are the rows that acted until then, `after` the new ones. The forces of
+/// motors with lag are left out, because they do not jump.
 void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                  const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   if (path.lag) before.forces = after.forces;
@@ -17,7 +18,8 @@ void change_rows(const LogSignals& signals, ActingRows before, const ActingRows&
                          motion);
 }
 
-/// Integrates from `from_s` to `to_s`, an interval in which the same rows act.
+/// Integrates from `from_s` to `to_s`. In this interval, the commands of the same rows act
+/// throughout.
 void step_along(const LogSignals& signals, std::size_t row, const ActingRows& rows, double from_s,
                 double to_s, const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                 LinearMotion& motion) {
@@ -103,7 +105,8 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
   const State<double> rates = then_s < row_s
                                   ? stepper.step_along_tangent(command, then_s - row_s, motion)
                                   : stepper.rates(command, motion);
-  // A longer delay selects an earlier time, so d motion / d delay is minus the rate.
+  // A longer delay selects an earlier time. The derivative of the motion with respect to the delay
+  // is therefore minus the rate.
   if (stepper.columns() == 0) return motion;
   for (const LogChannel channel : kChannels) {
     motion.row(channel, stepper.columns())[delay.column] -= channel_of(rates, channel);

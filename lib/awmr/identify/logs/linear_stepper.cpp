@@ -14,7 +14,7 @@ struct RateOfParameter {
   double DrivenSlopes::*rate;
 };
 
-/// The rates that depend directly on each parameter.
+/// For each parameter, the rates of the state that depend directly on it.
 constexpr RateOfParameter kActs[] = {
     {ParameterId::kSurgeAlpha, &DrivenSlopes::u},
     {ParameterId::kSurgeBeta, &DrivenSlopes::u},
@@ -40,7 +40,7 @@ constexpr RateOfParameter kActs[] = {
 constexpr double DrivenSlopes::*kDriven[kDrivenSize] = {&DrivenSlopes::u, &DrivenSlopes::v,
                                                         &DrivenSlopes::r, &DrivenSlopes::steering};
 
-/// Row of a component of State in LinearMotion::by_column.
+/// Index of a component of the state, which is its row in LinearMotion::by_column.
 std::size_t place_of(LogChannel channel) {
   switch (channel) {
     case LogChannel::kX:
@@ -61,8 +61,8 @@ std::size_t place_of(LogChannel channel) {
   return 6;
 }
 
-/// Time derivative A S + B of one column of the derivatives S of the state. `b`, `s`: pointers to
-/// the first number of this column in B and S.
+/// Time derivative of one column of S, the derivatives of the state with respect to the columns of
+/// the fit: S_dot = A S + B. `b`, `s`: pointers to the first number of the column in B and S.
 std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double* b,
                                               std::size_t columns, const double* s) {
   const double psi = s[2 * columns];
@@ -170,7 +170,8 @@ void LinearStepper::find_way(const DelayedCommand& command, LinearMotion& motion
 
 State<double> LinearStepper::state_after(const DelayedCommand& command, double h,
                                          const State<double>& from) {
-  // Coefficients of the classical Runge-Kutta method, as in rk4_step(). kShare: reciprocal weights.
+  // Coefficients of the classical Runge-Kutta method, as in rk4_step(). kToNext: distance of the
+  // next stage, in steps. kShare: reciprocal weight of a stage in the result.
   constexpr double kToNext[kStages] = {0.5, 0.5, 1.0, 0.0};
   constexpr double kShare[kStages] = {6.0, 3.0, 3.0, 6.0};
   State<double> at_stage = from;
@@ -194,9 +195,9 @@ void LinearStepper::move_to(const State<double>& next, double h, LinearMotion& m
 }
 
 void LinearStepper::stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion) {
-  // A change S of the speed w before the stop shifts the time of the stop by -S/w_dot. The speed
-  // after the stop changes by that time shift times the difference of the rates, so
-  // S after = S before (w_dot after)/(w_dot before).
+  // S is the derivative of the speed w with respect to a column. A change S of w before the stop
+  // shifts the time of the stop by -S/w_dot. The speed after the stop changes by this time shift
+  // times the jump of the rate, so S after = S before (w_dot after)/(w_dot before).
   find_rates(command, motion.state);
   const double before = channel_of(rates_.rates, speed);
   channel_of(motion.state, speed) = 0.0;

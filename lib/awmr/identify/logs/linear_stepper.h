@@ -17,7 +17,8 @@ namespace awmr {
 /// quantity or a free component of the initial state.
 struct LinearMotion {
   State<double> state{};
-  std::vector<double> by_column;  ///< derivatives, [kStateSize][columns]; empty without columns
+  /// Derivatives, [kStateSize][columns]; empty if there are no columns.
+  std::vector<double> by_column;
   /// Derivatives of one component of the state, one per column. `channel`: the component.
   const double* row(LogChannel channel, std::size_t columns) const;
   double* row(LogChannel channel, std::size_t columns);
@@ -33,9 +34,9 @@ struct ParameterColumn {
 /// Integrates the state and its derivatives step by step.
 class LinearStepper {
  public:
-  /// `columns`: number of derivatives; 0: the state alone is computed. `parameters`: the columns
-  /// that belong to model parameters. `command_columns`: columns_of() of the command path.
-  /// `longest_step_s`, `extra`: as for LinearPlant.
+  /// `columns`: number of columns of the derivatives; 0: only the state is computed. `parameters`:
+  /// the columns that belong to model parameters. `command_columns`: columns_of() of the command
+  /// path. `longest_step_s`, `extra`: as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters,
                 const CommandColumns& command_columns, double longest_step_s = 0.0,
@@ -45,42 +46,46 @@ class LinearStepper {
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one Euler step of h_s seconds (of either sign). Returns the rates before the step.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
-  /// Updates S, the derivatives with respect to the delays, at a change of the commands from
-  /// `before` to `after`. A longer delay makes the motion follow `before` for longer, so
+  /// Updates S, the derivatives of the motion with respect to the delays, at a jump of the commands
+  /// from `before` to `after`. With a longer delay, the motion follows `before` for longer, so
+  ///
   ///     S += rates before - rates after
-  /// The steering delay changes only the derivative of the steering angle.
+  ///
+  /// The additional delay of the steering changes only the derivative of the steering angle.
   void change_command(const DelayedCommand& before, const DelayedCommand& after,
                       LinearMotion& motion);
-  /// The rates of the state, friction included. For a speed that friction holds at 0, sets the
-  /// derivatives in `motion` to 0.
+  /// Returns the rates of the state, friction included. If friction holds a speed at 0, sets the
+  /// derivatives of this speed in `motion` to 0.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
 
  private:
-  /// A derivative of one rate with respect to a parameter, and its destination in driven_.
+  /// Derivative of one rate with respect to a parameter, and the place in driven_ to which it is
+  /// copied.
   struct Term {
     std::size_t parameter;
     double DrivenSlopes::*rate;
-    std::size_t place;  ///< index in an array [kDrivenSize][columns]
+    std::size_t place;  ///< index in a part of driven_, [kDrivenSize][columns]
     double factor;
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
-  /// Sets a column to the derivatives of the rates with respect to a quantity that acts through the
-  /// commands.
+  /// Sets the derivatives of the rates with respect to a quantity that changes the commands. `by`:
+  /// derivatives of the commands with respect to this quantity; `column`: its column.
   void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
-  /// Computes the rates and their derivatives at `s`, friction included.
+  /// Computes the rates at the state `s` and their derivatives, friction included, into rates_.
   void find_rates(const DelayedCommand& command, const State<double>& s);
-  /// Sets way_, the direction in which u and r move next. For a speed that friction holds at 0,
-  /// sets its derivatives in `motion` to 0.
+  /// Sets way_, the direction in which u and r move next. If friction holds a speed at 0, sets the
+  /// derivatives of this speed in `motion` to 0.
   void find_way(const DelayedCommand& command, LinearMotion& motion);
-  /// Returns the state after h_s seconds. Stores the stages that move_to() needs for the
-  /// derivatives.
+  /// Returns the state after h_s seconds. Stores the derivatives of the rates at the Runge-Kutta
+  /// stages, which move_to() needs.
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
-  /// Moves state and derivatives of `motion` to `next`, the result of the last state_after().
+  /// Sets the state of `motion` to `next`, the result of the last state_after(), and advances the
+  /// derivatives of the state by the same step.
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);
-  /// Handles a speed that has reached 0: friction holds it at 0, or it changes its sign. Scales the
-  /// derivatives of this speed accordingly.
+  /// Handles a speed that has reached 0. Friction holds it at 0, or it changes its sign. Its
+  /// derivatives are scaled by the ratio of its rates after and before the stop.
   void stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion);
 
   LinearPlant plant_;
@@ -90,7 +95,7 @@ class LinearStepper {
   Sliding way_;
   LinearRates rates_;
   std::array<StateSlopes, kStages> slopes_{};
-  std::vector<double> driven_;  ///< [kStages][kDrivenSize][columns]
+  std::vector<double> driven_;  ///< derivatives of the rates, [kStages][kDrivenSize][columns]
 };
 
 }  // namespace awmr

@@ -21,13 +21,14 @@
 namespace awmr {
 namespace {
 
-/// Relative change of the cost at which the final search ends. The cost is about half the number of
-/// samples, and a step of d standard errors changes it by d^2/2. With 100 000 samples, the last
-/// step is therefore shorter than 0.01 standard errors.
+/// The final search ends when a step changes the cost by less than this (relative). The cost is
+/// about half the number of samples, and a step of d standard errors changes it by d^2/2. With 100
+/// 000 samples, the last step is therefore shorter than 0.01 standard errors.
 constexpr double kFine = 1e-9;
 
-/// Largest number of rough optima to refine. They are refined one after the other, best first,
-/// until the simulation of the logs is finite at a refined optimum.
+/// Largest number of rough optima of the multistart from which the final search is tried. They are
+/// tried one after the other, best first, until the simulation of the logs is finite where the
+/// search ends.
 constexpr std::size_t kTries = 3;
 
 LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
@@ -37,8 +38,8 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   return fit;
 }
 
-/// Score-test estimate of the decrease of -2 ln L by each candidate term; 0 for a term that the fit
-/// estimates already.
+/// For each candidate term, the decrease of -2 ln L that a score test predicts if the term were
+/// also estimated. 0 for a term that the fit estimates already.
 std::vector<double> candidate_gains(const LogProblem& problem, const SearchPoint& point,
                                     const std::vector<ParameterId>& candidate_terms) {
   std::vector<FreeQuantity> terms;
@@ -57,7 +58,8 @@ std::vector<double> candidate_gains(const LogProblem& problem, const SearchPoint
   return gains;
 }
 
-/// Mean square of the errors, relative to the noise of the sensors in `guess`.
+/// Mean square of the errors, each divided by the standard deviation of its sensor in `guess`.
+/// About 1 if the model is right.
 double relative_error_of(const LogProblem& guess, const ErrorsByChannel& errors) {
   double sum = 0.0;
   for (const auto& [channel, parts] : errors) {
@@ -69,7 +71,8 @@ double relative_error_of(const LogProblem& guess, const ErrorsByChannel& errors)
   return sum / guess.readings();
 }
 
-/// Returns the fit at `solved`, the end of a search. `sums`: sums of all windows there, finite.
+/// Returns the result of a fit whose search ended at `solved`. `sums`: sums of all windows at this
+/// point, all finite.
 LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
               const LogFitOptions& options) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
@@ -93,7 +96,8 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
-/// Result of a fit that gave up at this point.
+/// Result of a fit that was stopped early because its errors are too large. `at`: end of its first
+/// round.
 LogFit given_up(const NoiseIteration& at) {
   LogFit fit = without_solution("not refined, because the errors are too large", {});
   fit.quantities = at.problem.model.quantities;
@@ -103,13 +107,15 @@ LogFit given_up(const NoiseIteration& at) {
   return fit;
 }
 
-/// Rounds of a search that gives up if the relative error exceeds options.give_up_above.
+/// Options of a search that stops after the first round if the relative error then exceeds
+/// options.give_up_above.
 NoiseRounds rounds_of(const LogProblem& problem, const LogFitOptions& options) {
   return {.give_up_above = 0.5 * options.give_up_above * problem.readings()};
 }
 
-/// Fits the coordinates and the noise of the logs by a search from these coordinates. The search
-/// begins with a sample of long logs, because an evaluation of all rows takes longer.
+/// Fits the coordinates and the noise of the logs, by a search that starts at these coordinates.
+/// For long logs, the search first uses a sample of the windows, because an evaluation of all rows
+/// takes longer.
 NoiseIteration settled_from(LogProblem problem, std::vector<double> coordinates,
                             const LogFitOptions& options) {
   problem.model.longest_step_s = step_s_at(problem.model, coordinates);
@@ -132,8 +138,8 @@ NoiseIteration settled_from(LogProblem problem, std::vector<double> coordinates,
   return settle_noise(std::move(problem), std::move(from), options.loss, rounds);
 }
 
-/// Fits the logs by a search from these coordinates. Empty if the simulation of the logs is not
-/// finite at the end of the search.
+/// Fits the logs by a search that starts at these coordinates. Empty if the simulation of the logs
+/// is not finite at the end of the search.
 std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
                                const LogFitOptions& options) {
   NoiseIteration settled = settled_from(guess, coordinates, options);

@@ -20,32 +20,35 @@ namespace awmr {
 /// Result of fit_logs().
 struct LogFit {
   std::vector<FreeQuantity> quantities;
-  std::vector<double> coordinates;  ///< one per quantity: its value or logarithm
-  Eigen::MatrixXd covariance;       ///< of the coordinates; large variance if not identifiable
-  std::vector<std::string> refusal_reason;  ///< one per quantity; empty text: it is identified
+  std::vector<double> coordinates;  ///< one per quantity: its value, or the logarithm of it
+  Eigen::MatrixXd covariance;  ///< covariance of the coordinates; large variance: not identified
+  /// One per quantity; empty text: the quantity is identified.
+  std::vector<std::string> refusal_reason;
   NoiseLevels noise;
-  ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI, not whitened
-  /// One per term in LogFitOptions::candidate_terms: decrease of -2 ln L, >= 0, that a score test
-  /// predicts if the term were also estimated.
+  ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI; not whitened
+  /// One per term in LogFitOptions::candidate_terms: the decrease of -2 ln L, >= 0, that a score
+  /// test predicts if the term were also estimated.
   std::vector<double> candidate_gain;
-  double widened = 1.0;    ///< largest widening factor: Identifiability::widened()
-  EstimatorReport report;  ///< report for /estimates; its parameters are the quantities
+  double widened = 1.0;    ///< largest factor by which a standard error was raised
+  EstimatorReport report;  ///< report for /estimates of model.json
   bool usable = false;     ///< true if the final search converged
   /// Mean square of the errors at the optimum, relative to the noise by sensor_noise(): about 1 if
-  /// the model is right. Of a fit that gave up: after the first round of settle_noise().
+  /// the model is right. If the fit gave up, the value is that after the first round of
+  /// settle_noise().
   double relative_error = 0.0;
-  /// True if the relative error of the first round exceeded LogFitOptions::give_up_above. The fit is
-  /// then not usable, and of its results only `quantities`, `coordinates`, `relative_error` and
-  /// `report` are set.
+  /// True if the fit was stopped early because its relative error after the first round exceeded
+  /// LogFitOptions::give_up_above. The fit is then not usable. Of its results only `quantities`,
+  /// `coordinates`, `relative_error` and `report` are set.
   bool gave_up = false;
 
   /// Standard error of coordinate i.
   double error_of(std::size_t i) const {
     return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
   }
-  /// True if quantity i (a delay, a lag, or an error of commands or sensors) differs significantly
-  /// from 0: by at least two standard errors, and by at least 1e-3 in its SI unit (1e-6 s^2 for
-  /// smoothing). Precondition: its coordinate is its value.
+  /// True if quantity i differs significantly from 0: by at least two standard errors, and by at
+  /// least 1e-3 in its SI unit (1e-6 s^2 for smoothing). For a delay, a lag, or an error of
+  /// commands or sensors. Precondition: the coordinate of the quantity is its value, not a
+  /// logarithm.
   bool is_significant(std::size_t i) const {
     const double smallest = quantities[i].kind == FreeQuantity::Kind::kSmoothing ? 1e-6 : 1e-3;
     return !(std::abs(coordinates[i]) < std::max(smallest, 2.0 * error_of(i)));
@@ -53,17 +56,17 @@ struct LogFit {
 };
 
 /// Fits the logs. Precondition: an initial guess for every parameter. The fit is not usable and has
-/// no quantities if nothing is measured, if nothing is free, if there are not more readings than
-/// unknowns, or if all searches fail. Its report then states the reason.
+/// no quantities if nothing is measured, if no quantity is free, if the readings are not more than
+/// the unknowns, or if all searches fail. The report of the fit then states the reason.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// Fits the logs by one rough search from the initial guess (rough_problem()), to rank models. Of
-/// the result, only `quantities`, `coordinates` and `relative_error` are set. `relative_error` is
-/// infinite if the search fails.
+/// Makes a quick fit, only to rank models: one search from the initial guess, with short parts of
+/// the logs and long integration steps (rough_problem()). Only `quantities`, `coordinates` and
+/// `relative_error` of the result are set. `relative_error` is infinite if the search fails.
 LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// Returns the options with the delays and command errors of `fit` as the free terms, starting at
-/// their fitted values. Unchanged if `fit` has no quantities.
+/// Returns the options with the delays and command errors of `fit` as free terms, whose initial
+/// guesses are their fitted values. Unchanged if `fit` has no quantities.
 LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options);
 
 /// Values of all parameters after the fit, fitted and fixed ones.

@@ -18,8 +18,8 @@
 
 namespace awmr {
 
-/// Counter of the work of all searches of one identification, with a limit. One unit is the
-/// integration of one state vector over one step, or of its derivatives with respect to one
+/// Counter of the work of all searches of one identification, with a limit. The unit of work is one
+/// integration step of one state vector, or of the derivatives of the state with respect to one
 /// quantity. Unlike a time limit, the limit of work does not depend on the machine or its load.
 class Effort {
  public:
@@ -38,35 +38,35 @@ struct LogFitOptions {
   Vehicle vehicle;
   /// One per ParameterId: initial guess of a free parameter, or value of a fixed parameter.
   ParameterValues<double> initial_guess{};
-  /// Free parameters whose initial guess is only an order of magnitude; the multistart varies them.
-  /// Empty if all initial guesses come from other trials, because one search then suffices.
+  /// Free parameters whose initial guess is only an order of magnitude. The multistart varies them.
+  /// Empty if all initial guesses come from other trials; one search then suffices.
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
   bool frees(ParameterId id) const { return std::ranges::find(free, id) != free.end(); }
   /// Terms of resistance families, and back-EMF, that are fixed at 0 in this fit. A score test
   /// estimates how much each of them would improve the fit.
   std::vector<ParameterId> candidate_terms;
-  /// Free delays, lags and command errors. A motor lag from the vehicle file is fixed and not
-  /// listed.
+  /// Free delays, lags, and errors of commands and sensors. A motor lag that the vehicle file gives
+  /// is fixed and not listed.
   std::vector<FreeTerm> terms;
-  std::vector<LogChannel> biases;  ///< channels whose constant offset is free
-  bool finds_delays = true;        ///< true: searches for further delays and errors (delays.h)
-  /// Time interval of the fitted rows, s. Earlier commands still act on them through delays and
+  std::vector<LogChannel> biases;  ///< channels whose constant offset is estimated
+  bool finds_delays = true;        ///< true: the fit also searches delays.h for further terms
+  /// Time interval of the rows that are fitted, s. Commands before it still act through delays and
   /// lags. Absent: all rows.
   std::optional<Interval> only_s;
-  /// Further initial guesses, for example the optimum of another family.
+  /// Further initial guesses, for example the optimum of a fit with another resistance family.
   std::vector<ParameterValues<double>> also_from;
-  /// Noise levels of a fit at nearly the same coordinates, with which the search begins. Empty: the
-  /// search begins with the noise of the sensors.
+  /// Noise levels with which the search begins, from a fit at nearly the same coordinates. Empty:
+  /// the search begins with the noise of the sensors.
   NoiseLevels noise;
-  /// The fit gives up after the first round of settle_noise() if LogFit::relative_error exceeds
-  /// this.
+  /// The fit is stopped early (LogFit::gave_up) if LogFit::relative_error exceeds this value after
+  /// the first round of settle_noise().
   double give_up_above = std::numeric_limits<double>::infinity();
   Loss loss = Loss::kSquared;  ///< use a robust loss if a sensor has outliers
   std::uint64_t seed = 1;      ///< seed of the multistart and of the bootstrap
   int multistart = 6;          ///< number of random initial guesses in addition to the given one
   int bootstrap = 0;           ///< number of resamples of the block bootstrap; 0: no bootstrap
-  int threads = 0;             ///< 0: every core; the result does not depend on it
+  int threads = 0;             ///< number of threads; 0: one per core. Does not affect the result
   /// Counts the work of the searches and limits it. All fits share this counter. Absent: no limit.
   std::shared_ptr<Effort> effort;
   /// Time at which all searches stop. Absent: no time limit.

@@ -29,7 +29,7 @@ struct LogProblem {
   int threads = 0;               ///< 0: every core
   std::optional<std::chrono::steady_clock::time_point> deadline;  ///< end of all searches
   std::shared_ptr<Effort> effort;                                 ///< work of all searches
-  bool ends_at_limit = true;  ///< true: a search stops at the limit of effort
+  bool ends_at_limit = true;  ///< true: a search stops when `effort` reaches its limit
 
   /// Number of measurements of all channels in all windows.
   int readings() const;
@@ -41,37 +41,41 @@ struct LogProblem {
 
 /// The unknowns of a LogProblem.
 struct SearchPoint {
-  std::vector<double> coordinates;     ///< one per quantity
-  std::vector<double> initial_states;  ///< all components of one window after the other
+  std::vector<double> coordinates;  ///< one per quantity
+  /// All components of the first window, then of the next, ...
+  std::vector<double> initial_states;
 };
 
-/// Longest integration step at these coordinates, s: that of replay_step_s(), with these limits:
-///   - Fast sway shortens it to no less than 1/4 of the row spacing, and a fast servo to no less
-///     than 1/8. (Still faster sway is slowed down, see LinearPlant::sway_pace.)
-///   - It is at most the row spacing, because a longer step lengthens the straight line that
+/// Longest integration step, s, at these coordinates. It is that of replay_step_s() for the other
+/// time constants of the vehicle, with these limits:
+///   - Fast sway shortens the step to no less than 1/4 of the row spacing, and a fast servo to no
+///     less than 1/8. (Still faster sway is slowed down, see LinearPlant::sway_pace.)
+///   - The step is at most the row spacing, because a longer step lengthens the straight line that
 ///     replaces the resistance near rest (Resistance::rest_speed).
-///   - It is at most 5 ms if an excess of braking or backward forces is free, because braking
+///   - The step is at most 5 ms if an excess of braking or backward forces is free, because braking
 ///     forces jump where a wheel changes its direction.
-///   - It is at least kShortestReplayStep_s.
+///   - The step is at least kShortestReplayStep_s.
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 
-/// Builds the problem at the initial guess, with the noise by sensor_noise() and without weights of
-/// a robust loss. The logs must outlive the problem.
+/// Builds the least-squares problem at the initial guess. The noise is that by sensor_noise(), and
+/// the samples have no weights of a robust loss. The logs must outlive the problem.
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// Replaces the noise levels of the problem's channels by those of `levels`. Channels that `levels`
-/// does not contain keep theirs.
+/// Replaces the noise levels of the problem by those in `levels`. A channel that is not in `levels`
+/// keeps its noise level.
 void set_noise(const NoiseLevels& levels, LogProblem& problem);
 
-/// Returns the point with these coordinates and with the measured initial state of every window.
+/// Returns the search point with these coordinates and with the measured initial state of every
+/// window.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 
 /// Longest integration step, s, of rough searches (which only rank initial guesses or models) and
-/// of the first round of settle_noise(). Twice the step of the model, but at most the row spacing.
+/// of the first round of settle_noise(). It is twice the step of the model, but at most the row
+/// spacing.
 double rough_step_s(const LogModel& model);
 
-/// Compute the errors, or the sums, of all windows in parallel. The results do not depend on the
-/// number of threads. `block_s`: length of the blocks, see sums_of().
+/// Compute the errors or the sums (WindowSums) of all windows in parallel. The results do not
+/// depend on the number of threads. `block_s`: length of the blocks, see sums_of().
 std::vector<WindowErrors> errors_at(const LogProblem& problem, const SearchPoint& point);
 std::vector<WindowSums> sums_at(const LogProblem& problem, const SearchPoint& point,
                                 double block_s = 0.0);

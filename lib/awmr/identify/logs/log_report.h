@@ -15,13 +15,13 @@ struct LogReportInput {
   const LogProblem& problem;
   const Solved& solved;
   const Identifiability& found;
-  /// One per quantity: 95 % interval of its value by the bootstrap. Empty if not requested.
+  /// 95 % interval by the bootstrap, one per quantity. Empty if no bootstrap was requested.
   const std::vector<Interval>& bootstrap95;
 };
 
-/// Builds the report: the values of all quantities, the standard errors of those that the logs
-/// identify, and tests whether the standardised residuals of each channel are white and normal. The
-/// starts of the multistart are not included.
+/// Builds the report of a fit: the values of all quantities, the standard errors of those that the
+/// logs identify, and tests whether the standardised residuals of each channel are white and
+/// normal. The searches of the multistart are not included.
 EstimatorReport log_report(const LogReportInput& input);
 
 /// Removes the standard error and the interval of a parameter. Keeps its value.

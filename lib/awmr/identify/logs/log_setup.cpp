@@ -25,8 +25,9 @@ bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChann
   });
 }
 
-/// Reason why the channels and commands of the logs cannot identify a parameter; empty if they can.
-/// Checked before any search. Indirect effects, for example of yaw on the speed, do not count.
+/// Reason why the logs cannot identify a parameter, judging by their channels and commands, before
+/// any search. Empty if they can. Indirect effects, for example of the yaw rate on the speed, do
+/// not count.
 std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   switch (id) {
     case ParameterId::kSteeringTimeConstant: {
@@ -39,7 +40,7 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
       return any_has(logs, {LogChannel::kSteering, LogChannel::kYawRate, LogChannel::kHeading,
                             LogChannel::kX, LogChannel::kY})
                  ? ""
-                 : "no channel shows the vehicle turn or its steering angle (yaw_rate_radps, "
+                 : "no channel shows how the vehicle turns or steers (yaw_rate_radps, "
                    "heading_deg, a position or steering_deg)";
     }
     case ParameterId::kSurgeAlpha:
@@ -54,11 +55,12 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
       return any_has(logs,
                      {LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kX, LogChannel::kY})
                  ? ""
-                 : "no channel shows the vehicle turn (yaw_rate_radps, heading_deg or a position)";
+                 : "no channel shows how the vehicle turns (yaw_rate_radps, heading_deg or a "
+                   "position)";
     case ParameterId::kSwayAlpha:
       return any_has(logs, {LogChannel::kSway, LogChannel::kX, LogChannel::kY})
                  ? ""
-                 : "no channel shows the vehicle slide sideways (sway_mps or a position)";
+                 : "no channel shows whether the vehicle slides sideways (sway_mps or a position)";
     case ParameterId::kBackEmf:
       return why_no_back_emf(logs);
     default:
@@ -78,7 +80,7 @@ bool turns(const std::vector<DrivingLog>& logs) {
 }
 
 /// Channels whose constant offset is estimated: those that the user requested, the yaw rate if the
-/// heading determines its bias, and the heading if the course over ground determines its offset.
+/// heading determines its offset, and the heading if the course over ground determines its offset.
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
                                         std::vector<LogChannel> requested) {
   const auto add = [&](LogChannel channel, bool is_biased) {
@@ -92,8 +94,8 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
   return requested;
 }
 
-/// Limit of the work (Effort) of all searches: about half a minute on a processor of 2023, more for
-/// long logs. A log that the model describes well needs a tenth of this.
+/// Limit of the work of all searches (Effort). It corresponds to about half a minute on a processor
+/// of 2023, more for long logs. A log that the model describes well needs a tenth of this.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
   constexpr double kMin = 6e8;
   constexpr double kPerSecond = 1e6;  // per second of log
@@ -130,7 +132,7 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   return fit;
 }
 
-/// Frees the parameters that are requested or have no value. Guesses parameters without a value.
+/// Makes the parameters free that are requested or have no value. Guesses those without a value.
 /// Stores the reason for each parameter that the logs cannot identify.
 void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
                      const std::vector<ParameterId>& requested, const Model& model,
@@ -140,16 +142,17 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     const Estimate& known = model[parameter.id];
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(requested, parameter.id) || !known.value;
-    // The time constant of a servo whose command never changes stays fixed, because it has no
-    // effect. If it were free, the fitted steering angle at the beginning of each window would act
-    // like a trim.
+    // Back-EMF and the servo's time constant stay fixed if the logs cannot identify them. (If the
+    // time constant of a servo whose command never changes were free, the fitted steering angle at
+    // the beginning of each window would act like a trim.)
     const bool never_acts =
         parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
     if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
-    // In logs with turns, an unidentifiable parameter affects the other parameters. It therefore
-    // stays free, so that their intervals include its uncertainty. It is refused after the fit.
+    // In logs with turns, every other parameter that the logs cannot identify affects the remaining
+    // parameters. It stays free, so that their intervals include its uncertainty. It is refused
+    // after the fit.
     if (!why.empty() && (!turning || never_acts)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);
@@ -157,9 +160,9 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
   if (fit.frees(ParameterId::kBackEmf)) fit = with_back_emf(std::move(fit));
 }
 
-/// True if back-EMF is to be tested: it is not given, no parameters were requested, the logs
-/// contain enough coasting, and no resistance comes from a table fit (which would include the
-/// back-EMF).
+/// True if the fit has to be tested for back-EMF. All of these conditions must hold: the vehicle
+/// file does not give k_e, no parameters were requested, the logs contain enough coasting, and no
+/// resistance comes from a fit of a table (such a resistance would include the back-EMF).
 bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const Model& model) {
   return options.requested.empty() && !vehicle.back_emf_s_per_m &&

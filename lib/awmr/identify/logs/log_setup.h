@@ -12,9 +12,9 @@
 
 namespace awmr {
 
-/// Returns the options of a fit of power laws. The `requested` parameters and the parameters
-/// without a value in `model` are free, with initial guesses from the logs. If the channels and
-/// commands of the logs cannot identify a parameter, adds the reason to `reasons`.
+/// Returns the options of a fit with power laws. The parameters in `requested` and those without a
+/// value in `model` are free, with initial guesses from the logs. If the channels and commands of
+/// the logs cannot identify a parameter, adds the reason to `reasons`.
 LogFitOptions log_setup(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const std::vector<ParameterId>& requested,
                         const Model& model, std::map<ParameterId, std::string>& reasons);

@@ -32,10 +32,10 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// Selects the resistance families of surge and yaw, back-EMF if it is significant, and wheel slip
-/// or late commands (decide_slip()). Then checks the adequacy of the selected fit, which can
-/// withdraw intervals. Adds the reports of all fits and the findings to `stage`. `power_law`,
-/// `first`: as in choose_model().
+/// Selects the model of the logs: resistance families of surge and yaw, back-EMF if it is
+/// significant, and wheel slip or late commands (decide_slip()). Then checks whether the selected
+/// fit describes the logs, which can withdraw intervals. Adds the reports of all fits and the
+/// findings to `stage`. `power_law`, `first`: as in choose_model().
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;
@@ -71,8 +71,8 @@ void refuse_all(const FamilyFit& chosen, const std::string& file, LogStage& stag
   }
 }
 
-/// The finding `logs-disagree` for every quantity that differs between logs. `withdrawn`: true if
-/// the intervals of the fit are withdrawn.
+/// Reports `logs-disagree` for every quantity that differs between logs. `withdrawn`: true if the
+/// intervals of the fit are withdrawn.
 std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements, bool withdrawn) {
   std::vector<Finding> findings;
   for (const LogDisagreement& one : disagreements) {
@@ -97,7 +97,7 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
   return findings;
 }
 
-/// The finding `held-out-misses`: a fit of the log's first half does not predict the last fifth.
+/// Reports `held-out-misses`: a fit of the first half of a log does not predict its last fifth.
 Finding in_words(const HeldOut& missed, const std::string& file) {
   return {file, 0, Severity::kWarning, "held-out-misses",
           fmt::format("a fit of the first half predicts {} worse than noise and intervals allow "
@@ -124,9 +124,9 @@ Finding impossible_servo_finding(const std::string& file) {
                       kSlowestServo_s, option_text("starts"))};
 }
 
-/// The finding `not-identifiable` for each term of the fit that has no value: an error if
-/// `requested` contains its name, else a note. Parameters that only describe the form of another
-/// term (FreeQuantity::is_form()) are left out.
+/// Reports `not-identifiable` for each delay, lag or error that was fitted or requested but gets no
+/// value: as an error if `requested` contains its name, else as a note. Parameters that only
+/// describe the form of another term (FreeQuantity::is_form()) are left out.
 std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::string>& requested,
                                    const std::string& file) {
   std::vector<Finding> findings;
@@ -153,8 +153,8 @@ std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::str
   return findings;
 }
 
-/// Copies the parameters that the fit identifies to `stage`. A parameter with a value from other
-/// trials is copied only if `overrule` is true.
+/// Copies the parameters that the fit identifies to `stage`. A parameter that already has a value
+/// from other trials is copied only if `overrule` is true.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
@@ -180,7 +180,7 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
 }
 
 /// Compares the logs with each other, or the halves of a single log. Adds a finding for each
-/// contradiction, and withdraws the intervals if necessary.
+/// disagreement, and withdraws the intervals if necessary.
 void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogStage& stage) {
   // The true form of a large saturation is unknown. With a wrong form, the estimates differ between
   // parts of the logs, so a comparison of the parts would be meaningless.
@@ -193,15 +193,15 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
-/// The logs with another interpretation of their commands, and the finding that reports it.
+/// The logs with their commands interpreted in another way, and the finding that reports this.
 struct ReadAgain {
   std::vector<DrivingLog> logs;
   Finding finding;
 };
 
-/// Returns another interpretation of the logged commands if its fit is better than `first`: held
-/// set-points, straight lines between the rows, or measured steering angles. Empty if there is
-/// none.
+/// Tries other interpretations of the logged commands: set-points that are held, straight lines
+/// between the rows, and measured steering angles. Returns the first one whose fit is better than
+/// `first`, else empty.
 std::optional<ReadAgain> read_again(const std::vector<DrivingLog>& logs,
                                     const LogFitOptions& power_law, const FamilyFit& first) {
   const std::string& file = logs.front().file;

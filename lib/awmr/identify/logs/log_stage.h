@@ -14,38 +14,40 @@ namespace awmr {
 
 /// Result of run_log_stage().
 struct LogStage {
-  /// A parameter whose value in the model comes from the logs.
+  /// A parameter that gets its value in the model from the logs.
   struct Main {
     ParameterId id;
     Estimate estimate;
-    Eigen::Index place;  ///< index in `block`
+    Eigen::Index place;  ///< index in `block` of the parameter's row and column
     double jacobian;     ///< d value / d coordinate
   };
   std::vector<Main> main;
   Family surge_family = Family::kPower;  ///< families of the fit
   Family yaw_family = Family::kPower;
-  Eigen::MatrixXd block;  ///< covariance of the fit's coordinates
-  /// Reason why the logs do not identify a parameter; one for each such parameter that is requested
-  /// or has no value.
+  Eigen::MatrixXd block;  ///< covariance of all coordinates of the fit
+  /// Reason why the logs do not identify a parameter. One entry for each such parameter that is
+  /// requested or has no value from other trials.
   std::map<ParameterId, std::string> reasons;
-  /// True if k_e was free in the fit but is not identified. The model then has no value of k_e. (A
-  /// value of 0 would be wrong, because the other parameters were fitted with a nonzero k_e.)
+  /// True if k_e (back-EMF) was free in the fit but is not identified. The model then has no value
+  /// of k_e. (A value of 0 would be wrong, because the other parameters were fitted with a nonzero
+  /// k_e.)
   bool is_back_emf_open = false;
-  std::vector<EstimatorReport> reports;  ///< reports of all fitted families
-  std::size_t chosen_report = 0;         ///< index in `reports` of the fit that sets `main`
+  std::vector<EstimatorReport> reports;  ///< one for each fit of a resistance family
+  std::size_t chosen_report = 0;         ///< index in `reports` of the fit from which `main` comes
   std::vector<Finding> findings;
-  bool withdraws_intervals = false;  ///< true: the values have no standard errors and intervals
+  bool withdraws_intervals = false;  ///< true: the values get no standard errors or intervals
 };
 
-/// Fits the logs, starting from the values in `model`. The `requested` parameters and those without
-/// a value are free, the others fixed. `overrule`: true: values from the logs also replace those
-/// from other trials. Findings: `estimates-disagree` (logs against other trials, p < 0.01),
-/// `coloured-residuals`, `model-inadequate`, `power-law-inadequate`, `family-undecided`,
-/// `back-emf`, `steering-measured`, `interpolated-commands`, `interpolated-set-points`,
-/// `wheel-slip`, `speed-controlled`, `logs-disagree`, `not-identifiable`, `not-converged`,
-/// `held-out-misses`, `inertia-mismatch`, `families-not-compared` (a limit was reached), and those
-/// of command_findings.h. Errors (input): those of check_replay(), if a time constant is too
-/// small.
+/// Fits the logs, starting from the values in `model`. The parameters in `requested` and those
+/// without a value are free, the others fixed. `overrule`: if true, values from the logs replace
+/// those from other trials.
+///
+/// Findings: `estimates-disagree` (logs against other trials, p < 0.01), `coloured-residuals`,
+/// `model-inadequate`, `power-law-inadequate`, `family-undecided`, `back-emf`, `steering-measured`,
+/// `interpolated-commands`, `interpolated-set-points`, `wheel-slip`, `speed-controlled`,
+/// `logs-disagree`, `not-identifiable`, `not-converged`, `held-out-misses`, `inertia-mismatch`,
+/// `families-not-compared` (a limit was reached), and those of command_findings.h. Errors (input):
+/// those of check_replay(), if a time constant is too small.
 Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                                const IdentifyOptions& options,
                                const std::vector<ParameterId>& requested, const Model& model,

@@ -18,16 +18,17 @@ bool is_open(const FamilyChoice& choice) {
   return !choice.family || (!choice.requested && choice.family == Family::kPower);
 }
 
-/// Axes whose family the user did not select.
+/// Axes (surge, yaw) whose resistance family may be changed, because the user did not select one.
+/// Yaw counts only if its resistance is estimated.
 OpenAxes open_axes(const LogFitOptions& power_law, const IdentifyOptions& options) {
   return {.surge = is_open(options.surge_family),
           .yaw = is_open(options.yaw_family) && power_law.frees(ParameterId::kYawAlpha)};
 }
 
-/// Calls options.notice if the step `what` may take more than 10 s on one processor. `numbers`:
-/// approximate work of the step (Effort).
+/// Informs the user if the step `what` may take more than 10 s on one processor, by options.notice.
+/// `numbers`: approximate work of the step, in the unit of Effort.
 void announce(const IdentifyOptions& options, double numbers, const std::string& what) {
-  constexpr double kNumbersPerSecond = 2e7;  // Effort per second on a processor of 2023
+  constexpr double kNumbersPerSecond = 2e7;  // work (Effort) per second on a processor of 2023
   constexpr double kLong_s = 10.0;
   const double about_s = numbers / kNumbersPerSecond;
   if (!options.notice || about_s <= kLong_s) return;
@@ -36,8 +37,9 @@ void announce(const IdentifyOptions& options, double numbers, const std::string&
       what, about_s, option_text("from S")));
 }
 
-/// Estimated work of the first fit (Effort). Each evaluation integrates the state and its
-/// derivatives with respect to every free quantity and every component of the initial state.
+/// Estimated work of the first fit, in the unit of Effort. Each evaluation of the logs integrates
+/// the state and its derivatives with respect to every free quantity and every component of the
+/// initial state.
 double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   constexpr double kEvaluations = 40.0;
   constexpr double kStepsOfRow = 2.0;
@@ -48,7 +50,7 @@ double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOpt
   return kEvaluations * kStepsOfRow * rows * (1.0 + derivatives);
 }
 
-/// LogFit::relative_error above which the family of resistance is probably wrong.
+/// If LogFit::relative_error is above this, the resistance family is probably wrong.
 constexpr double kErrorOfModel = 1.5;
 
 }  // namespace
@@ -106,8 +108,9 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
            kind == Kind::kSteeringAsymmetry;
   });
   const FamilyFit follows = fit_family(with_measured_steering(logs), from, first.surge, first.yaw);
-  // A servo lag together with equally late time stamps also describes measured angles, but needs
-  // two more terms. A lower AIC of the model without these terms therefore suffices.
+  // A servo lag with equally late time stamps of the commands describes measured angles just as
+  // well, but takes two more terms. If `first` has found these terms, any lower AIC of the model
+  // without them therefore suffices.
   const double threshold = late_stamps_s > 0.0 ? 0.0 : kFamilyAicThreshold;
   return follows.fit.usable && aic_lead(follows.fit, first.fit) > threshold;
 }
@@ -125,19 +128,19 @@ namespace {
 /// Result of choose_families().
 struct Chosen {
   BestFamily found;
-  bool may_have_back_emf = false;  ///< the fit of the first families indicates back-EMF
+  bool may_have_back_emf = false;  ///< true: the first fit indicates back-EMF
 };
 
-/// Selects the families: those that the user requested, or the best ones. `first`: result of
-/// fit_first_family().
+/// Selects the resistance families: those that the user requested, else the best ones. `first`:
+/// result of fit_first_family().
 Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const IdentifyOptions& options, FamilyFit first) {
   const OpenAxes open = open_axes(power_law, options);
   Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
   chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
   if (!open.any()) return chosen;
-  // Without `--family auto`, another family has to be significantly better than the power law. With
-  // it, any lower AIC suffices.
+  // With `--family auto`, a family replaces the power law if its AIC is lower by any amount.
+  // Without this option, it has to be significantly lower.
   show_step(options, "trying families of resistance");
   const bool is_family_requested = !options.surge_family.family || !options.yaw_family.family;
   const FamilyContest contest{.open = open,
@@ -153,11 +156,12 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return chosen;
 }
 
-/// Tests whether the motors have back-EMF, by a fit of the best families of `ideal` with back-EMF.
-/// `ideal`: the result without back-EMF. If the fit with back-EMF is significantly better, makes
-/// back-EMF a free parameter of `power_law`, selects the families again, and returns the new
-/// result; the best fit of `ideal` is then among its alternatives. Otherwise returns `ideal`, with
-/// the fit with back-EMF among its alternatives.
+/// Tests whether the motors have back-EMF: fits the best families of `ideal`, the result without
+/// back-EMF, with back-EMF in addition.
+///
+/// If this fit is significantly better, makes back-EMF a free parameter of `power_law`, selects the
+/// families again, and returns the new result. The best fit of `ideal` is then one of its
+/// alternatives. Otherwise returns `ideal`, with the fit with back-EMF as one of its alternatives.
 BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                             const IdentifyOptions& options, BestFamily ideal) {
   show_step(options, "trying back-EMF of the motors");

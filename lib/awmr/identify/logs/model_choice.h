@@ -14,9 +14,9 @@ namespace awmr {
 /// Calls options.doing, if it is set, with the name of the step that begins.
 void show_step(const IdentifyOptions& options, std::string_view what);
 
-/// Fits the families that the options name, by default power laws. If the user has not selected the
-/// family of both axes and the errors after the first round are far above the sensor noise, fits
-/// the families of likely_families() instead.
+/// Fits the resistance families that the options name, by default power laws. If the user has left
+/// the family of an axis open and the errors after the first round are far above the sensor noise,
+/// selects other families by likely_families() and fits those instead.
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options);
 
@@ -26,18 +26,20 @@ std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs);
 /// True if the column of steering commands seems to contain measured angles. All of these
 /// conditions must hold:
 ///   - Every log has steering commands, but no measured angles.
-///   - In the fit `first`, the servo has hardly any lag: its time constant, minus the time by which
-///     the time stamps of the steering are late, is at most half of the row spacing.
-///   - A fit that uses the column as the angle is significantly better. If the time stamps of the
-///     steering are late in `first`, any lower AIC suffices.
+///   - In the fit `first`, the servo has hardly any lag: its time constant is at most half of the
+///     row spacing. If the time stamps of the steering are late in `first`, the time by which they
+///     are late is first subtracted from the time constant.
+///   - A fit that uses the column as the measured angle is significantly better than `first`. If
+///     the time stamps of the steering are late in `first`, any lower AIC suffices.
 bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                           const FamilyFit& first);
 
 /// The finding `steering-measured` for logs for which is_steering_measured() is true.
 Finding measured_steering_finding(const std::string& file);
 
-/// Selects the families, and back-EMF if it is significant. `power_law`: result of log_setup();
-/// back-EMF becomes free in it if it is selected. `first`: result of fit_first_family().
+/// Selects the resistance families, and back-EMF if it is significant. `power_law`: result of
+/// log_setup(). If back-EMF is selected, this function makes it a free parameter of `power_law`.
+/// `first`: result of fit_first_family().
 BestFamily choose_model(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                         const IdentifyOptions& options, FamilyFit first);
 

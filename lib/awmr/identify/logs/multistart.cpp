@@ -11,10 +11,12 @@
 namespace awmr {
 namespace {
 
-/// Random initial guess. Each parameter in `guessed` with a logarithmic coordinate is multiplied by
-/// a factor in [e^-2, e^2]. An exponent in `guessed` is drawn from [0.3, 1.3] and limited to its
-/// range. Terms of a family do not change. A random number is drawn for every quantity, even if it
-/// is not used, so that the guess of one quantity does not depend on which others are in `guessed`.
+/// Draws a random initial guess. Each parameter in `guessed` with a logarithmic coordinate is
+/// multiplied by a factor in [e^-2, e^2]. An exponent in `guessed` is drawn from [0.3, 1.3] and
+/// limited to its range. Terms that only some resistance families have do not change.
+///
+/// A random number is drawn for every quantity, even if it is not used. The guess of one quantity
+/// then does not depend on which others are in `guessed`.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;
@@ -33,7 +35,8 @@ std::vector<double> drawn(const LogProblem& problem, const std::vector<Parameter
   return coordinates;
 }
 
-/// Coordinates of all starts: the initial guess, options.also_from, then the random guesses.
+/// Coordinates at which searches start: the initial guess, then those of options.also_from, then
+/// random guesses.
 std::vector<std::vector<double>> places(const LogProblem& problem, const LogFitOptions& options) {
   std::vector<std::vector<double>> from{problem.initial};
   for (const ParameterValues<double>& values : options.also_from) {
@@ -56,7 +59,7 @@ LogProblem rough_problem(const LogProblem& problem) {
   constexpr double kPart_s = 2.5;
   LogProblem rough = problem;
   rough.model.longest_step_s = rough_step_s(problem.model);
-  rough.threads = 1;  // the searches run in parallel with each other
+  rough.threads = 1;  // one thread each, because the searches themselves run in parallel
   rough.ends_at_limit = false;
   std::vector<FitWindow> parts;
   for (const std::size_t i : spread(problem.windows.size(), kParts)) {

@@ -1,4 +1,5 @@
-/// Multistart search for initial guesses. Private to identify/.
+/// Searches from several initial guesses (multistart), which find the starting points of a log fit.
+/// Private to identify/.
 #pragma once
 
 #include <vector>
@@ -10,25 +11,28 @@ namespace awmr {
 
 /// Result of multistart().
 struct Multistart {
-  /// Coordinates at the ends of the searches with a usable solution, smallest cost first.
+  /// Coordinates where the searches ended, smallest cost first. Only searches with a usable
+  /// solution.
   std::vector<std::vector<double>> ends;
-  /// Report of all starts: the initial guess, LogFitOptions::also_from, the random guesses.
+  /// Report of every search: from the initial guess, from LogFitOptions::also_from, from random
+  /// guesses.
   std::vector<SearchStart> starts;
 };
 
-/// Problem of rough searches: up to twelve parts of 2.5 s, spread over all logs, with longer
-/// integration steps.
+/// Returns a smaller problem for quick searches: up to twelve parts of 2.5 s, spread over all logs,
+/// with longer integration steps.
 LogProblem rough_problem(const LogProblem& problem);
 
-/// Relative change of the cost at which rough searches end.
+/// A quick search ends when a step changes the cost by less than this (relative).
 inline constexpr double kRough = 1e-4;
 
-/// Searches for initial guesses. If other trials gave the whole initial guess and `also_from` is
-/// empty, returns only that guess, without a search. Otherwise runs rough searches from the initial
-/// guess and from each guess in `also_from`. If some parameters have only a guess of their order of
-/// magnitude, also searches from random guesses. The searches use short parts of some windows: over
-/// a long part, the effect of a wrong guess accumulates, and the search ends in a wrong optimum. If
-/// no search is usable, `ends` is empty.
+/// Finds initial guesses for the fit. If other trials gave the whole initial guess and `also_from`
+/// is empty, returns only that guess, without a search.
+///
+/// Otherwise runs quick searches from the initial guess and from each guess in `also_from`. If some
+/// parameters have only a guess of their order of magnitude, also searches from random guesses. The
+/// searches use short parts of some windows: over a long part, the effect of a wrong guess
+/// accumulates, and the search ends in a wrong optimum. If no search is usable, `ends` is empty.
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options);
 
 }  // namespace awmr

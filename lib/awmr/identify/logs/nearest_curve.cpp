@@ -14,8 +14,9 @@ struct Nearest {
   double squares = std::numeric_limits<double>::infinity();
 };
 
-/// Least-squares curve for a given beta, with or without a quadratic term. The constant is free, or
-/// fixed at `least`.
+/// Least-squares fit of c + alpha w^beta + q w^2 to the forces at the speeds w, for a given beta.
+/// The constant c is free, or fixed at `least`. q is 0 unless `quadratic`. The cost is infinite if
+/// alpha is not positive, if c is below `least`, or if q is negative.
 Nearest fitted(const Eigen::VectorXd& speed, const Eigen::VectorXd& force, double beta,
                bool quadratic, bool free_constant, double least) {
   Eigen::MatrixXd columns(kSpeeds, 1 + quadratic + free_constant);
@@ -38,7 +39,7 @@ Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTe
   constexpr double kMinShare = 0.1;
   constexpr double kMinBeta = 0.2;
   constexpr double kBetaStep = 0.1;
-  constexpr int kBetas = 24;  // number of exponents to try, up to 2.5
+  constexpr int kBetas = 24;  // number of exponents to try, from 0.2 to 2.5
   const Eigen::VectorXd speed = Eigen::VectorXd::LinSpaced(kSpeeds, fastest / kSpeeds, fastest);
   const Eigen::VectorXd force = speed.unaryExpr([&](double w) { return curve.at(w); });
   const bool constant = terms.coulomb || terms.dead_zone;

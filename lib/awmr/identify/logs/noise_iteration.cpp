@@ -29,7 +29,8 @@ ErrorsByChannel by_channel(const std::vector<FitWindow>& windows,
   return channels;
 }
 
-/// Clips the errors of a channel at three standard deviations, which are estimated from the median.
+/// Clips the errors of a channel at three standard deviations. The standard deviation is a robust
+/// estimate by the median.
 void clip(std::vector<ErrorSeries>& channel) {
   std::vector<double> all;
   for (const ErrorSeries& part : channel) {
@@ -70,9 +71,11 @@ NoiseLevels noise_levels(const LogProblem& problem, const std::vector<WindowErro
   return levels;
 }
 
-/// Largest change of the noise of any channel. The change of a channel is the largest of these:
-///   - changes of the total and of the drift standard deviation, relative to the total one;
-///   - change of theta of differenced noise;
+/// Largest change of the noise model of any channel from `before` to `after`. The change of a
+/// channel is the largest of these numbers:
+///   - the relative change of the total standard deviation;
+///   - the change of the standard deviation of the drift, relative to the total standard deviation;
+///   - the change of theta of differenced noise;
 ///   - a tenth of the relative change of the correlation time, if the drift is above a tenth of the
 ///     total noise.
 double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
@@ -90,8 +93,8 @@ double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
   return change;
 }
 
-/// Square root of the weight of a robust loss at the standardised residual r. The constants give an
-/// efficiency of 95 % for normal errors. The weights are
+/// Square root of the weight that a robust loss gives to the standardised residual r. The constants
+/// are those with an efficiency of 95 % for normal errors. The weights are
 ///
 ///     Huber 1 for |r| <= 1.345, else 1.345/|r|;   Cauchy 1/(1 + (r/2.385)^2);
 ///     Tukey (1 - (r/4.685)^2)^2 for |r| < 4.685, else 0
@@ -141,7 +144,7 @@ NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
       return {std::move(problem), std::move(point), first_cost, true};
     }
     const std::vector<WindowErrors> errors = errors_at(problem, point);
-    if (!all_finite(errors)) break;  // fit_logs() then refuses the fit
+    if (!all_finite(errors)) break;  // simulation diverged; fit_logs() refuses such a fit
     const NoiseLevels levels = noise_levels(problem, errors, loss);
     const double change = largest_change(problem.model.noise, levels);
     problem.model.noise = levels;

@@ -65,7 +65,8 @@ Triangle triangle_of(const Eigen::MatrixXd& products) {
       (ldlt.diagonal.array() > kOpen).select(ldlt.diagonal.array().abs().sqrt(), 0.0);
   const Eigen::VectorXd gradient =
       ldlt.permutation * (inverse.asDiagonal() * products.col(m).head(m));
-  // The scaled matrix is P^T L D L^T P, with the permutation P.
+  // The decomposition of the scaled matrix is P^T L D L^T P, with a permutation matrix P, a unit
+  // lower triangular matrix L and a diagonal matrix D.
   const Eigen::MatrixXd factor =
       ldlt.permutation.transpose() * (ldlt.lower * root.asDiagonal()).eval();
   Triangle t;

@@ -1,5 +1,5 @@
-/// Accumulates the rows of [J r], a Jacobian with its residuals, to the product [J r]^T [J r], and
-/// factors that product into a triangular matrix. Private to identify/.
+/// Condenses the matrix M = [J r], a Jacobian with its residuals, to the product M^T M, which is
+/// summed row by row and then factored into a triangular matrix. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,15 +8,16 @@
 
 namespace awmr {
 
-/// Accumulates M^T M of a matrix M = [J r] row by row. The residuals r are its last column.
+/// Sums M^T M of a matrix M = [J r] row by row. The residuals r are the last column of M.
 class ProductSums {
  public:
   /// `size`: number of columns of M.
   explicit ProductSums(std::size_t size);
-  /// Length of a row in memory: `size` rounded up to a multiple of kRowVector. Pad rows with 0.
+  /// Length of a row in memory: the number of columns of M, rounded up to a multiple of kRowVector.
+  /// The caller has to fill the rest of each row with 0.
   std::size_t columns() const { return columns_; }
   void add(const double* row);
-  /// Returns J^T r of the rows added since the last call.
+  /// Returns J^T r of the rows that were added since the last call of this function.
   Eigen::VectorXd take_gradient();
   /// M^T M as a full symmetric matrix.
   Eigen::MatrixXd products();
@@ -31,15 +32,15 @@ class ProductSums {
   Eigen::VectorXd gradient_;  ///< J^T r at the last call
 };
 
-/// Matrix T = [R z; 0 rest] with few rows. It replaces M = [J r] in least squares, because T^T T =
-/// M^T M. R is triangular up to a permutation of its columns.
+/// Matrix T = [R z; 0 rest], which replaces M = [J r] in least squares, because T^T T = M^T M. T
+/// has few rows: one more than J has columns. R is triangular up to a permutation of its columns.
 struct Triangle {
   Eigen::MatrixXd r;
   Eigen::VectorXd z;
-  double rest = 0.0;  ///< norm of the part of the residuals that no step reduces
+  double rest = 0.0;  ///< norm of the residuals that remain at the optimum
 };
 /// Computes the triangle from M^T M by a pivoted L D L^T decomposition with columns scaled to
-/// length 1. A pivot below 1e-14 is set to 0: the rows do not determine this direction.
+/// length 1. A pivot below 1e-14 is set to 0, because the rows then do not determine its direction.
 Triangle triangle_of(const Eigen::MatrixXd& products);
 
 }  // namespace awmr

@@ -12,7 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Bounds of the coordinate of a parameter of the model.
+/// Bounds of the coordinate of a model parameter in the search.
 Interval parameter_bounds(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   if (quantity.id == ParameterId::kSurgeBeta) {
     return {vehicle.surge_beta_range.lo, vehicle.surge_beta_range.hi};
@@ -21,8 +21,9 @@ Interval parameter_bounds(const FreeQuantity& quantity, double initial, const Ve
     return {vehicle.yaw_beta_range.lo, vehicle.yaw_beta_range.hi};
   }
   if (quantity.scale == Scale::kLinear) return {0.0, 1e6};
-  // The servo's time constant is limited to kSlowestServo_s, because servo and yaw motion (I'z/g3')
-  // are two lags in series, which a search could otherwise exchange.
+  // The servo's time constant is limited to kSlowestServo_s. Reason: the servo and the yaw motion
+  // are two lags in series, and a search could exchange their time constants (I'z/g3' for the yaw
+  // motion).
   const double most = quantity.is(ParameterId::kSteeringTimeConstant)
                           ? to_coordinate(quantity.scale, kSlowestServo_s)
                           : initial + 10.0;
@@ -39,7 +40,7 @@ Interval extra_force_range(const FreeQuantity& quantity) {
   return quantity.may_be_zero() ? Interval{0.0, 1e6} : Interval{-kSteepest_mps2, kSteepest_mps2};
 }
 
-/// Range of the value of a quantity that is not a parameter.
+/// Range of the value of a quantity that is not a model parameter.
 Interval range_of(const FreeQuantity& quantity) {
   using Kind = FreeQuantity::Kind;
   constexpr double kLongest_s = 1.0;
@@ -158,7 +159,8 @@ double FreeQuantity::jacobian(double coordinate) const {
 }
 
 FreeQuantity free_parameter(ParameterId id) {
-  // A term of a family is a force or moment over F_max; a fifth of F_max counts as a large change.
+  // A term that only some resistance families have is a force or moment over F_max. A fifth of
+  // F_max counts as a large change.
   return {.id = id, .scale = scale_of(id), .large_change = info(id).term ? 0.2 : 1.0};
 }
 

@@ -17,9 +17,10 @@ namespace awmr {
 
 struct LogFitOptions;
 
-/// One free quantity of a fit. The search changes its coordinate: the value or its logarithm.
+/// One free quantity of a fit. The search changes its coordinate, which is the value or the
+/// logarithm of the value.
 struct FreeQuantity {
-  /// Kinds of quantities, in the order of the columns of a fit.
+  /// Kinds of quantities. The columns of the derivatives in a fit have the same order.
   enum class Kind {
     kParameter,            ///< a model parameter
     kDelay,                ///< delay of all commands
@@ -31,12 +32,12 @@ struct FreeQuantity {
     kServoRate,            ///< largest rate of the steering angle
     kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
     kForceExponent,        ///< p of force_exponent(): force proportional to |command|^p
-    kForceSaturation,      ///< L of force_saturation(): share of force lost at large commands
+    kForceSaturation,      ///< L of force_saturation(): share of force lost at the largest command
     kSaturationSharpness,  ///< n of force_saturation()
     kExtraForce,           ///< a force that the model does not contain (extra_forces.h)
     kBias,                 ///< constant offset of a channel
     kSensorDelay,          ///< latency of a channel
-    kSensorLag,            ///< time constant of a filter that smooths a channel
+    kSensorLag,            ///< time constant of a low-pass filter of a channel
     kSmoothing,            ///< variance of a symmetric kernel that smooths a channel
     kSensorScale,          ///< relative error of the scale of a channel
     kWheelSlip,            ///< slip of the wheels that measure a channel (wheel_slip.h)
@@ -45,23 +46,24 @@ struct FreeQuantity {
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< for kParameter
-  LogChannel channel = LogChannel::kX;  ///< for kSensorDelay (kX: x and y), kSensorLag, ..., kBias
+  /// Channel, for kinds of one channel; kX for the delay of x and y.
+  LogChannel channel = LogChannel::kX;
   ExtraForce force = ExtraForce::kSlopeX;  ///< for kExtraForce
   Scale scale = Scale::kLinear;
-  /// Change of the coordinate that counts as large. Standard deviations of priors and limits of
-  /// identifiability are multiples of it. Its values are
+  /// Change of the coordinate that counts as large, by kind. It is the unit of the standard
+  /// deviations of priors and of the limits of identifiability:
   ///   - 1 for a logarithm (a factor e), an exponent or a bias (SI);
-  ///   - 0.2 for a term of a family, Stribeck friction or drag in turns;
+  ///   - 0.2 for a term of a resistance family, Stribeck friction or drag in turns;
   ///   - 0.1 for a delay or lag (s), a trim or angle (rad), an imbalance, excess, saturation, wheel
   ///     slip or offset (m);
   ///   - 0.5 for a slope (m/s^2), 0.01 for smoothing (s^2).
   double large_change = 1.0;
-  double full_command = 1.0;  ///< for kForceSaturation: F'm of force_saturation(), > 0
-  double fastest = 1.0;       ///< for a Stribeck speed: largest speed (m/s or rad/s) of the logs
-  bool is_at_rows = false;    ///< for kSensorLag: true: one filter step per row of a log
-  double damping = 0.0;       ///< for kSensorLag: of a filter of second order; 0: first order
-  bool is_mean = false;       ///< for kSmoothing: true: moving average, false: Gaussian kernel
-  bool is_ratio = false;      ///< for kWheelSlip: true: slip ratio, see WheelSlip::is_ratio
+  double full_command = 1.0;  ///< largest command F'm, > 0 (for kForceSaturation)
+  double fastest = 1.0;  ///< largest speed of the logs, m/s or rad/s (for a Stribeck speed scale)
+  bool is_at_rows = false;  ///< true: the filter makes one step per row of a log (for kSensorLag)
+  double damping = 0.0;     ///< zeta of a second-order filter; 0: first order (for kSensorLag)
+  bool is_mean = false;     ///< true: moving average; false: Gaussian kernel (for kSmoothing)
+  bool is_ratio = false;    ///< true: a slip ratio; false: a slip speed (for kWheelSlip)
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
@@ -69,14 +71,16 @@ struct FreeQuantity {
   bool is_stribeck_speed() const {
     return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
   }
-  /// True for Stribeck friction and slopes. No resistance family can describe their effects.
+  /// True for Stribeck friction, its speed scales, and slopes. No resistance family can describe
+  /// these effects.
   bool is_stribeck_or_slope() const {
     return kind == Kind::kExtraForce && force <= ExtraForce::kSlopeY;
   }
   bool is_turn_drag_exponent() const {
     return is(ExtraForce::kTurnDragExponent) || is(ExtraForce::kTurnDragSpeedExponent);
   }
-  /// True for the excess of braking or backward forces. A fit contains at most one of the two.
+  /// True for e_b or e_r of extra_forces.h, by which braking or backward forces exceed their
+  /// commands. A fit contains at most one of the two.
   bool is_force_excess() const {
     return is(ExtraForce::kBrakeForce) || is(ExtraForce::kReverseForce);
   }
@@ -147,24 +151,26 @@ FreeQuantity force_saturation(double full_command);
 
 /// Sharpness n of the saturation: the larger n, the more sudden the limit.
 FreeQuantity saturation_sharpness();
-inline constexpr double kDefaultSharpness = 4.0;  ///< value of n in fits without free sharpness
+inline constexpr double kDefaultSharpness = 4.0;  ///< n in fits that do not estimate it
 
-/// A force that the model does not contain (extra_forces.h). Not for the speed scale of Stribeck
-/// friction, see stribeck_speed_term().
+/// A force that the model does not contain (extra_forces.h). For the speed scale of Stribeck
+/// friction, call stribeck_speed_term() instead.
 FreeQuantity extra_force(ExtraForce force);
 
-/// Time constant of a first-order filter that smooths a channel, s. `is_at_rows`: a recursive
-/// filter with one step for each row of the log, y(row) = e y(row - 1) + (1 - e) u(row), in place
-/// of a continuous filter (filtered_channel.h).
+/// Time constant, s, of a low-pass filter of first order through which a channel was logged.
+/// `is_at_rows`: true for a recursive filter with one step per row of the log, y(row) = e y(row -
+/// 1) + (1 - e) u(row); false for a continuous filter (filtered_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
-/// Time constant T, s, of a continuous filter of second order that smooths a channel. `damping`:
-/// zeta, 1 for two equal filters in series, 0.707 for a Butterworth filter (filtered_channel.h).
+/// Time constant T, s, of a continuous low-pass filter of second order through which a channel was
+/// logged. `damping`: zeta, for example 1 for two equal filters in series, 0.707 for a Butterworth
+/// filter (filtered_channel.h).
 FreeQuantity second_order_lag_of(LogChannel channel, double damping);
 
-/// Variance of a symmetric kernel that smooths a channel over the rows of the log, s^2. `is_mean`:
-/// a moving average in place of a Gaussian kernel (smoothing_kernel.h). Central differences,
-/// interpolation between the rows of another log and smoothing after the drive have such kernels.
+/// Variance, s^2, of a symmetric kernel by which a channel was smoothed over the rows of the log.
+/// `is_mean`: true for a moving average, false for a Gaussian kernel (smoothing_kernel.h). Central
+/// differences, interpolation between the rows of another log and smoothing after the drive have
+/// such kernels.
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean = false);
 
 /// Latency of a channel, s.
@@ -174,11 +180,12 @@ FreeQuantity sensor_delay_of(LogChannel channel);
 FreeQuantity sensor_scale_of(LogChannel channel);
 
 /// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h). `is_ratio`: true if
-/// s is a slip ratio, false if s is a speed.
+/// s is a slip ratio, false if s is a slip speed.
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
 
-/// Distance x_s, m, of the sway sensor ahead of the centre of gravity, and angle a, rad, by which
-/// the sensor is turned to the left. The sensor reads
+/// Mounting of the sensor of the sway speed v: distance x_s, m, ahead of the centre of gravity, and
+/// angle a, rad, by which the sensor is turned to the left. With the speed u and the yaw rate r,
+/// the sensor reads
 ///
 ///     v cos a - u sin a + x_s r
 FreeQuantity sway_offset();
@@ -187,7 +194,7 @@ FreeQuantity sway_angle();
 /// A free quantity with its initial guess.
 struct FreeTerm {
   FreeQuantity quantity;
-  double begin;  ///< coordinate of the initial guess
+  double begin;  ///< initial guess of its coordinate
 };
 
 /// True for a negative delay of the commands, which means that their time stamps are late.
@@ -196,7 +203,7 @@ bool is_late_commands(const FreeTerm& term);
 /// Speed scale w_s of the Stribeck friction `force`, with its initial guess. `fastest`: largest
 /// speed (m/s or rad/s) of the logs.
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest);
-inline constexpr double kStribeckShare = 0.1;  ///< initial guess of w_s, relative to `fastest`
+inline constexpr double kStribeckShare = 0.1;  ///< initial guess of w_s over `fastest`
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind);
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind,
@@ -216,8 +223,8 @@ std::vector<double> initial_coordinates(const LogFitOptions& options);
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,
                                         const std::vector<double>& initial, const Vehicle& vehicle);
 
-/// Values of all parameters: those of `held`, with the free parameters replaced by the values at
-/// their coordinates.
+/// Returns the values of all parameters: the free ones at these coordinates, the others from
+/// `held`.
 ParameterValues<double> parameters_at(ParameterValues<double> held,
                                       const std::vector<FreeQuantity>& quantities,
                                       const std::vector<double>& coordinates);

@@ -9,15 +9,16 @@
 namespace awmr {
 namespace {
 
-/// Initial guess of a term. Terms that cannot be negative begin above 0, where the search can move
-/// in both directions.
+/// Initial guess of a term. A term that cannot be negative begins above 0, so that the search can
+/// move in both directions.
 double begin_of(const FreeQuantity& quantity) {
   constexpr double kShare = 0.2;
   return quantity.may_be_zero() ? kShare * quantity.large_change : 0.0;
 }
 
-/// Every term that can be free from the start of a fit. The other terms need a value from the logs
-/// (the largest command or speed, or the rate of the servo), or need another term in the fit.
+/// Every term that a user can request by name. The other terms cannot be free from the start of a
+/// fit: they need a value from the logs (the largest command or speed, or the rate of the servo),
+/// or another term in the fit.
 std::vector<FreeQuantity> all_terms() {
   std::vector<FreeQuantity> terms{input_delay(),     steering_delay(),     motor_lag(),
                                   steering_trim(),   steering_dead_band(), steering_asymmetry(),

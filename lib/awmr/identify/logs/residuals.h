@@ -15,9 +15,10 @@ namespace awmr {
 
 /// Errors of a window's n samples.
 struct WindowErrors {
-  Eigen::VectorXd raw;           ///< n: model + bias - measured, SI
-  Eigen::VectorXd standardised;  ///< n: whitened, divided by the standard deviation, and weighted
-  bool finite = false;           ///< false if the simulation is not finite
+  Eigen::VectorXd raw;  ///< the n errors, model + bias - measured, SI
+  /// The n errors, whitened, divided by their standard deviation and weighted.
+  Eigen::VectorXd standardised;
+  bool finite = false;  ///< false if the simulation is not finite
 };
 
 /// Simulates one window and returns its errors. `coordinates`: one per free quantity.
@@ -25,12 +26,13 @@ struct WindowErrors {
 WindowErrors errors_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                        const double* initial_state);
 
-/// Sums over the residuals r of a window and their Jacobian J. The residuals are the standardised
-/// errors and those of a weak prior, which is centred on the measured initial state. The columns of
-/// J are the q free quantities, then the k free components of the initial state.
+/// Sums over the residuals r of one window and their Jacobian J. The residuals are the standardised
+/// errors of the samples, and those of a weak prior about the measured initial state. J has a
+/// column for each of the q free quantities, then for each of the k free components of the initial
+/// state.
 struct WindowSums {
   Eigen::MatrixXd products;  ///< [J r]^T [J r], (q + k + 1) x (q + k + 1)
-  /// J^T r of each block of samples, without the prior; length q + k each. Empty unless requested.
+  /// J^T r (length q + k) of each block of samples. The prior is left out. Empty unless requested.
   std::vector<Eigen::VectorXd> block_gradients;
   bool finite = false;  ///< false if the simulation or its derivatives are not finite
 
@@ -38,8 +40,8 @@ struct WindowSums {
   double cost() const { return 0.5 * products(products.rows() - 1, products.rows() - 1); }
 };
 
-/// Computes the sums of one window. With `block_s` > 0, also the gradients of blocks of about that
-/// length in seconds.
+/// Computes the sums of one window. If `block_s` > 0, also computes the gradients J^T r of blocks
+/// that last about `block_s` seconds.
 WindowSums sums_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                    const double* initial_state, double block_s = 0.0);
 

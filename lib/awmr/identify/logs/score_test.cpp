@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Score test of the candidate with the index `c` in the information `h`. `by_others`: H_tt^-1
-/// H_tc.
+/// Score test of one candidate. `h`: information of the quantities t of the fit and of all
+/// candidates; `c`: index of the candidate in `h`; `by_others`: H_tt^-1 H_tc.
 ScoreTest test_one(const Eigen::MatrixXd& h, const std::vector<Eigen::VectorXd>& scores,
                    const Eigen::VectorXd& by_others, Eigen::Index c) {
   const Eigen::Index n = by_others.size();
@@ -69,7 +69,8 @@ std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& 
   const Eigen::Index all = rows_of(with.problem.model.quantities);
   const Eigen::MatrixXd h = fit_evidence(sums, all).information;
   const std::vector<Eigen::VectorXd> scores = scores_of(with.problem.windows, sums, all).blocks;
-  // The weak prior of the search keeps H_tt regular even if the data do not determine a quantity.
+  // The weak prior of the search is added to H_tt, the information of the quantities of the fit. It
+  // keeps H_tt regular even if the data do not determine a quantity.
   Eigen::MatrixXd of_others = h.topLeftCorner(n, n);
   of_others.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);
   const Eigen::MatrixXd by_others = solve_ldlt(of_others, h.topRightCorner(n, all - n));

@@ -3,22 +3,23 @@
 namespace awmr {
 namespace {
 
-// The functions below must be inlined, so that they are compiled for the instruction set of their
-// caller.
+// The functions below must be inlined into their callers, which are compiled for several
+// instruction sets. The inlined code then uses the instruction set of the caller.
 #if defined(__GNUC__)
 #define AWMR_INLINE inline __attribute__((always_inline))
 #else
 #define AWMR_INLINE inline
 #endif
 
-// Asserts that the columns are independent, which the compiler cannot prove.
+// Tells the compiler that the columns are independent of each other, which it cannot prove.
 #if defined(__GNUC__) && !defined(__clang__)
 #define AWMR_INDEPENDENT_COLUMNS _Pragma("GCC ivdep")
 #else
 #define AWMR_INDEPENDENT_COLUMNS
 #endif
 
-/// One column of the derivatives S of the state, or of their rates S_dot (step_sensitivities()).
+/// Derivatives of the seven components of the state with respect to one column of the fit, or the
+/// rates of these derivatives.
 struct Column {
   double x, y, psi, u, v, r, steering;
 };
@@ -67,7 +68,8 @@ AWMR_INLINE void step_columns(const StateSlopes* __restrict a, const double* __r
   }
 }
 
-/// Adds the products of all rows tile by tile: kTile x kTile sums stay in registers over all rows.
+/// Adds the products of all rows to the sums, one tile of kTile x kTile sums after the other. The
+/// sums of a tile stay in registers while all rows are added.
 AWMR_INLINE void add_rows(const double* __restrict rows, std::size_t count, std::size_t columns,
                           double* __restrict sums) {
   constexpr std::size_t kTile = kRowVector;
@@ -88,7 +90,7 @@ AWMR_INLINE void add_rows(const double* __restrict rows, std::size_t count, std:
   }
 }
 
-/// The two loops compiled for one instruction set.
+/// The two inner loops, compiled for one instruction set.
 struct Kernels {
   void (*step)(const StateSlopes*, const double*, double, std::size_t, double*);
   void (*add)(const double*, std::size_t, std::size_t, double*);

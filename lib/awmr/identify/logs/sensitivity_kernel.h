@@ -1,5 +1,5 @@
-/// The two inner loops of a log fit: a Runge-Kutta step of the derivatives, and J^T J. Private to
-/// identify/.
+/// The two inner loops of a log fit: a Runge-Kutta step of the derivatives of the state, and the
+/// product J^T J of the Jacobian. Private to identify/.
 ///
 /// Both are compiled for several instruction sets. The best one that the processor supports is
 /// selected at run time. The results are the same to the last bit, because no version uses fused
@@ -15,22 +15,24 @@ namespace awmr {
 
 /// Number of components of State.
 inline constexpr std::size_t kStateSize = 7;
-/// Number of rates that depend on parameters: those of u, v, r and the steering angle.
+/// Number of rates of the state that depend on parameters: those of u, v, r and the steering angle.
 inline constexpr std::size_t kDrivenSize = 4;
 /// Number of stages of the Runge-Kutta method.
 inline constexpr std::size_t kStages = 4;
 
 /// Makes one classical Runge-Kutta step of h_s seconds of S, the derivatives of the state with
-/// respect to the columns (linear_stepper.h):
+/// respect to the columns of the fit (linear_stepper.h):
 ///
 ///     S_dot = A S + B
 ///
-/// `stages`: A at each stage of the state's step. `driven`: nonzero rows of B at each stage,
-/// [kStages][kDrivenSize][columns]. `s`: S, [kStateSize][columns], in and out.
+/// `stages`: A at each Runge-Kutta stage of the state. `driven`: the rows of B that are not 0, at
+/// each stage, [kStages][kDrivenSize][columns]. `s`: S, [kStateSize][columns], which is replaced by
+/// S after the step.
 void step_sensitivities(const std::array<StateSlopes, kStages>& stages, const double* driven,
                         double h_s, std::size_t columns, double* s);
 
-/// Rows in memory have a multiple of this number of columns.
+/// The number of columns of a row in memory is a multiple of this, so that vector instructions can
+/// be used.
 inline constexpr std::size_t kRowVector = 4;
 
 /// Adds rows^T rows to `sums`, on and above the diagonal. `rows`: [count][columns]. `sums`:

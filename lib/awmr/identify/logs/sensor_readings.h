@@ -15,9 +15,10 @@ class ReadingSeries {
  public:
   /// Adds the reading at the next row. `row`: its derivatives.
   void add(double value, const std::vector<double>& row);
-  /// Returns the reading at the row with the index i, smoothed if `smoothing` is present, and sets
-  /// `row` to its derivatives. The smoothing averages pairs of rows i - n and i + n
-  /// (SmoothingKernel). If one row of a pair is outside of the window, row i replaces both.
+  /// Returns the reading at the row with the index i, and sets `row` to the derivatives of the
+  /// reading. If `smoothing` is present, the reading is a weighted mean over pairs of rows i - n
+  /// and i + n (SmoothingKernel). If one row of a pair is outside of the window, row i replaces
+  /// both.
   double read(std::size_t i, const std::optional<Smoothing>& smoothing,
               std::vector<double>& row) const;
 
@@ -26,15 +27,15 @@ class ReadingSeries {
   std::vector<double> rows_;  ///< [index of the row][column]
 };
 
-/// Computes the readings of all sensors row by row, while the motion of a window is simulated.
-/// Latency and filters are included, smoothing is not.
+/// Computes the readings of all sensors row by row, while the motion of a window is simulated. The
+/// readings include latency and filters, but not symmetric smoothing, which needs later rows.
 class SensorReadings {
  public:
   /// The arguments must outlive the object. `columns`: number of derivatives.
   SensorReadings(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
                  std::size_t columns);
-  /// Advances to the next row of the window; the first call goes to the first row. `now`: the
-  /// motion at the new row.
+  /// Advances to the next row of the window. The first call goes to the first row. `now`: the
+  /// simulated motion at the new row.
   void go_on(const LinearMotion& now);
   /// Returns the reading of a channel at this row. Afterwards, row() returns its derivatives.
   double read(LogChannel c, const LinearMotion& now);
@@ -49,7 +50,7 @@ class SensorReadings {
   /// Simulated filters, one per channel; empty for channels without a filter.
   std::array<std::optional<FilteredChannel>, kChannelCount> filters_;
   std::size_t rows_ = 0;               ///< number of rows up to now
-  std::vector<LinearMotion> motions_;  ///< of these rows; kept only if a sensor has latency
+  std::vector<LinearMotion> motions_;  ///< motions at these rows; empty unless a sensor has latency
   std::vector<double> row_;
 };
 

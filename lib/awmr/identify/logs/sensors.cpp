@@ -36,7 +36,7 @@ double LogSensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
   return scaled(c, value);
 }
 
-/// The reading of a sensor with an error of its scale (sensor_scale_of()).
+/// Multiplies a reading and its derivatives by the scale error of the sensor (sensor_scale_of()).
 double LogSensors::scaled(LogChannel c, double value) {
   const auto& scale = terms_.scale[at(c)];
   if (!scale) return value;
@@ -46,7 +46,8 @@ double LogSensors::scaled(LogChannel c, double value) {
   return factor * value;
 }
 
-/// Reading of the sway sensor (sway_offset()).
+/// Reading of the sensor of the sway speed, which may be mounted away from the centre of gravity or
+/// at an angle (sway_offset()).
 double LogSensors::sway(const LinearMotion& motion) {
   const State<double>& s = motion.state;
   const double x = terms_.sway_offset ? terms_.sway_offset->value : 0.0;

@@ -16,11 +16,12 @@ namespace awmr {
 /// Symmetric smoothing of a channel over the rows of the log.
 struct Smoothing {
   SmoothingKernel kernel;
-  std::size_t column;   ///< of the variance, s^2
-  double rows2_per_s2;  ///< variance in rows^2 over the variance in s^2
+  std::size_t column;   ///< column of the variance of the kernel, s^2
+  double rows2_per_s2;  ///< variance of the kernel in rows^2 over that in s^2
 };
 
-/// Errors of the sensors at one point of the search, with the columns of their derivatives.
+/// Errors of the sensors at one point of the search, with the columns of the derivatives with
+/// respect to them.
 struct SensorTerms {
   std::array<double, kChannelCount> bias{};
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
@@ -37,14 +38,15 @@ struct SensorTerms {
 };
 
 /// Computes the readings of the sensors for the motion at one time. Latency, filters, smoothing and
-/// bias are not included.
+/// bias are not applied here.
 class LogSensors {
  public:
   /// All arguments must outlive the object. `columns`: number of derivatives.
   LogSensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
              const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
              std::size_t columns);
-  /// Returns the reading at the time t of the motion. Afterwards, row() returns its derivatives.
+  /// Returns the reading of channel c for the motion at the time t. Afterwards, row() returns the
+  /// derivatives of the reading.
   double read(LogChannel c, const LinearMotion& motion, double t_s);
   const std::vector<double>& row() const { return row_; }
 

@@ -13,10 +13,11 @@ namespace {
 
 using Signal = std::vector<double>;
 
-/// Smallest difference between two values of the signal: the unit of rounded values. Infinite if
-/// the signal is constant.
+/// Returns the unit to which the values of the signal were rounded: the smallest difference between
+/// two different values. Infinite if the signal is constant.
 double resolution_of(Signal signal) {
-  constexpr double kRounding = 1e-9;  // of the range: equal values that were computed differently
+  // Relative to the range: smaller differences are rounding errors.
+  constexpr double kRounding = 1e-9;
   std::ranges::sort(signal);
   const double least = kRounding * (signal.back() - signal.front());
   double smallest = std::numeric_limits<double>::infinity();
@@ -27,8 +28,8 @@ double resolution_of(Signal signal) {
   return smallest;
 }
 
-/// One per row: true where a straight line ends. A row is on a line if its value differs from that
-/// of the line through its neighbours by at most `tolerance`.
+/// Returns true for each row at which a straight line ends. A row continues a line if its value
+/// differs by at most `tolerance` from the straight line between the rows before and after it.
 std::vector<bool> line_ends(const Signal& t_s, const Signal& signal, double tolerance) {
   std::vector<bool> ends(signal.size(), true);
   for (std::size_t i = 1; i + 1 < signal.size(); ++i) {
@@ -39,7 +40,7 @@ std::vector<bool> line_ends(const Signal& t_s, const Signal& signal, double tole
   return ends;
 }
 
-/// Number of rows of each line on which the signal changes.
+/// Returns the lengths, in rows, of those lines on which the signal changes.
 std::vector<std::size_t> lengths_of(const Signal& signal, const std::vector<bool>& ends) {
   std::vector<std::size_t> lengths;
   std::size_t begin = 0;
@@ -51,9 +52,12 @@ std::vector<std::size_t> lengths_of(const Signal& signal, const std::vector<bool
   return lengths;
 }
 
-/// Number of rows per set-point: the most frequent length of a line. Returns 0 in these cases: the
-/// length is below two rows or above 0.5 s; the signal changes in fewer than kFewest rows; at most
-/// half of these rows are on lines whose length is a multiple of it.
+/// Number of rows between two set-points: the most frequent length of a line. Returns 0 if the
+/// signal is not interpolated between set-points, that is, in one of these cases:
+///   - The most frequent length is below two rows or above 0.5 s.
+///   - The signal changes in fewer than kFewest rows.
+///   - At most half of these rows are on lines whose length is a multiple of the most frequent
+///     length.
 std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
                               const std::vector<bool>& ends) {
   constexpr double kLongest_s = 0.5;
@@ -76,12 +80,13 @@ std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
   return is_usual ? usual : 0;
 }
 
-/// One per row: the row of its set-point. Empty if the signal is not interpolated. Set-points are
-/// the ends of lines, and the rows at multiples of rows_of_set_point() after them. The values on
-/// the lines may be exact or rounded.
+/// Returns the index of the set-point of each row. Set-points are the rows at which a line ends,
+/// and the rows at multiples of rows_of_set_point() after them. The values on the lines may be
+/// exact or rounded. Empty if the signal is not interpolated between set-points.
 std::optional<std::vector<std::size_t>> set_points_of(const Signal& t_s, const Signal& signal) {
-  constexpr double kExact = 1e-3;    // tolerances relative to the resolution
-  constexpr double kRounded = 1.05;  // 0.5 from rounding the row, 0.5 from its two neighbours
+  constexpr double kExact = 1e-3;  // tolerance for exact values, relative to the resolution
+  // Tolerance for rounded values: 0.5 for the row itself, 0.5 for its two neighbours.
+  constexpr double kRounded = 1.05;
   const double resolution = resolution_of(signal);
   for (const double share : {kExact, kRounded}) {
     const std::vector<bool> ends = line_ends(t_s, signal, share * resolution);
@@ -98,7 +103,7 @@ std::optional<std::vector<std::size_t>> set_points_of(const Signal& t_s, const S
   return std::nullopt;
 }
 
-/// Replaces each value by that of its set-point.
+/// Replaces each value of the signal by the value at its set-point, the row `places`.
 void hold(const std::vector<std::size_t>& places, Signal& signal) {
   const Signal before = signal;
   for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = before[places[i]];

@@ -14,12 +14,16 @@
 
 namespace awmr {
 
-/// Returns the logs with every interpolated command replaced by its last set-point. A command
-/// counts as interpolated if it changes in at least 40 rows, and if most of these rows lie on
-/// straight lines whose lengths are multiples of the same number of rows. This number of rows is at
-/// least 2 and lasts at most 0.5 s. Both forces are replaced if one of them is interpolated. Empty
-/// if no command is interpolated, or if a log was already changed in this or a similar way
-/// (DrivingLog::has_held_set_points, has_interpolated_commands).
+/// Returns the logs with every interpolated command replaced by its last set-point. If one of the
+/// forces is interpolated, both are replaced.
+///
+/// A command counts as interpolated if it changes in at least 40 rows, and if most of these rows
+/// lie on straight lines whose lengths are multiples of the same number of rows. This number of
+/// rows is at least 2 and lasts at most 0.5 s.
+///
+/// Empty if no command is interpolated. Empty also if the commands of a log were already replaced
+/// by held set-points or by straight lines (DrivingLog::has_held_set_points,
+/// has_interpolated_commands).
 std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<DrivingLog>& logs);
 
 /// True if `held`, the logs with held set-points, describe the motion about as well as the original

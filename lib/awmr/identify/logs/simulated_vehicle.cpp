@@ -10,8 +10,8 @@ namespace awmr {
 namespace {
 
 /// Raises a servo time constant below h/2 to h/2, the shortest that Runge-Kutta steps of h seconds
-/// resolve, and removes its column of derivatives. Otherwise the integration would diverge when a
-/// search tries a time constant near 0.
+/// resolve. Otherwise the integration would diverge when a search tries a time constant near 0. The
+/// column of the derivatives with respect to the time constant is then removed.
 void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double>& plant) {
   if (!(plant.steering_time_constant_s < 0.5 * h)) return;
   plant.steering_time_constant_s = 0.5 * h;
@@ -20,7 +20,7 @@ void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double
   });
 }
 
-/// The smoothing of a channel with the variance `variance_s2`.
+/// Symmetric smoothing of a channel by a kernel with the variance `variance_s2`, s^2.
 Smoothing smoothing_at(const FitWindow& window, const FreeQuantity& quantity, double variance_s2,
                        std::size_t column) {
   const double rows2_per_s2 = std::pow(window.row_spacing_s, -2);
@@ -29,7 +29,8 @@ Smoothing smoothing_at(const FitWindow& window, const FreeQuantity& quantity, do
           rows2_per_s2};
 }
 
-/// Sets the term of the command path that `q` describes. `number`: its value; `i`: its column.
+/// Sets the part of the command path that the quantity `q` describes, if any. `number`: value of
+/// the quantity; `i`: its column.
 void set_command_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                       CommandPath& path) {
   using Kind = FreeQuantity::Kind;
@@ -75,7 +76,8 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
   }
 }
 
-/// Sets the sensor error that `q` describes. `number`: its value; `i`: its column.
+/// Sets the sensor error that the quantity `q` describes, if any. `number`: value of the quantity;
+/// `i`: its column.
 void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                      SensorTerms& sensors) {
   using Kind = FreeQuantity::Kind;
@@ -142,7 +144,8 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
   if (vehicle.path.servo_rate)
     vehicle.plant.steering_max_rate_radps = vehicle.path.servo_rate->value;
   slow_servo(model.longest_step_s, vehicle.parameters, vehicle.plant);
-  // A logged steering angle is used directly, without servo limit or lag.
+  // A logged steering angle is used as it is, so it must not be cut by the steering limit of the
+  // vehicle.
   if (!window.rows.log->steering_command_rad) vehicle.plant.steering_max_rad = 10.0;
   vehicle.initial = window.measured;
   for (std::size_t i = 0; i < model.initial.size(); ++i) {

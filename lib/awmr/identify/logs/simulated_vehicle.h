@@ -10,10 +10,11 @@
 
 namespace awmr {
 
-/// Model, free quantities and noise of a log fit, shared by all windows.
+/// Vehicle, free quantities and noise of a log fit. All windows share them.
 struct LogModel {
   Vehicle vehicle;
-  ParameterValues<double> held;  ///< one per ParameterId: value of a fixed parameter; else unused
+  /// Values of the fixed parameters; entries of free ones are not used.
+  ParameterValues<double> held;
   std::vector<FreeQuantity> quantities;
   std::vector<InitialComponent> initial;
   NoiseLevels noise;
@@ -32,8 +33,8 @@ struct SimulatedVehicle {
   State<double> initial{};
 };
 
-/// Returns the vehicle at these coordinates (one per free quantity) and this initial state of a
-/// window (one value per free component).
+/// Returns the simulated vehicle at these coordinates (one per free quantity) and this initial
+/// state of a window (one value per free component).
 SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
                             const double* coordinates, const double* initial_state);
 

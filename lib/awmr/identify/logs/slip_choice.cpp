@@ -18,7 +18,8 @@ using Terms = std::vector<FreeTerm>;
 
 bool is_slip(const FreeTerm& term) { return term.quantity.kind == FreeQuantity::Kind::kWheelSlip; }
 
-/// True if the fit has significant slip or late commands (LogFit::is_significant()).
+/// True if the fit has significant wheel slip or late commands (LogFit::is_significant()). With
+/// both, a reading changes earlier than the logged commands explain.
 bool reads_early(const LogFit& fit) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeTerm term{fit.quantities[i], fit.coordinates[i]};
@@ -35,8 +36,8 @@ std::string_view explanation(const FamilyFit& fit) {
                                  : "wheel slip in proportion to the force";
 }
 
-/// The channels that have slip in `terms`. If there are none, returns the channels that slipping
-/// wheels may measure: the speed, and the yaw rate if left and right forces differ.
+/// The channels whose slip is in `terms`. If none is, returns the measured channels that slipping
+/// wheels may affect: the speed, and the yaw rate if left and right forces differ.
 std::vector<LogChannel> slipping_channels(const Terms& terms, const std::vector<DrivingLog>& logs) {
   std::vector<LogChannel> channels;
   for (const FreeTerm& term : terms) {
@@ -53,7 +54,8 @@ std::vector<LogChannel> slipping_channels(const Terms& terms, const std::vector<
   return channels;
 }
 
-/// Replaces all slip and late commands in the terms by slip of this form (`is_ratio`).
+/// Replaces all slip and late commands in `terms` by slip of these channels. `is_ratio`: form of
+/// the new slip (WheelSlip::is_ratio).
 Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ratio) {
   constexpr double kGuess = 0.05;
   std::erase_if(terms, [](const FreeTerm& t) { return is_slip(t) || is_late_commands(t); });
@@ -63,8 +65,9 @@ Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ra
   return terms;
 }
 
-/// Replaces all slip in the terms by late commands. If only the speed has slip, a measured yaw rate
-/// gets a latency, so that only the speed can respond before the logged commands.
+/// Replaces all slip in `terms` by late commands. If only the speed has slip, also adds a latency
+/// of a measured yaw rate. Then the speed responds before the logged commands, but the yaw rate
+/// does not.
 Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
                          const std::vector<DrivingLog>& logs) {
   constexpr double kGuess_s = 0.01;
@@ -87,7 +90,8 @@ Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
   return terms;
 }
 
-/// The other explanations of a fit with these terms.
+/// Returns the other explanations of a fit that has slip or late commands in its terms. Each is a
+/// list of terms to fit instead.
 std::vector<Terms> other_explanations(const Terms& terms, const std::vector<DrivingLog>& logs) {
   const auto slip = std::ranges::find_if(terms, is_slip);
   const bool slips = slip != terms.end();

@@ -8,15 +8,15 @@
 
 namespace awmr {
 
-/// If `chosen` has significant wheel slip or late commands, fits the logs with the other
-/// explanations too: late commands in place of the slip, slip in place of the late commands, or the
-/// other form of slip (WheelSlip::is_ratio). These effects are similar: the reading rises earlier
-/// than the model predicts. The fit with the lowest AIC becomes `chosen`. If the AIC of another fit
-/// is higher by less than 10, withdraws the intervals of the parameters that differ between the two
-/// fits by more than one standard error.
+/// Compares the explanations of a fit `chosen` that has significant wheel slip or late commands.
+/// The logs are fitted with the other explanations too: late commands in place of the slip, slip in
+/// place of the late commands, or the other form of slip (WheelSlip::is_ratio). In all of them, the
+/// reading rises earlier than the model would otherwise predict, so they are easily confused.
 ///
-/// Returns the finding `wheel-slip` that names both explanations; empty if nothing was withdrawn.
-/// Does nothing for a fit without these terms.
+/// The fit with the lowest AIC becomes `chosen`. If the AIC of another fit is higher by less than
+/// 10, withdraws the intervals of the parameters that differ between the two fits by more than one
+/// standard error. Returns the finding `wheel-slip` that names both explanations. Empty if nothing
+/// was withdrawn, or if `chosen` has no significant slip and no late commands.
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
 }  // namespace awmr

@@ -7,17 +7,18 @@
 namespace awmr {
 namespace {
 
-/// The variance, at most kWidestKernel; 0 if it is not a positive number.
+/// Limits a variance to kWidestKernel. Returns 0 if the variance is not a positive number.
 double bounded(double variance) { return variance > 0.0 ? std::min(variance, kWidestKernel) : 0.0; }
 
 }  // namespace
 
 SmoothingKernel gaussian_kernel(double variance) {
-  constexpr double kReach = 6.0;  // standard deviations; weights beyond are below 1e-8
+  constexpr double kReach = 6.0;  // width in standard deviations; weights beyond are below 1e-8
   constexpr double kShortest = 1e-8;
   variance = bounded(variance);
   const auto last = static_cast<std::size_t>(kReach * std::sqrt(variance)) + 10;
-  // Downward recurrence I_{n-1} = I_{n+1} + (2 n/s) I_n, then scaled to the sum 1.
+  // Weights by the downward recurrence of the Bessel functions, I_{n-1} = I_{n+1} + (2 n/s) I_n,
+  // then scaled so that their sum is 1.
   std::vector<double> w(last + 2, 0.0);
   const double s = std::max(variance, kShortest);
   w[last] = 1e-200;

@@ -20,7 +20,7 @@ struct SmoothingKernel {
 inline constexpr double kWidestKernel = 2500.0;
 
 /// Discrete Gaussian kernel of the variance s >= 0 (rows^2) [Lindeberg, Scale-space for discrete
-/// signals, 1990], with the modified Bessel functions I_n:
+/// signals, 1990]. With the modified Bessel functions I_n, the weights are
 ///
 ///     w_n = e^-s I_n(s),   dw_n/ds = (w_{n-1} + w_{n+1})/2 - w_n
 SmoothingKernel gaussian_kernel(double variance);

@@ -12,8 +12,9 @@
 namespace awmr {
 namespace {
 
-/// Speed of each wheel per unit of its command, m/s. Present only if the fitted resistances show
-/// that this ratio is the same at all speeds (see speed_control_findings()).
+/// Steady speed of each wheel divided by its command, m/s, according to the fitted resistances.
+/// Present only if these show that the ratio is the same at all speeds (see
+/// speed_control_findings()).
 std::optional<double> fitted_speed_per_command(const Vehicle& vehicle,
                                                const std::vector<DrivingLog>& logs,
                                                const LogStage& stage) {

@@ -1,4 +1,5 @@
-/// Detects logs whose force columns are set-points of a speed controller. Private to identify/.
+/// Detects logs in which the force columns contain set-points of a speed controller instead of
+/// forces. Private to identify/.
 #pragma once
 
 #include <optional>
@@ -9,24 +10,26 @@
 namespace awmr {
 
 /// Median ratio of the steady speeds of the wheels to their commands, m/s. Uses only speeds with a
-/// standard error below 5 %. Empty if there are fewer than six such speeds, if their commands
-/// differ by less than a factor of 3, if a ratio differs from the median by more than 5 %, or if
-/// the median is not positive. (Limit of 5 %: a power law with b1 = 0.9 gives differences of 6 %.)
+/// standard error below 5 %. Empty if the speeds are not proportional to the commands, that is, in
+/// one of these cases:
+///   - There are fewer than six such speeds.
+///   - Their commands differ by less than a factor of 3.
+///   - A ratio differs from the median by more than 5 %. (A power law with the exponent b1 = 0.9
+///     gives differences of 6 %.)
+///   - The median is not positive.
 std::optional<double> speed_per_set_point(const Vehicle& vehicle,
                                           const std::vector<DrivingLog>& logs);
 
 /// Returns the warning `speed-controlled` if the speed at which each wheel rolls seems to be
-/// proportional to its command. One of these signs suffices:
-///   - Both fitted resistances are linear, and the yaw coefficient is d^2 times the surge
-///     coefficient (d: half of the track width):
+/// proportional to its command. The cause is either motor drag as the only resistance, or a speed
+/// controller whose set-points were logged as forces. One of these signs suffices:
+///   - Both fitted resistances are linear, and the yaw coefficient a3 is d^2 times the surge
+///     coefficient a1 (d: half of the track width):
 ///
 ///         tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 ///
 ///   - The model does not describe the logs, and `set_point_mps`, the result of
 ///     speed_per_set_point(), is not empty.
-///
-/// The cause is either motor drag as the only resistance, or a speed controller whose set-points
-/// were logged as forces.
 std::vector<Finding> speed_control_findings(const Vehicle& vehicle,
                                             const std::vector<DrivingLog>& logs,
                                             const LogStage& stage,

@@ -1,6 +1,6 @@
-/// Trial fits of the logs that also estimate further terms of the vehicle or sensor model, such as
-/// a delay, motor lag, smoothing or wheel slip. Each is compared by AIC with the fit without these
-/// terms. Private to identify/.
+/// Trial fits of the logs with further terms of the vehicle or sensor model, such as a delay, motor
+/// lag, smoothing or wheel slip. Each trial is compared by AIC with the fit without these terms.
+/// Private to identify/.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,14 @@ namespace awmr {
 /// AIC of a fit, computed with its own noise levels.
 double akaike_of(const NoiseIteration& fit);
 
-/// Adds the terms `more` to the estimated quantities and fits one round, starting with white noise
-/// in place of drift. Initial guesses are limited to three large changes
-/// (FreeQuantity::large_change).
+/// Adds the terms `more` to the estimated quantities and makes a short fit (one round). The fit
+/// starts with white noise in place of drift, so that drift cannot absorb the effect of the terms.
+/// Initial guesses are limited to three large changes (FreeQuantity::large_change), except those of
+/// quantities that only describe a form (FreeQuantity::is_form()).
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss);
 
-/// Fits from `from` to convergence. Returns the fit if its AIC is lower than that of `settled` by
-/// more than 10, else empty.
+/// Makes a converged fit that starts at `from`. Returns it if its AIC is lower than that of
+/// `settled` by more than 10, else empty.
 std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from,
                                                 Loss loss);
 
@@ -30,8 +31,8 @@ class LowestAic {
  public:
   explicit LowestAic(const NoiseIteration& start) : criterion_(akaike_of(start)) {}
 
-  /// Keeps the fit if its AIC is lower than the lowest so far by more than `by`. Returns true if it
-  /// was kept.
+  /// Keeps the fit if its AIC is lower by more than `by` than the lowest AIC so far. Returns true
+  /// if the fit was kept.
   bool consider(NoiseIteration fit, double by = 0.0) {
     const double criterion = akaike_of(fit);
     if (!(criterion + by < criterion_)) return false;
@@ -39,7 +40,7 @@ class LowestAic {
     best_ = std::move(fit);
     return true;
   }
-  /// The kept fit; empty if no fit had a lower AIC than the start.
+  /// The fit that was kept; empty if no fit had a lower AIC than `start`.
   std::optional<NoiseIteration>& best() { return best_; }
 
  private:

@@ -8,11 +8,11 @@ namespace {
 /// One side of the vehicle.
 struct Side {
   double SideForces<double>::*force;
-  double offset_m;  ///< to the left of the centre; w = u - offset r
-  double share;     ///< weight of its slip in the reading
+  double offset_m;  ///< distance to the left of the centre; the side moves at u - offset_m r
+  double share;     ///< change of the reading per slip speed of this side
 };
 
-/// Force of a wheel of one side on the ground, with derivatives.
+/// Force F' that a wheel of one side exerts on the ground, with derivatives.
 struct GroundForce {
   double value = 0.0;
   double by_command = 0.0;
@@ -32,8 +32,9 @@ GroundForce ground_force(double command, double w, const Plant<double>& plant) {
           .by_back_emf = -w};
 }
 
-/// Adds the derivatives of one side's slip to the columns. `size` and `by_speed`: derivatives of
-/// the slip with respect to F' and to the wheel speed w, each times Side::share.
+/// Adds the derivatives of the reading that are due to the slip of one side. `size` and `by_speed`:
+/// derivatives of the slip with respect to the wheel force F' and the speed w of the side over
+/// ground, each multiplied by Side::share.
 void add_columns(const Side& side, const SlippingWheels& wheels, const DelayedCommand& command,
                  const GroundForce& f, double size, double by_speed, const LinearMotion& motion,
                  std::size_t columns, double* by_column) {

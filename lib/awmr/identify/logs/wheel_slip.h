@@ -2,14 +2,15 @@
 /// identify/.
 ///
 /// A wheel that drives the vehicle rolls faster than it moves over ground. The wheels of a side
-/// move over ground with w = u - d r (left) or u + d r (right). With the wheel force F', they roll
-/// at one of these speeds, according to the form of the slip:
+/// move over ground with w = u - d r (left) or u + d r (right), with half the track width d. F' is
+/// the wheel force after the motors' lag, dead zone and back-EMF. The wheels roll at one of these
+/// speeds, according to the form of the slip s:
 ///
 ///     w + s F'        s in m/s; no slip if w = 0
 ///     w + s F' |w|    s: slip ratio at F' = 1 (WheelSlip::is_ratio)
 ///
 /// The measured speed is the mean of both sides, and the measured yaw rate is their difference
-/// (right - left) over 2 d. F' is the force after the motors' lag, dead zone and back-EMF.
+/// (right - left) over 2 d.
 #pragma once
 
 #include <vector>
@@ -19,22 +20,23 @@
 
 namespace awmr {
 
-/// Slip s of the wheels that measure a channel, and the column of its derivatives.
+/// Slip s of the wheels that measure a channel, and the column of the derivatives with respect to
+/// s.
 struct WheelSlip {
   LogChannel channel;  ///< speed or yaw rate
   OffsetColumn slip;
   bool is_ratio;
 };
 
-/// The vehicle, and the columns of the derivatives of the fit.
+/// The vehicle whose wheels slip, and the columns of the parameters and command errors in the fit.
 struct SlippingWheels {
   const Plant<double>& plant;
   const std::vector<ParameterColumn>& parameters;
   CommandColumns columns;
 };
 
-/// Returns the change of the channel's reading due to the slip. Adds its derivatives to
-/// `by_column`, an array of `columns` numbers.
+/// Returns the change of a channel's reading due to the slip. Adds the derivatives of this change
+/// to `by_column`, an array of `columns` numbers.
 double add_wheel_slip(const WheelSlip& slip, const SlippingWheels& wheels,
                       const DelayedCommand& command, const LinearMotion& motion,
                       std::size_t columns, double* by_column);

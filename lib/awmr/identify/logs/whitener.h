@@ -9,10 +9,13 @@
 
 namespace awmr {
 
-/// Transition matrix F of a drift over the time h: x <- F x + noise of covariance P - F P F^T. The
-/// state is x = (d, d'/omega), with the stationary covariance P = sigma_d^2 I. For a first-order
-/// drift only f[0][0] = e^(-h/tau) is used. For a second-order drift, with s = zeta omega and nu =
-/// omega sqrt(1 - zeta^2),
+/// Transition matrix F of a drift over the time h. The drift d is the first component of the state
+/// x = (d, d'/omega), whose stationary covariance is P = sigma_d^2 I:
+///
+///     x <- F x + noise with the covariance P - F P F^T
+///
+/// For a first-order drift, only f[0][0] = e^(-h/tau) is used. For a second-order drift, with s =
+/// zeta omega and nu = omega sqrt(1 - zeta^2),
 ///
 ///     F = e^(-s h) ( cos(nu h) + (s/nu) sin(nu h)        (omega/nu) sin(nu h)
 ///                    -(omega/nu) sin(nu h)               cos(nu h) - (s/nu) sin(nu h) )
@@ -51,18 +54,20 @@ struct DriftStep {
   }
 };
 
-/// Gains of the Kalman filter for the residuals e of one channel, with the drift x as its state:
+/// Gains of the Kalman filter for the residuals e of one channel (symbols: ChannelNoise). The state
+/// is the drift x with its covariance P; F is the transition matrix (DriftStep). For each residual:
 ///
 ///     x = F x,   P = F P F^T + sigma_d^2 (I - F F^T)
 ///     nu = e - x_0,   S = P_00 + sigma_w^2,   x += (P_.0/S) nu,   P -= P_.0 P_.0^T/S
 ///
-/// With differenced noise, the state is the previous n. Its variance P starts at sigma_w^2:
+/// With differenced noise, the state is the previous white noise n. Its variance P starts at
+/// sigma_w^2:
 ///
 ///     nu = e + theta n,   S = sigma_w^2 + theta^2 P,   n = (sigma_w^2/S) nu
 ///     P = sigma_w^2 (1 - sigma_w^2/S)
 ///
-/// The innovations nu/sqrt(S) are white if e follows ChannelNoise. This class computes F, S and the
-/// gains. They depend only on the times of the residuals, not on the values.
+/// The numbers nu/sqrt(S) are white if e follows ChannelNoise. This class computes F, S and the
+/// gains, which depend only on the times of the residuals, not on their values.
 class WhitenerGains {
  public:
   /// `noise` must outlive this object.
@@ -72,14 +77,14 @@ class WhitenerGains {
         p11_(p00_) {}
 
   struct Step {
-    bool predicts = false;  ///< true: x = F x has to be applied first
-    bool restarts = false;  ///< true: x = 0 has to be applied first (differenced noise)
+    bool predicts = false;  ///< true: the state has to be advanced first, x = F x
+    bool restarts = false;  ///< true: the state n has to be reset to 0 first (differenced noise)
     double gain0 = 0.0;
     double gain1 = 0.0;
     double variance = 0.0;  ///< S
   };
-  /// Advances to the next residual, `since_s` seconds after the previous one; 0 for the first. At a
-  /// constant interval the gains converge and are then reused.
+  /// Advances to the next residual. `since_s`: time since the previous residual, s; 0 for the
+  /// first. At a constant interval the gains converge, and are then reused.
   const Step& next(double since_s) {
     if (settled_ && same_step(since_s)) return last_;
     const double white = noise_.white_std * noise_.white_std;
@@ -109,8 +114,9 @@ class WhitenerGains {
  private:
   static bool near(double a, double b) { return std::abs(a - b) <= 1e-14 * std::abs(b); }
 
-  /// Gains for differenced noise e_k = n_k - theta n_{k-1}. Restarts after a gap of more than kGap
-  /// steps, because n_{k-1} is then not the n of the last residual before the gap.
+  /// Computes the gains for differenced noise e_k = n_k - theta n_{k-1}. After a gap of more than
+  /// kGap steps the filter restarts, because n_{k-1} is then not the noise of the last residual
+  /// before the gap.
   const Step& next_differenced(double white, double since_s) {
     constexpr double kGap = 1.5;
     last_.restarts = since_s_ > 0.0 && since_s > kGap * since_s_;
@@ -135,7 +141,8 @@ class WhitenerGains {
       p00_ = f[0][0] * f[0][0] * p00_ + (1.0 - f[0][0] * f[0][0]) * drift;
       return;
     }
-    // F P F^T + drift (I - F F^T) = drift I + F (P - drift I) F^T
+    // Rewritten prediction of P, with drift = sigma_d^2: F P F^T + drift (I - F F^T) = drift I + F
+    // (P - drift I) F^T.
     const double q00 = p00_ - drift;
     const double q11 = p11_ - drift;
     const double a0 = f[0][0] * q00 + f[0][1] * p01_;
@@ -158,7 +165,8 @@ class WhitenerGains {
   bool settled_ = false;
 };
 
-/// State of the filter for one series: the errors, or one of their derivatives.
+/// State of the Kalman filter for one series of numbers: the errors, or their derivatives with
+/// respect to one quantity.
 struct WhitenerState {
   double x0 = 0.0;
   double x1 = 0.0;
@@ -195,7 +203,7 @@ class Whitener {
     double value;     ///< nu
     double variance;  ///< S
   };
-  /// Returns the innovation of the next error, `since_s` seconds after the previous error; 0 for
+  /// Returns the innovation of the next error. `since_s`: time since the previous error, s; 0 for
   /// the first.
   Innovation next(double error, double since_s) {
     const WhitenerGains::Step& step = gains_.next(since_s);

@@ -38,11 +38,12 @@ LogWindow within(const LogWindow& window, const Interval& only_s) {
           at(std::lower_bound(from, to, only_s.hi) - t_s.begin())};
 }
 
-/// The first row that is fitted. Lagged forces and filtered sensors depend on commands and speeds
-/// before the first row, so the first second of a log that begins in motion is not fitted.
+/// Index of the first row that is fitted. Lagged forces and filtered sensors depend on commands and
+/// speeds before the log begins. If a log begins in motion, its first second is therefore not
+/// fitted.
 std::size_t first_fitted_row(const DrivingLog& log) {
   constexpr double kForgotten_s = 1.0;
-  constexpr double kShortest_s = 5.0;  // shorter logs are fitted entirely
+  constexpr double kShortest_s = 5.0;  // shorter logs are fitted from the first row
   const std::vector<double>& t_s = log.t_s;
   if (t_s.back() - t_s.front() < kShortest_s || !begins_in_motion(log)) return 0;
   return at(std::ranges::lower_bound(t_s, t_s.front() + kForgotten_s) - t_s.begin());

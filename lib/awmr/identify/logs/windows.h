@@ -21,16 +21,17 @@ inline constexpr double kWindow_s = 10.0;
 struct Sample {
   std::uint32_t row;
   LogChannel channel;
-  double since_s = 0.0;  ///< s since the window's previous sample of this channel; 0: first sample
+  double since_s = 0.0;  ///< time since the window's previous sample of this channel, s; 0: none
 };
 
 /// A window of a log with its samples.
 struct FitWindow {
   LogWindow rows;
-  std::shared_ptr<const LogSignals> signals;               ///< commands of the log
-  double row_spacing_s = 0.0;                              ///< median row spacing of the log
-  std::shared_ptr<const std::vector<Sample>> all_samples;  ///< in the order of rows, never empty
-  State<double> measured{};  ///< measured initial state; components without a measurement are 0
+  std::shared_ptr<const LogSignals> signals;  ///< commands of the log
+  double row_spacing_s = 0.0;                 ///< median row spacing of the log
+  /// All samples in the order of the rows; never empty.
+  std::shared_ptr<const std::vector<Sample>> all_samples;
+  State<double> measured{};  ///< measured initial state; 0 for components that are not measured
   /// One per sample: square root of its weight under the robust loss. Empty: all weights are 1.
   std::vector<double> weights;
 
@@ -38,9 +39,9 @@ struct FitWindow {
   double weight(std::size_t sample) const { return weights.empty() ? 1.0 : weights[sample]; }
 };
 
-/// Divides all logs into windows, within the time interval `only_s` if given. Omits windows without
-/// samples. If a log of 5 s or more begins in motion, also omits its first second, because motors
-/// and filters then depend on unknown earlier commands. The logs must outlive the windows.
+/// Divides all logs into windows. If `only_s` is given, uses only this time interval. Omits windows
+/// without samples. If a log of 5 s or more begins in motion, also omits its first second, because
+/// motors and filters then depend on unknown earlier commands. The logs must outlive the windows.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
                                    const std::optional<Interval>& only_s = {});
 
@@ -52,13 +53,15 @@ std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
 /// A component of the initial state that is fitted in every window.
 struct InitialComponent {
   LogChannel channel;  ///< the component, for example kSpeed for u
-  double prior_std;  ///< standard deviation of the weak prior about the measured initial state, SI
+  double prior_std;    ///< standard deviation of the weak prior about the measured value, SI
 };
 
-/// Components of the initial state on which a measured channel of the logs depends.
+/// Components of the initial state that influence a measured channel of the logs. They are fitted
+/// in every window.
 std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs);
 
-/// Measured initial states: all components of the first window, then of the next, and so on.
+/// Returns the measured initial states: all components of the first window, then of the next, and
+/// so on.
 std::vector<double> measured_initial_states(const std::vector<FitWindow>& windows,
                                             const std::vector<InitialComponent>& components);
 
