@@ -747,7 +747,7 @@ TEST(LateLog, DoesNotCompareLogsWithALargeSaturation) {
   }
   const auto result = identify(robot(), data, power_law(), {});
   ASSERT_TRUE(result);
-  EXPECT_TRUE(has_finding(*result, "force-saturation", "without a comparison"));
+  EXPECT_TRUE(has_finding(*result, "force-saturation", "not compared"));
   EXPECT_FALSE(has_finding(*result, "logs-disagree", ""));
 }
 
