@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "awl_scan.h"
+#include "awl_format.h"
 #include "awmr/control/safety.h"
 #include "awmr/core/csv.h"
 #include "awmr/core/input_file.h"

@@ -43,7 +43,7 @@ bool is_awl(std::string_view bytes);
 ///   `rows-not-measured`  rows not used, because heading or speed was too old or a value not finite
 ///   `short-run`          rows not used, because their run has fewer than ten usable rows
 ///   `chip-reset`         a run began with a watchdog reset or a drop of the supply voltage
-/// Errors (input): no complete header; a header that layout_of() refuses (awl_header.h); two
+/// Errors (input): no complete header; a header that layout_of() refuses (awl_format.cpp); two
 /// headers that differ; more than 1000 damaged headers. Errors (refused): no usable row.
 Result<AwlLog> read_awl(std::string_view bytes, const std::string& file);
 

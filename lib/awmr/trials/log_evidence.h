@@ -69,6 +69,19 @@ std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member me
   return values;
 }
 
+/// Ratio y/x of two signals, computed from medians so that about 10 % outliers do no harm.
+struct RobustRatio {
+  double ratio = 0.0;
+  /// Median absolute deviation of the ratios y/x from `ratio`, divided by |ratio|.
+  double spread = 0.0;
+  int pairs = 0;  ///< number of pairs used
+};
+
+/// Returns the median of y/x over the half of the pairs (x, y) with the larger |x|. Empty if this
+/// half has fewer than 10 pairs, or if `spread` would exceed 0.6: the two signals are then not
+/// proportional.
+std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y);
+
 /// Coefficients of a linear regression of the yaw rate on the yaw moments tau_steering (of the
 /// steering) and tau_diff (of the force difference), as in EvidenceWindow:
 ///     yaw rate = steering * tau_steering + sides * tau_diff
@@ -98,6 +111,9 @@ std::array<std::string, 2> swapped_mappings(const Evidence& evidence);
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence);
 /// Checks the units of time, forces, steering angle, yaw rate and speed.
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence);
+/// Compares yaw rate with heading, and speed with positions. Without a heading or without
+/// positions, detects yaw rates and speeds that no wheeled vehicle reaches.
+std::vector<Contradiction> motion_unit_contradictions(const Evidence& evidence);
 /// Detects a jump of the position or of the heading, as at the seam of two runs in one file.
 std::optional<Contradiction> jump_contradiction(const Evidence& evidence);
 /// Checks the signs of steering, forces, yaw rate, heading, y and speed, and whether left and right

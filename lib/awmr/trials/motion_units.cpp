@@ -1,5 +1,3 @@
-#include "motion_units.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +8,7 @@
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/model/plausibility.h"
-#include "awmr/trials/robust_ratio.h"
+#include "awmr/trials/log_evidence.h"
 
 namespace awmr {
 namespace {

@@ -12,7 +12,6 @@
 #include "awmr/core/sample_quantile.h"
 #include "awmr/core/units.h"
 #include "awmr/trials/log_evidence.h"
-#include "awmr/trials/robust_ratio.h"
 
 namespace awmr {
 namespace {

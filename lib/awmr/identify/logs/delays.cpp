@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "awmr/identify/logs/actuator_terms.h"
 #include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/term_trials.h"
 #include "awmr/trials/log_start.h"

@@ -15,7 +15,7 @@ namespace awmr {
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
 ///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw
 ///     rate or the heading.
-///   - When no candidate is kept, a slower servo and then a motor lag are tried (actuator_terms.h).
+///   - When no candidate is kept, a slower servo and then a motor lag are tried (term_trials.h).
 ///     After each added term, one motor lag is tried in place of all filters.
 ///   - Steering trim and force imbalance have nearly the same effect. If one of them is found and
 ///     the commands allow an estimate of both, both become free.

@@ -1,6 +1,6 @@
-/// Rates of change of the state due to the wheel forces and to the forces of extra_forces.h, for
-/// linear_rates(). The wheel forces include the dead zone and the excess e_b or e_r. Private to
-/// identify/.
+/// Rates of change of the state due to the wheel forces, the motors' back-EMF and the forces of
+/// extra_forces.h, for linear_rates(). The wheel forces include the dead zone and the excess e_b or
+/// e_r. Private to identify/.
 #pragma once
 
 #include "awmr/identify/logs/linear_rates.h"
@@ -56,6 +56,12 @@ struct ByForces {
 /// dead zone, and e_b and e_r (extra_forces.h).
 void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByForces& forces,
                       LinearRates& out);
+
+/// Adds the effect of back-EMF to the rates. Call after the wheel forces and the resistance were
+/// added. `left_on`, `right_on`: true if the motors of that side are on. `sin_d`, `cos_d`: sine and
+/// cosine of the steering angle d_r.
+void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on, bool right_on,
+                  double sin_d, double cos_d, LinearRates& out);
 
 /// Surge resistance at the speed u. Friction at rest is left out, because add_friction() adds it.
 ResistanceSlopes surge_resistance(const LinearPlant& plant, double u_mps, LinearRates& out);

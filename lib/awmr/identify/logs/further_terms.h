@@ -1,7 +1,9 @@
-/// The delays, lags and constant errors of sensors and commands that a log fit can add. Private to
-/// identify/.
+/// The delays, lags and constant errors of sensors and commands that a log fit can add, by its
+/// own choice or because the user requested them. Private to identify/.
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "awmr/identify/logs/log_problem.h"
@@ -28,5 +30,9 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 
 /// True for channels that are often filtered before logging: speed, yaw rate and heading.
 bool is_often_filtered(LogChannel channel);
+
+/// The terms that the user requested by these names (IdentifyOptions::terms), with initial guesses.
+/// Names that are not requestable_terms() are ignored.
+std::vector<FreeTerm> requested_terms(std::span<const std::string> names);
 
 }  // namespace awmr

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/back_emf_rates.h"
 #include "awmr/identify/logs/extra_rates.h"
 
 namespace awmr {

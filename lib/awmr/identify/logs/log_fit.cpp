@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "awmr/core/index.h"
-#include "awmr/identify/logs/bootstrap.h"
+#include "awmr/core/random.h"
+#include "awmr/core/sample_quantile.h"
 #include "awmr/identify/logs/ceres_problem.h"
 #include "awmr/identify/logs/delays.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/log_report.h"
-#include "awmr/identify/logs/log_sample.h"
 #include "awmr/identify/logs/multistart.h"
 #include "awmr/identify/logs/noise_iteration.h"
 #include "awmr/identify/logs/score_test.h"
@@ -71,6 +73,69 @@ double relative_error_of(const LogProblem& guess, const ErrorsByChannel& errors)
   return sum / guess.readings();
 }
 
+/// Solution of a log fit with n quantities, its covariance (n x n), and the scores of the blocks
+/// into which the logs are divided. A score is the gradient of -ln L, of length n.
+struct BootstrapInput {
+  const std::vector<FreeQuantity>& quantities;
+  const std::vector<double>& coordinates;
+  const Eigen::MatrixXd& covariance;
+  const std::vector<Eigen::VectorXd>& scores;
+};
+
+Eigen::VectorXd mean_of(const std::vector<Eigen::VectorXd>& scores, Eigen::Index n) {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(n);
+  for (const Eigen::VectorXd& score : scores) mean += score / static_cast<double>(scores.size());
+  return mean;
+}
+
+/// Sum of n scores drawn with replacement from the n scores, less n times their mean.
+Eigen::VectorXd drawn_sum(const std::vector<Eigen::VectorXd>& scores, const Eigen::VectorXd& mean,
+                          Random& random) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(mean.size());
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const double place = random.uniform() * static_cast<double>(scores.size());
+    sum += scores[static_cast<std::size_t>(place)] - mean;
+  }
+  return sum;
+}
+
+/// Factor by which to scale the draws so that their standard deviation becomes `std`. The mean of
+/// the draws is 0. Returns 1 if all draws are 0.
+double scale_to(double std, const std::vector<double>& draws) {
+  double squares = 0.0;
+  for (const double draw : draws) squares += draw * draw;
+  return squares > 0.0 ? std / std::sqrt(squares / static_cast<double>(draws.size())) : 1.0;
+}
+
+/// Computes 95 % intervals by a block bootstrap. Each resample draws blocks with replacement and
+/// makes one Gauss-Newton step from the solution. The steps are scaled so that their standard
+/// deviations equal the standard errors of the covariance. The bootstrap thus determines only the
+/// shape of the intervals, not their width. The ends are the 2.5 % and 97.5 % percentiles of each
+/// quantity's value. Empty for 0 resamples.
+std::vector<Interval> block_bootstrap(const BootstrapInput& input, int resamples,
+                                      std::uint64_t seed) {
+  if (resamples <= 0) return {};
+  const std::size_t n = input.quantities.size();
+  std::vector<std::vector<double>> draws(n);  // draws[i]: change of coordinate i in each resample
+  Random random(seed, 2);
+  const Eigen::VectorXd mean = mean_of(input.scores, eigen_index(n));
+  for (int b = 0; b < resamples; ++b) {
+    const Eigen::VectorXd step = input.covariance * drawn_sum(input.scores, mean, random);
+    for (std::size_t i = 0; i < n; ++i) draws[i].push_back(step(eigen_index(i)));
+  }
+  std::vector<Interval> intervals;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::sort(draws[i].begin(), draws[i].end());
+    const FreeQuantity& q = input.quantities[i];
+    const double x = input.coordinates[i];
+    const double std = std::sqrt(input.covariance(eigen_index(i), eigen_index(i)));
+    const double scale = scale_to(std, draws[i]);
+    intervals.push_back({q.value(x + scale * quantile_of_sorted(draws[i], 0.025)),
+                         q.value(x + scale * quantile_of_sorted(draws[i], 0.975))});
+  }
+  return intervals;
+}
+
 /// Returns the result of a fit whose search ended at `solved`. `sums`: sums of all windows at this
 /// point, all finite.
 LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
@@ -81,9 +146,8 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
   const Scores scores = scores_of(problem.windows, sums, n);
   const Identifiability found = without_stopped(
       identifiability(fit_evidence(sums, n).information, scores, quantities), problem, coordinates);
-  const std::vector<Interval> bootstrap95 =
-      block_bootstrap({quantities, coordinates, found.covariance, scores.blocks},
-                      {.resamples = options.bootstrap, .seed = options.seed});
+  const std::vector<Interval> bootstrap95 = block_bootstrap(
+      {quantities, coordinates, found.covariance, scores.blocks}, options.bootstrap, options.seed);
   return {.quantities = quantities,
           .coordinates = coordinates,
           .covariance = found.covariance,

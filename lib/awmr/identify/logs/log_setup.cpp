@@ -7,8 +7,8 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/back_emf.h"
+#include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/initial_guess.h"
-#include "awmr/identify/logs/requested_terms.h"
 #include "awmr/trials/calibration_checks.h"
 #include "awmr/trials/log_consistency.h"
 

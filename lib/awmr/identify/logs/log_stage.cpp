@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "awmr/core/distributions.h"
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/adequacy.h"
-#include "awmr/identify/logs/agreement.h"
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/command_findings.h"
 #include "awmr/identify/logs/force_findings.h"
@@ -151,6 +151,30 @@ std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::str
                                     name)});
   }
   return findings;
+}
+
+/// Returns the warning `estimates-disagree` if parameter `i` of the log fit differs significantly
+/// from `known`, its estimate from other trials. The test is a two-sided normal test (p < 0.01) of
+/// the fitted coordinates, which are logarithms for most parameters. Empty if the estimates agree
+/// or `known` has no standard error.
+std::optional<Finding> disagreement(const LogFit& fit, std::size_t i, const Estimate& known,
+                                    const std::string& file) {
+  constexpr double kApart = 0.01;
+  if (!known.value || !known.std_error || !(*known.std_error > 0.0)) return std::nullopt;
+  const FreeQuantity& q = fit.quantities[i];
+  const double variance = fit.covariance(eigen_index(i), eigen_index(i));
+  const double other = to_coordinate(q.scale, *known.value);
+  const double other_std = *known.std_error / jacobian(q.scale, *known.value);
+  const double z =
+      std::abs(fit.coordinates[i] - other) / std::sqrt(variance + other_std * other_std);
+  const double p = 2.0 * normal_tail(z);
+  if (p >= kApart) return std::nullopt;
+  return Finding{
+      file, 0, Severity::kWarning, "estimates-disagree",
+      fmt::format("{} is {:.4g} by the logs and {:.4g} by the other trials ({}), {:.1f} standard "
+                  "deviations apart (p = {:.2g}); check the units and that all trials are of one "
+                  "vehicle",
+                  info(q.id).name, q.value(fit.coordinates[i]), *known.value, known.method, z, p)};
 }
 
 /// Copies the parameters that the fit identifies to `stage`. A parameter that already has a value

@@ -6,7 +6,6 @@
 #include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
 #include "awmr/identify/logs/ceres_problem.h"
-#include "awmr/identify/logs/log_sample.h"
 
 namespace awmr {
 namespace {

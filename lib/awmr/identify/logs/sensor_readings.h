@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,30 @@ class ReadingSeries {
  private:
   std::vector<double> values_;
   std::vector<double> rows_;  ///< [index of the row][column]
+};
+
+/// Computes the readings of the sensors for the motion at one time. Latency, filters, smoothing and
+/// bias are not applied here.
+class LogSensors {
+ public:
+  /// All arguments must outlive the object. `columns`: number of derivatives.
+  LogSensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
+             const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
+             std::size_t columns);
+  /// Returns the reading of channel c for the motion at the time t. Afterwards, row() returns the
+  /// derivatives of the reading.
+  double read(LogChannel c, const LinearMotion& motion, double t_s);
+  const std::vector<double>& row() const { return row_; }
+
+ private:
+  double sway(const LinearMotion& motion);
+  double scaled(LogChannel c, double value);
+
+  const LogSignals& signals_;
+  const SensorTerms& terms_;
+  const CommandPath& path_;
+  SlippingWheels wheels_;
+  std::vector<double> row_;
 };
 
 /// Computes the readings of all sensors row by row, while the motion of a window is simulated. The

@@ -116,6 +116,14 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
 
 }  // namespace
 
+bool SensorTerms::any_delayed() const {
+  return std::ranges::any_of(delay, [](const auto& one) { return one.has_value(); });
+}
+
+bool SensorTerms::any_smoothed() const {
+  return std::ranges::any_of(smoothing, [](const auto& one) { return one.has_value(); });
+}
+
 SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
                             const double* coordinates, const double* initial_state) {
   SimulatedVehicle vehicle{};

@@ -1,12 +1,17 @@
-/// The vehicle that a log fit simulates in a window, at one point of the search. Private to
-/// identify/.
+/// The vehicle that a log fit simulates in a window and the errors of its sensors, at one point of
+/// the search. Private to identify/.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "awmr/identify/logs/channel_noise.h"
+#include "awmr/identify/logs/filtered_channel.h"
 #include "awmr/identify/logs/quantities.h"
-#include "awmr/identify/logs/sensors.h"
+#include "awmr/identify/logs/smoothing_kernel.h"
+#include "awmr/identify/logs/wheel_slip.h"
 
 namespace awmr {
 
@@ -20,6 +25,30 @@ struct LogModel {
   NoiseLevels noise;
   double row_spacing_s = 0.02;   ///< shortest row spacing of the logs
   double longest_step_s = 0.01;  ///< longest integration step
+};
+
+/// Symmetric smoothing of a channel over the rows of the log.
+struct Smoothing {
+  SmoothingKernel kernel;
+  std::size_t column;   ///< column of the variance of the kernel, s^2
+  double rows2_per_s2;  ///< variance of the kernel in rows^2 over that in s^2
+};
+
+/// Errors of the sensors at one point of the search, with the columns of the derivatives with
+/// respect to them.
+struct SensorTerms {
+  std::array<double, kChannelCount> bias{};
+  std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
+  std::array<std::optional<DelayColumn>, kChannelCount> delay{};
+  std::array<std::optional<SensorFilter>, kChannelCount> lag{};
+  std::array<std::optional<Smoothing>, kChannelCount> smoothing{};
+  std::array<std::optional<OffsetColumn>, kChannelCount> scale{};
+  std::vector<WheelSlip> slips;
+  std::optional<OffsetColumn> sway_offset;
+  std::optional<OffsetColumn> sway_angle;
+
+  bool any_delayed() const;
+  bool any_smoothed() const;
 };
 
 /// Plant, command path, sensor errors and initial state at one point of the search, with the

@@ -1,12 +1,66 @@
 #include "awmr/identify/logs/term_trials.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
+#include <vector>
 
 #include "awmr/core/index.h"
+#include "awmr/core/units.h"
 #include "awmr/identify/logs/information.h"
 
 namespace awmr {
+namespace {
+
+/// Smallest interval, rad, that contains 0 and all steering commands of the window.
+Interval commanded_angles_rad(const FitWindow& window) {
+  Interval angles{0.0, 0.0};
+  const auto& commands = window.rows.log->steering_command_rad;
+  if (!commands) return angles;
+  for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
+    angles.lo = std::min(angles.lo, (*commands)[row]);
+    angles.hi = std::max(angles.hi, (*commands)[row]);
+  }
+  return angles;
+}
+
+/// Largest steering rate, rad/s, that the logged commands demand of the servo: the range of the
+/// steering commands divided by the servo's time constant. It is at most the rate limit of the
+/// vehicle file. Returns 0 if the time constant is not free.
+double demanded_rate_radps(const NoiseIteration& settled) {
+  const LogModel& model = settled.problem.model;
+  const auto lag = place_of(model.quantities, ParameterId::kSteeringTimeConstant);
+  if (!lag) return 0.0;
+  Interval commands{0.0, 0.0};
+  for (const FitWindow& window : settled.problem.windows) {
+    const Interval angles = commanded_angles_rad(window);
+    commands = {std::min(commands.lo, angles.lo), std::max(commands.hi, angles.hi)};
+  }
+  const double lag_s = model.quantities[*lag].value(settled.point.coordinates[*lag]);
+  return std::min((commands.hi - commands.lo) / lag_s,
+                  radians(model.vehicle.steering_max_rate_degps));
+}
+
+/// Returns a fit that shows a rate limit of the servo best. For long logs this is a new fit to the
+/// windows with the largest ranges of steering commands. For short logs it is `settled` itself.
+NoiseIteration with_largest_steering(const NoiseIteration& settled, Loss loss) {
+  if (!is_long(settled.problem)) return settled;
+  const std::vector<FitWindow>& windows = settled.problem.windows;
+  std::vector<std::pair<double, std::size_t>> by_range;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const Interval angles = commanded_angles_rad(windows[w]);
+    by_range.emplace_back(angles.hi - angles.lo, w);
+  }
+  std::ranges::stable_sort(by_range, std::greater{}, &std::pair<double, std::size_t>::first);
+  std::vector<std::size_t> largest;
+  for (std::size_t i = 0; i < kSampleWindows; ++i) largest.push_back(by_range[i].second);
+  std::ranges::sort(largest);
+  return settle_noise(with_windows(settled.problem, largest),
+                      with_windows(settled.problem, settled.point, largest), loss,
+                      {.most = 1, .is_near = true});
+}
+
+}  // namespace
 
 double akaike_of(const NoiseIteration& fit) {
   return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities));
@@ -34,6 +88,68 @@ std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, E
   NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
   if (!(akaike_of(settled) - akaike_of(fit) > kPlainly)) return std::nullopt;
   return fit;
+}
+
+bool has_motor_lag(const LogModel& model) {
+  return model.vehicle.motor_time_constant_s ||
+         has_kind(model.quantities, FreeQuantity::Kind::kMotorLag);
+}
+
+std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss) {
+  using Kind = FreeQuantity::Kind;
+  LogProblem problem = settled.problem;
+  SearchPoint point = settled.point;
+  if (has_motor_lag(problem.model)) return std::nullopt;
+  std::vector<double> lags_s;
+  for (std::size_t i = problem.model.quantities.size(); i-- > 0;) {
+    if (problem.model.quantities[i].kind != Kind::kSensorLag) continue;
+    lags_s.push_back(point.coordinates[i]);
+    const auto at_i = static_cast<std::ptrdiff_t>(i);
+    problem.model.quantities.erase(problem.model.quantities.begin() + at_i);
+    problem.initial.erase(problem.initial.begin() + at_i);
+    problem.bounds.erase(problem.bounds.begin() + at_i);
+    point.coordinates.erase(point.coordinates.begin() + at_i);
+  }
+  if (lags_s.size() < 2) return std::nullopt;
+  Extended from = extended(with_white_noise(std::move(problem)), std::move(point), {motor_lag()},
+                           {std::ranges::min(lags_s)});
+  NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
+  if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
+  return fit;
+}
+
+std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled, Loss loss) {
+  constexpr double kShare = 0.5;  // initial guess of the motor lag, divided by the fitted delay
+  const std::vector<FreeQuantity>& quantities = settled.problem.model.quantities;
+  const auto delay = std::ranges::find(quantities, FreeQuantity::Kind::kDelay, &FreeQuantity::kind);
+  if (delay == quantities.end() || has_motor_lag(settled.problem.model)) return {};
+  const std::size_t place = at(delay - quantities.begin());
+  const double lag_s = kShare * settled.point.coordinates[place];
+  if (!(lag_s > 0.0)) return {};
+  NoiseIteration from = settled;
+  from.point.coordinates[place] -= lag_s;
+  NoiseIteration lagged = tried(from, {{motor_lag(), lag_s}}, loss);
+  if (!(akaike_of(lagged) < akaike_of(settled))) return {};
+  return settled_if_better(settled, {std::move(lagged.problem), std::move(lagged.point)}, loss);
+}
+
+std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss) {
+  if (has_kind(settled.problem.model.quantities, FreeQuantity::Kind::kServoRate)) return {};
+  const double demanded_radps = demanded_rate_radps(settled);
+  if (!(demanded_radps > 0.0)) return {};
+  const NoiseIteration without = with_largest_steering(settled, loss);
+  LowestAic lowest(without);
+  for (const double share : {0.6, 0.25}) {
+    const double begin_radps = share * demanded_radps;
+    lowest.consider(tried(without, {{servo_rate(begin_radps), begin_radps}}, loss));
+  }
+  if (!lowest.best()) return {};
+  NoiseIteration& limited = *lowest.best();
+  Extended from =
+      extended(settled.problem, settled.point, {limited.problem.model.quantities.back()},
+               {limited.problem.initial.back()});
+  from.point.coordinates = std::move(limited.point.coordinates);
+  return settled_if_better(settled, std::move(from), loss);
 }
 
 }  // namespace awmr

@@ -1,11 +1,14 @@
-// Statistics of the runs of `awmr recover`.
+// Statistics of the runs of `awmr recover`, and their texts and JSON Schema.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "awmr/core/json.h"
 #include "awmr/identify/planning/recover_part.h"
+#include "awmr/model/findings_json.h"
 
 namespace awmr {
 namespace {
@@ -54,6 +57,26 @@ Status check_recovered(const Recovery& recovery, const RecoverPart& whole) {
                                 : ", because the trials of this plan do not determine it"));
 }
 
+constexpr long kMaxRuns = std::numeric_limits<int>::max();
+
+void describe_recovery(JsonObject& json) {
+  json.schema("awmr.recover/1");
+  read_provenance(json);
+  json.integer("runs", 0, kMaxRuns);
+  json.integer("refused_runs", 0, kMaxRuns);
+  json.string("noise");
+  for (JsonObject& parameter : json.object("parameters").values()) {
+    for (const char* key :
+         {"truth", "bias", "rmse", "mean_std_error", "coverage95", "worst_relative_error"}) {
+      parameter.number(key);
+    }
+    parameter.integer("runs", 0, kMaxRuns);
+    parameter.reject_unknown_keys();
+  }
+  read_findings(json);
+  json.reject_unknown_keys();
+}
+
 }  // namespace
 
 Result<Recovery> recovery_of(const RecoverPart& whole) {
@@ -73,6 +96,42 @@ Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress) {
   AWMR_ASSIGN_OR_RETURN(const RecoverPart whole, recover_part(model, options, {}, progress));
   return recovery_of(whole);
+}
+
+std::string recovery_text(const Recovery& recovery, const Provenance& provenance) {
+  Json json = output_document("awmr.recover/1", provenance);
+  json["runs"] = recovery.runs;
+  json["refused_runs"] = recovery.failed;
+  json["noise"] = recovery.noise_text;
+  json["parameters"] = Json::object();
+  for (const RecoveredParameter& p : recovery.parameters) {
+    json["parameters"][std::string(info(p.id).name)] = {{"truth", p.truth},
+                                                        {"bias", p.bias},
+                                                        {"rmse", p.rmse},
+                                                        {"mean_std_error", p.mean_std_error},
+                                                        {"coverage95", p.coverage95},
+                                                        {"worst_relative_error", p.worst_error},
+                                                        {"runs", p.runs}};
+  }
+  return to_text(json);
+}
+
+std::string recovery_table(const Recovery& recovery) {
+  std::string text = fmt::format("{} runs, {} of them with a refused parameter; noise {}\n",
+                                 recovery.runs, recovery.failed, recovery.noise_text);
+  text += fmt::format("  {:<24} {:>10} {:>11} {:>10} {:>10} {:>9} {:>6}\n", "", "truth", "bias",
+                      "rmse", "std error", "coverage", "runs");
+  for (const RecoveredParameter& p : recovery.parameters) {
+    text += fmt::format("  {:<24} {:>10.5g} {:>+11.2g} {:>10.2g} {:>10.2g} {:>7.1f} % {:>6}\n",
+                        info(p.id).name, p.truth, p.bias, p.rmse, p.mean_std_error,
+                        100.0 * p.coverage95, p.runs);
+  }
+  return text;
+}
+
+std::string recover_schema() {
+  return json_schema_text("awmr.recover/1", "Bias and coverage of the fits, by simulation",
+                          describe_recovery);
 }
 
 }  // namespace awmr

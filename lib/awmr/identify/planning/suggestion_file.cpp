@@ -1,4 +1,4 @@
-// Texts of suggest.json and of the field sheet of `awmr suggest`.
+// Text and JSON Schema of suggest.json, and the field sheet of `awmr suggest`.
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 
 #include "awmr/core/json.h"
 #include "awmr/identify/planning/suggest.h"
+#include "awmr/model/findings_json.h"
 
 namespace awmr {
 
@@ -102,6 +103,45 @@ std::string coasting_sheet(const Suggestion& suggestion) {
       coasting->speed_mps, coasting->steering_deg, coasting->rolling_yaw_rate_degps);
 }
 
+void describe_suggestion(JsonObject& json) {
+  json.schema("awmr.suggest/1");
+  read_provenance(json);
+  json.string("criterion");
+  json.strings("assumptions");
+  for (JsonObject& missing : json.optional_objects("missing")) {
+    missing.string("parameter");
+    missing.string("trial");
+    missing.reject_unknown_keys();
+  }
+  for (JsonObject& turn : json.optional_objects("scrub_turns")) {
+    for (const char* key :
+         {"force_left", "force_right", "most_force_left", "most_force_right", "yaw_rate_degps"}) {
+      turn.number(key);
+    }
+    turn.reject_unknown_keys();
+  }
+  json.optional_string("about_scrub");
+  if (auto coasting = json.optional_object("steer_while_coasting")) {
+    for (const char* key : {"speed_mps", "steering_deg", "rolling_yaw_rate_degps"}) {
+      coasting->number(key, kPositive);
+    }
+    coasting->reject_unknown_keys();
+  }
+  for (JsonObject& trial : json.objects("trials")) {
+    trial.choice("kind", kTrialKindNames);
+    JsonObject settings = trial.object("settings");
+    for (const std::string& name : settings.keys()) settings.number(name);
+    trial.string("words");
+    trial.string("parameter");
+    for (const char* key : {"std_error_before", "std_error_after", "information_gain"}) {
+      trial.number(key);
+    }
+    trial.reject_unknown_keys();
+  }
+  read_findings(json);
+  json.reject_unknown_keys();
+}
+
 }  // namespace
 
 std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
@@ -120,6 +160,10 @@ std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
                     trial.parameter, trial.std_error_before, trial.std_error_after, trial.d_gain);
   }
   return text + scrub_sheet(suggestion) + coasting_sheet(suggestion);
+}
+
+std::string suggest_schema() {
+  return json_schema_text("awmr.suggest/1", "The trials to record next", describe_suggestion);
 }
 
 }  // namespace awmr

@@ -91,7 +91,43 @@ TransformedParameters initial_guess_of(const SteadyProblem& problem) {
   return guess;
 }
 
+/// Covariance of the coefficients of the fitted line ln f = ln alpha + beta ln w, s^2 (P^T P)^-1 =
+/// s^2 Pi R^-1 R^-T Pi^T. P is the matrix of the rows (1, ln w), Pi the column permutation of its
+/// factors P Pi = Q R, s^2 the variance of the residuals.
+Eigen::Matrix2d covariance_of(const PivotedQr& qr, double variance) {
+  const Eigen::Matrix2d r = qr.r();
+  const Eigen::Matrix2d r_inverse =
+      r.triangularView<Eigen::Upper>().solve(Eigen::Matrix2d::Identity());
+  const Eigen::Matrix2d p = qr.permutation();
+  return variance * (p * r_inverse * r_inverse.transpose() * p.transpose());
+}
+
 }  // namespace
+
+std::vector<TransformedParameter> coordinates_of(Family family) {
+  const FamilyTerms terms = terms_of(family);
+  std::vector<TransformedParameter> free{TransformedParameter::kLogAlpha};
+  if (terms.beta) free.push_back(TransformedParameter::kBeta);
+  if (terms.coulomb) free.push_back(TransformedParameter::kCoulomb);
+  if (terms.quadratic) free.push_back(TransformedParameter::kQuadratic);
+  if (terms.dead_zone) free.push_back(TransformedParameter::kDeadZone);
+  return free;
+}
+
+double value_from(TransformedParameter c, double coordinate) {
+  if (c == TransformedParameter::kLogAlpha) return std::exp(coordinate);
+  if (c == TransformedParameter::kDeadZone) return coordinate / 4.0;
+  return coordinate;
+}
+
+Interval values_from(TransformedParameter c, const Interval& coordinate) {
+  return {value_from(c, coordinate.lo), value_from(c, coordinate.hi)};
+}
+
+double jacobian_of(TransformedParameter c, double coordinate) {
+  if (c == TransformedParameter::kLogAlpha) return std::exp(coordinate);
+  return c == TransformedParameter::kDeadZone ? 0.25 : 1.0;
+}
 
 bool SteadyFit::held_by_bound(TransformedParameter c) const {
   return std::find(at_bound.begin(), at_bound.end(), c) != at_bound.end();
@@ -114,6 +150,43 @@ Resistance<double> SteadyFit::law() const {
 bool is_physical(const Resistance<double>& law) {
   return std::isnormal(law.alpha) && std::isfinite(law.beta) && std::isfinite(law.coulomb) &&
          std::isfinite(law.quadratic);
+}
+
+SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points) {
+  const Eigen::Index n = rows_of(points);
+  Eigen::MatrixXd design(n, 2);
+  Eigen::VectorXd observed(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const SteadyPoint& point = points[at(i)];
+    design.row(i) << 1.0, std::log(point.rate);
+    observed(i) = std::log(point.force);
+  }
+  const PivotedQr qr(design);
+  const Eigen::VectorXd singular = singular_values(design);
+  SteadyFit fit;
+  fit.free = coordinates_of(Family::kPower);
+  fit.rank = static_cast<int>(qr.rank());
+  fit.condition_number = n > 1 && singular(1) > 0.0 ? singular(0) / singular(1)
+                                                    : std::numeric_limits<double>::infinity();
+  fit.stop_reason = "linear problem, solved by QR";
+  if (fit.rank < 2) return fit;
+  const Eigen::VectorXd theta = qr.solve(observed);
+  fit[TransformedParameter::kLogAlpha] = theta(0);
+  fit[TransformedParameter::kBeta] = theta(1);
+  fit.usable = is_physical(fit.law());
+  if (!fit.usable) {
+    fit.stop_reason = "failed: the curve through the logarithms is not finite";
+    return fit;
+  }
+  fit.residuals = design * theta - observed;
+  fit.leverages = qr.leverages();
+  fit.degrees_of_freedom = static_cast<int>(n) - 2;
+  if (fit.degrees_of_freedom > 0) {
+    const double variance = fit.residuals.squaredNorm() / fit.degrees_of_freedom;
+    fit.residual_std = std::sqrt(variance);
+    fit.covariance = covariance_of(qr, variance);
+  }
+  return fit;
 }
 
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known) {

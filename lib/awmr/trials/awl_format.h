@@ -1,4 +1,5 @@
-/// Finds rows, damaged bytes and missing rows of an `.awl` file. Private to this folder.
+/// Parses the header of an `.awl` file, which defines the columns of its rows. Finds rows, damaged
+/// bytes and missing rows. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +7,39 @@
 #include <string_view>
 #include <vector>
 
-#include "awl_header.h"
 #include "awmr/core/result.h"
 
 namespace awmr::awl {
+
+/// Number type of a column.
+enum class Kind { kFloat, kUnsigned, kByte };
+
+struct Column {
+  std::string name;
+  Kind kind = Kind::kFloat;
+  double scale = 1.0;      ///< physical value of the column = stored number times this
+  std::size_t offset = 0;  ///< byte offset in the row
+
+  bool operator==(const Column&) const = default;
+};
+
+/// Layout of the rows of a file.
+struct Layout {
+  std::string parameters_sha256;  ///< SHA-256 of the model and gains in the firmware
+  std::size_t row_bytes = 0;
+  std::vector<Column> columns;  ///< columns in the order of the row; the first is t_s
+
+  bool operator==(const Layout&) const = default;
+  /// Returns the column of this name, or null.
+  const Column* find(std::string_view name) const;
+};
+
+/// Returns the scaled value of a column. Precondition: `row` has Layout::row_bytes bytes.
+double value_in(std::string_view row, const Column& column);
+
+/// Returns the stored byte of the one-byte column `name`, without applying the scale. Used for
+/// columns of bits, such as `fault`. 0 if the layout has no such column.
+unsigned bits_in(std::string_view row, const Layout& layout, std::string_view name);
 
 /// Position of a complete row.
 struct Place {
