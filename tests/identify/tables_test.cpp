@@ -89,6 +89,56 @@ TEST(Families, AutoSelectsThePowerLawOnlyIfItIsTheTruth) {
   ASSERT_NE(verdict, nullptr);
   EXPECT_THAT(verdict->message,
               ::testing::HasSubstr("use " + option_text("family coulomb-linear")));
+  EXPECT_FALSE(forced->model[ParameterId::kSurgeAlpha].ci95);
+  EXPECT_TRUE(plain->model[ParameterId::kSurgeAlpha].ci95);
+}
+
+/// Five turns to each side at two forces, with 0.3 % of noise in the yaw rate. A constant moment
+/// `pull_m`, positive to the left, acts on all.
+TrialData turns_to_both_sides(double pull_m, std::uint64_t seed) {
+  const Resistance<double> yaw{.alpha = 0.12, .beta = 0.9};
+  Random random(seed, 5);
+  TrialData data = runs_on({.alpha = 1.3, .beta = 0.9}, 0.0, 0.0, 1);
+  data.turning = TrialSet<TurningRow>{"turning.csv", {}, 0};
+  int line = 2;
+  for (const double side : {1.0, -1.0}) {
+    for (int i = 1; i <= 5; ++i) {
+      for (const double force : {0.3, 0.6}) {
+        const double moment = 0.4 * force * std::sin(0.08 * i);
+        const double rate = *steady_rate(yaw, moment + side * pull_m);
+        data.turning->rows.push_back({.line = line++,
+                                      .steering_rad = 0.08 * i,
+                                      .wheel_force = force,
+                                      .tau_turn_m = moment,
+                                      .yaw_rate_radps = rate * (1.0 + 0.003 * random.normal()),
+                                      .is_right_turn = side < 0.0});
+      }
+    }
+  }
+  return data;
+}
+
+TEST(Turns, ThatDifferBySideGiveNoIntervals) {
+  for (const double pull_m : {-0.003, 0.003}) {
+    const auto result = identify(vehicle(), turns_to_both_sides(pull_m, 1), {}, {});
+    ASSERT_TRUE(result);
+    const Finding* differ = finding(result->model, "turns-differ");
+    ASSERT_NE(differ, nullptr);
+    EXPECT_THAT(differ->message,
+                ::testing::HasSubstr(pull_m > 0.0 ? "to the left" : "to the right"));
+    EXPECT_FALSE(result->model[ParameterId::kYawBeta].ci95);
+    EXPECT_TRUE(result->model[ParameterId::kSurgeBeta].ci95);
+  }
+}
+
+TEST(Turns, ThatAgreeAreSeldomSaidToDiffer) {
+  int differ = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const auto result = identify(vehicle(), turns_to_both_sides(0.0, seed), {}, {});
+    ASSERT_TRUE(result);
+    differ += finding(result->model, "turns-differ") != nullptr;
+  }
+  EXPECT_LE(differ, 4);  // level 1 %: more than 4 of 100 with probability 0.3 %
 }
 
 TEST(Families, DeadZoneOfTheWheelsIsSubtractedFromTheTurningRuns) {

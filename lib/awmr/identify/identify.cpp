@@ -14,6 +14,7 @@
 #include "awmr/identify/main_values.h"
 #include "awmr/identify/refusals.h"
 #include "awmr/identify/tables/scrub.h"
+#include "awmr/identify/tables/turn_sides.h"
 #include "awmr/identify/trials_as_used.h"
 #include "awmr/model/plausibility.h"
 
@@ -134,9 +135,15 @@ void record(Step& step, Model& model) {
   std::move(step.findings.begin(), step.findings.end(), std::back_inserter(model.record.findings));
 }
 
-/// Fits the surge or yaw law and, if the runs determine it, sets it in the model.
-SubjectFit identify_law(const Subject& subject, const SubjectOptions& options, MainValues& values) {
+/// Fits the surge or yaw law and, if the runs determine it, sets it in the model. `contradiction`:
+/// finding that the runs do not agree with any such law, so that its parameters get no intervals.
+SubjectFit identify_law(const Subject& subject, const SubjectOptions& options,
+                        std::optional<Finding> contradiction, MainValues& values) {
   SubjectFit fit = fit_subject(subject, options);
+  if (contradiction) {
+    fit.is_inadequate = true;
+    fit.findings.push_back(*std::move(contradiction));
+  }
   if (fit.chosen) set_law(subject, fit, values);
   record(fit, values.model);
   return fit;
@@ -148,14 +155,16 @@ SubjectFit identify_laws(const Vehicle& vehicle, const TrialData& data,
   const Method method = method_of(data, options);
   SubjectFit surge;
   if (data.surge) {
-    surge = identify_law(surge_subject(vehicle, *data.surge),
-                         subject_options(options, method, options.surge_family), values);
+    surge =
+        identify_law(surge_subject(vehicle, *data.surge),
+                     subject_options(options, method, options.surge_family), std::nullopt, values);
     reasons.surge = surge.refusal_reason;
   }
   if (data.turning) {
     const double dead_zone = *values.model[ParameterId::kWheelDeadZone].value;
-    reasons.turning = identify_law(yaw_subject(vehicle, *data.turning, dead_zone),
-                                   subject_options(options, method, yaw_family(options)), values)
+    const Subject yaw = yaw_subject(vehicle, *data.turning, dead_zone);
+    reasons.turning = identify_law(yaw, subject_options(options, method, yaw_family(options)),
+                                   compare_sides(yaw, *data.turning), values)
                           .refusal_reason;
   }
   return surge;
@@ -168,7 +177,7 @@ void identify_mass(const Vehicle& vehicle, const TrialData& data, const Identify
   MassResult mass = estimate_mass(surge.chosen ? &surge : nullptr, data.coastdown, data.curves,
                                   vehicle, options.surge_family, options.joint);
   record(mass, values.model);
-  set_mass(mass, surge.chosen, values);
+  set_mass(mass, surge, values);
   reasons.mass = mass.reason;
   reasons.curve_alone = mass.alone.has_value();
 }

@@ -77,7 +77,7 @@ void set_mass_and_law(const SteadyFit& law, double log_mass, const Posterior& po
   }
 }
 
-void set_joint(const JointFit& joint, MainValues& values) {
+void set_joint(const JointFit& joint, bool is_inadequate, MainValues& values) {
   const SteadyFit& law = joint.surge;
   Eigen::VectorXd centre(joint.covariance.rows());
   for (std::size_t i = 0; i < law.free.size(); ++i) {
@@ -90,8 +90,10 @@ void set_joint(const JointFit& joint, MainValues& values) {
                         "joint with the coast-down curves"};
   }
   centre(centre.size() - 1) = joint.log_mass_norm;
-  set_mass_and_law(law, joint.log_mass_norm, {{{1.0, centre, joint.covariance, joint.dof}}},
-                   Source::kFitted, "joint with the surge runs", values);
+  Posterior posterior;
+  if (!is_inadequate) posterior.alternatives = {{1.0, centre, joint.covariance, joint.dof}};
+  set_mass_and_law(law, joint.log_mass_norm, posterior, Source::kFitted,
+                   "joint with the surge runs", values);
 }
 
 /// Sets the surge family of the log fit. Terms that this family does not have become 0, even if a
@@ -178,19 +180,20 @@ void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values) 
   }
   if (!terms_of(family).beta) model[subject.beta] = exponent_of_family(family);
   const Posterior posterior = posterior_of(fit.alternatives);
-  if (posterior.empty()) return;
+  if (posterior.empty() || fit.is_inadequate) return;
   set_law_errors(subject, law, posterior, values.covariance.add_block(posterior.covariance()),
                  values);
 }
 
-void set_mass(const MassResult& mass, const std::optional<SteadyFit>& surge, MainValues& values) {
+void set_mass(const MassResult& mass, const SubjectFit& surge, MainValues& values) {
   // Only for the power law: in the other families b1 has no meaning without c1/a1 or q1/a1.
   const bool power_alone = mass.alone && mass.alone->family == Family::kPower;
   if (power_alone && mass.alone->beta_variance > 0.0) set_beta_of_curve(*mass.alone, values.model);
   if (mass.joint) {
-    set_joint(*mass.joint, values);
+    set_joint(*mass.joint, surge.is_inadequate, values);
   } else if (mass.estimate) {
-    set_mass_and_law(*surge, mass.estimate->log_mass_norm, mass.posterior, Source::kDerived,
+    set_mass_and_law(*surge.chosen, mass.estimate->log_mass_norm,
+                     surge.is_inadequate ? Posterior{} : mass.posterior, Source::kDerived,
                      mass.estimate->method, values);
   }
   values.model.mass_norm_by_grip = mass.by_grip;

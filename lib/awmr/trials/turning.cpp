@@ -267,7 +267,8 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
                     .yaw_rate_radps = rate->used,
                     .turns = rate->amount,
                     .elapsed_s = rate->elapsed_s,
-                    .sides = turn->sides};
+                    .sides = turn->sides,
+                    .is_right_turn = turn->left < 0.0};
 }
 
 /// If all turns in the table of a vehicle with steering are differential, moves them to `rows`, so

@@ -131,7 +131,8 @@ std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wante
                 fmt::format("a power law does not describe these runs: the AICc of {} is lower by "
                             "{:.1f} (residual standard deviation {:.3g}, power law {:.3g}){}",
                             better, difference, best->fit.residual_std, power->fit.residual_std,
-                            power_used ? fmt::format("; use {}",
+                            power_used ? fmt::format(". The values that follow from these runs get "
+                                                     "no intervals; use {}",
                                                      option_text(fmt::format("family {}", better)))
                                        : std::string()))};
 }
@@ -247,7 +248,9 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
   if (!options.side_by_side) return result;
   add_diagnostics(subject, report, result);
   if (options.loss == Loss::kSquared) {
-    append(power_law_findings(subject, wanted, candidates, result.problem.family), result.findings);
+    auto findings = power_law_findings(subject, wanted, candidates, result.problem.family);
+    result.is_inadequate = !findings.empty() && result.problem.family == Family::kPower;
+    append(std::move(findings), result.findings);
   }
   return result;
 }
