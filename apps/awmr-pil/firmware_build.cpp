@@ -10,7 +10,6 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/process.h"
-#include "firmware_sources.h"
 
 namespace awmr::pil {
 namespace {

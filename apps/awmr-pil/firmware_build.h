@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "awmr/core/result.h"
@@ -37,5 +39,8 @@ Status prepare_to_keep(const std::filesystem::path& kept);
 /// Copies the sources and the ELF file of the build from `directory` to `kept`. Errors (input): a
 /// file cannot be written; a file or folder of the build is a symbolic link in `kept`.
 Status keep_firmware(const std::filesystem::path& directory, const std::filesystem::path& kept);
+
+/// Name and content of each source file of the firmware; they are compiled into the program.
+const std::vector<std::pair<std::string_view, std::string_view>>& firmware_sources();
 
 }  // namespace awmr::pil

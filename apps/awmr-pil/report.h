@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -84,6 +85,12 @@ struct Report {
     return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.passed; });
   }
 };
+
+/// Returns the numbers of the steps before which the chip was restarted, in increasing order.
+std::vector<std::size_t> restarts_of(const std::vector<LoopRow>& rows);
+
+/// Checks whether a run shows the faults and the safe commands that its injection must cause.
+Injected injected_of(const LoopSetup& setup, const std::vector<LoopRow>& rows);
 
 /// Adds to the report the checks of cycles, memory, differences and faults, each with its bound.
 /// `period_cycles`: sample time in clock cycles of the chip. Precondition: cycles_max and

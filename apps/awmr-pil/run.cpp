@@ -19,7 +19,6 @@
 #include "executor.h"
 #include "firmware_build.h"
 #include "gains_origin.h"
-#include "injection_result.h"
 #include "injections.h"
 #include "loop.h"
 #include "report.h"

@@ -18,7 +18,7 @@
 #include "awmr/trials/load.h"
 #include "awmr/tune/tune_file.h"
 #include "commands.h"
-#include "paths.h"
+#include "option_values.h"
 #include "project.h"
 #include "project_options.h"
 

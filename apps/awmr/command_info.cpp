@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <sstream>
 
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

@@ -1,9 +1,11 @@
-/// Describes all commands as data, from which completions and manual pages are generated. The data
-/// come from the CLI11 definitions that also parse the options and print `--help`.
+/// Describes all commands as data, and generates completion scripts and manual pages from them. The
+/// data come from the CLI11 definitions that also parse the options and print `--help`.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "awmr/core/name_table.h"
 
 namespace CLI {
 class App;
@@ -43,5 +45,21 @@ struct CommandInfo {
 
 /// Describes the program itself, and after it each command, in the order of the help.
 std::vector<CommandInfo> commands_of(const CLI::App& app);
+
+/// Shells for which there is a script that completes commands, options, choices and files.
+enum class Shell { kBash, kZsh, kFish };
+inline constexpr NameTable<Shell, 3> kShellNames{
+    {{"bash", Shell::kBash}, {"zsh", Shell::kZsh}, {"fish", Shell::kFish}}};
+
+/// Returns the completion script for a shell. `commands`: result of commands_of().
+std::string completion_text(Shell shell, const std::vector<CommandInfo>& commands);
+
+/// Returns the name of the command's manual page, without the section: "awmr" for the program,
+/// "awmr-identify" for a command.
+std::string page_name(const CommandInfo& command);
+
+/// Returns the manual page of a command in man(7) format. If `command` is the program itself, the page lists all
+/// commands.
+std::string man_page(const CommandInfo& command, const std::vector<CommandInfo>& commands);
 
 }  // namespace awmr::cli

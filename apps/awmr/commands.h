@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "allocation_option.h"
 #include "awmr/compare/compare.h"
 #include "awmr/emit/emit.h"
 #include "awmr/emit/export.h"
@@ -18,10 +17,9 @@
 #include "awmr/tune/tune.h"
 #include "awmr/validate/validate.h"
 #include "console.h"
-#include "heading_rate_option.h"
 #include "inputs.h"
 #include "live_stream.h"
-#include "plant_option.h"
+#include "scenario_options.h"
 #include "shard_option.h"
 
 namespace awmr::cli {

@@ -10,8 +10,7 @@
 #include "awmr/identify/compass/compass.h"
 #include "commands.h"
 #include "inputs.h"
-#include "numbers.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

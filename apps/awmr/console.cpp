@@ -20,7 +20,7 @@
 #include "awmr/model/si_units.h"
 #include "findings_text.h"
 #include "json_output.h"
-#include "paths.h"
+#include "option_values.h"
 #include "progress.h"
 #include "style.h"
 

@@ -20,12 +20,11 @@
 #include "awmr/model/plausibility.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/simulate/validity.h"
-#include "choices.h"
 #include "commands.h"
 #include "emit_options.h"
 #include "gains_origin.h"
 #include "inputs.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

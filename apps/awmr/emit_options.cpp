@@ -9,8 +9,7 @@
 #include "awmr/core/provenance.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/scenario.h"
-#include "choices.h"
-#include "numbers.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "awmr/core/nearest.h"
 #include "awmr/core/text.h"
 #include "commands.h"
-#include "findings_file.h"
+#include "embedded_files.h"
 
 namespace awmr::cli {
 namespace {

@@ -8,10 +8,9 @@
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
-#include "choices.h"
 #include "commands.h"
 #include "gains_origin.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 

@@ -14,7 +14,7 @@
 #include "identify_options.h"
 #include "identify_words.h"
 #include "inputs.h"
-#include "paths.h"
+#include "option_values.h"
 #include "progress.h"
 
 namespace awmr::cli {

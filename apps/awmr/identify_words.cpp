@@ -2,10 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "choices.h"
 #include "identify_options.h"
-#include "numbers.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 

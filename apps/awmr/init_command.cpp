@@ -7,11 +7,9 @@
 #include <system_error>
 
 #include "awmr/core/file.h"
-#include "choices.h"
 #include "commands.h"
-#include "example_files.h"
-#include "paths.h"
-#include "templates.h"
+#include "embedded_files.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

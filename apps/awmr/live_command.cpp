@@ -18,8 +18,7 @@
 #include "identify_words.h"
 #include "live_fit.h"
 #include "live_screen.h"
-#include "numbers.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

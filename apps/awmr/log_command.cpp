@@ -8,7 +8,7 @@
 #include "awmr/trials/awl.h"
 #include "commands.h"
 #include "inputs.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "man_page.h"
+#include "command_info.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

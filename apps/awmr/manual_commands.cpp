@@ -7,12 +7,9 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
-#include "choices.h"
 #include "command_info.h"
 #include "commands.h"
-#include "completion.h"
-#include "man_page.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

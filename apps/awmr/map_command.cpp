@@ -14,10 +14,9 @@
 #include "awmr/trials/column_guess.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
-#include "choices.h"
 #include "commands.h"
 #include "inputs.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

@@ -9,7 +9,7 @@
 #include "awmr/identify/planning/recover_shard.h"
 #include "awmr/model/findings_json.h"
 #include "commands.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

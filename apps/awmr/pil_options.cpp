@@ -5,10 +5,8 @@
 #include <string>
 
 #include "awmr/simulate/scenario.h"
-#include "choices.h"
 #include "emit_options.h"
-#include "numbers.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

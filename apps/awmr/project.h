@@ -9,8 +9,8 @@
 #include "awmr/compare/compare.h"
 #include "awmr/core/result.h"
 #include "awmr/identify/identify.h"
+#include "awmr/simulate/validity.h"
 #include "awmr/trials/read_trials.h"
-#include "heading_rate_option.h"
 
 namespace awmr::cli {
 

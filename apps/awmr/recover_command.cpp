@@ -7,12 +7,10 @@
 #include "awmr/core/file.h"
 #include "awmr/identify/planning/recover_shard.h"
 #include "awmr/model/model_file.h"
-#include "choices.h"
 #include "commands.h"
 #include "identify_options.h"
 #include "inputs.h"
-#include "numbers.h"
-#include "paths.h"
+#include "option_values.h"
 #include "progress.h"
 
 namespace awmr::cli {

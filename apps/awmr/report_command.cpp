@@ -9,7 +9,7 @@
 
 #include "awmr/core/file.h"
 #include "commands.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

@@ -15,7 +15,7 @@
 #include "awmr/tune/tune_file.h"
 #include "commands.h"
 #include "json_output.h"
-#include "paths.h"
+#include "option_values.h"
 #include "project.h"
 #include "project_options.h"
 #include "run_files.h"

@@ -3,28 +3,128 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <limits>
 #include <memory>
 
 #include "awmr/compare/shard.h"
 #include "awmr/core/file.h"
+#include "awmr/core/json.h"
 #include "awmr/emit/manifest.h"
 #include "awmr/identify/planning/recover_shard.h"
 #include "awmr/identify/planning/suggest.h"
+#include "awmr/model/findings_json.h"
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/report/report.h"
 #include "awmr/simulate/run_side.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/tune_file.h"
-#include "choices.h"
 #include "commands.h"
 #include "json_output.h"
-#include "paths.h"
+#include "option_values.h"
 #include "project.h"
-#include "schemas.h"
 
 namespace awmr::cli {
 namespace {
+
+constexpr long kAnyCount = std::numeric_limits<int>::max();
+
+/// Object with the difference of two runs for each signal; null if the difference is not finite.
+void describe_difference(JsonObject json) {
+  for (const std::string& signal : json.keys()) json.nullable_number(signal);
+}
+
+void describe_chip(JsonObject& json) {
+  JsonObject cycles = json.object("cycles");
+  for (const char* key : {"min", "mean", "max"}) cycles.number(key, kNonNegative);
+  cycles.reject_unknown_keys();
+  json.nullable_number("cycles_bound", kNonNegative);
+  if (auto hostile = json.optional_object("hostile")) {
+    hostile->integer("steps", 0, kAnyCount);
+    hostile->integer("differing", 0, kAnyCount);
+    hostile->reject_unknown_keys();
+  }
+  json.number("period_share", kNonNegative);
+  json.integer("flash_bytes", 0, kAnyCount);
+  json.integer("ram_bytes", 0, kAnyCount);
+  json.optional_integer("repeats", 0, kAnyCount);
+  json.optional_integer("restarts", 0, kAnyCount);
+  json.nullable_number("stack_bytes", kNonNegative);
+}
+
+void describe_verdict(JsonObject& json) {
+  if (auto injected = json.optional_object("injected")) {
+    for (const char* key : {"expected_fault", "fault", "start_fault"}) {
+      injected->integer(key, 0, kAnyCount);
+    }
+    injected->boolean("safe");
+    injected->reject_unknown_keys();
+  }
+  for (JsonObject& check : json.objects("checks")) {
+    check.string("check");
+    check.nullable_number("value");
+    check.number("bound");
+    check.boolean("passed");
+    check.reject_unknown_keys();
+  }
+  static const std::string kVerdicts[] = {"passed", "failed"};
+  json.choice("verdict", kVerdicts);
+}
+
+void describe_pil(JsonObject& json) {
+  json.schema("awmr.pil/1");
+  read_provenance(json);
+  json.string("scenario");
+  json.string("mode");
+  json.integer("samples", 0, kAnyCount);
+  json.boolean("guidance_on_chip");
+  describe_difference(json.object("difference"));
+  if (auto exact = json.optional_object("difference_double")) describe_difference(*exact);
+  if (auto effect = json.optional_object("effect")) {
+    for (const JsonObject& one : effect->values()) describe_difference(one);
+  }
+  describe_chip(json);
+  describe_verdict(json);
+  read_findings(json);
+  json.reject_unknown_keys();
+}
+
+/// Schema of pil.json, which awmr-pil writes.
+std::string pil_schema() {
+  return json_schema_text(
+      "awmr.pil/1", "Comparison of a run of the firmware on the chip with the same run on the host",
+      describe_pil);
+}
+
+struct Schema {
+  std::string name;       ///< format name: "vehicle"
+  std::string (*text)();  ///< JSON Schema, draft 2020-12
+};
+
+/// All schemas, in the order in which a user creates the files.
+const std::vector<Schema>& schemas() {
+  static const std::vector<Schema> all{
+      {"project", project_schema},
+      {"vehicle", vehicle_schema},
+      {"columns", columns_schema},
+      {"model", model_schema},
+      {"suggest", suggest_schema},
+      {"recover", recover_schema},
+      {"recover_shard", [] { return shard_schema(recover_shards()); }},
+      {"tune", tune_schema},
+      {"gains", gains_schema},
+      {"scenario", scenario_schema},
+      {"run", run_schema},
+      {"emit", emit_schema},
+      {"validation", validation_schema},
+      {"comparison", comparison_schema},
+      {"shard", [] { return shard_schema(comparison_shards()); }},
+      {"figures", figures_schema},
+      {"pil", pil_schema},
+      {"result", result_schema},
+      {"error", error_schema}};
+  return all;
+}
 
 std::vector<std::string> schema_names() {
   std::vector<std::string> names;
@@ -53,30 +153,6 @@ Outcome show_schema(const std::string& name) {
 }
 
 }  // namespace
-
-const std::vector<Schema>& schemas() {
-  static const std::vector<Schema> all{
-      {"project", project_schema},
-      {"vehicle", vehicle_schema},
-      {"columns", columns_schema},
-      {"model", model_schema},
-      {"suggest", suggest_schema},
-      {"recover", recover_schema},
-      {"recover_shard", [] { return shard_schema(recover_shards()); }},
-      {"tune", tune_schema},
-      {"gains", gains_schema},
-      {"scenario", scenario_schema},
-      {"run", run_schema},
-      {"emit", emit_schema},
-      {"validation", validation_schema},
-      {"comparison", comparison_schema},
-      {"shard", [] { return shard_schema(comparison_shards()); }},
-      {"figures", figures_schema},
-      {"pil", pil_schema},
-      {"result", result_schema},
-      {"error", error_schema}};
-  return all;
-}
 
 void add_schema(CLI::App& app, Session& session) {
   struct Words {

@@ -17,11 +17,10 @@
 #include "awmr/simulate/run_table.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/validity.h"
-#include "choices.h"
 #include "commands.h"
 #include "gains_origin.h"
 #include "inputs.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 namespace {

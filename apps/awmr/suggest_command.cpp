@@ -10,11 +10,9 @@
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
-#include "choices.h"
 #include "commands.h"
 #include "inputs.h"
-#include "numbers.h"
-#include "paths.h"
+#include "option_values.h"
 #include "progress.h"
 
 namespace awmr::cli {

@@ -9,12 +9,10 @@
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/tune_file.h"
 #include "awmr/tune/tune_findings.h"
-#include "choices.h"
 #include "commands.h"
 #include "gains_origin.h"
 #include "inputs.h"
-#include "numbers.h"
-#include "paths.h"
+#include "option_values.h"
 #include "progress.h"
 #include "tune_text.h"
 

@@ -14,14 +14,12 @@
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/trials/log_consistency.h"
 #include "awmr/trials/trial_columns.h"
-#include "choices.h"
 #include "commands.h"
 #include "gains_origin.h"
 #include "identify_options.h"
 #include "identify_words.h"
 #include "inputs.h"
-#include "numbers.h"
-#include "paths.h"
+#include "option_values.h"
 #include "progress.h"
 
 namespace awmr::cli {

@@ -1,5 +1,5 @@
 /// Files of print figures.
-#include "awmr/report/figures/figure_files.h"
+#include "awmr/report/figures/figure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

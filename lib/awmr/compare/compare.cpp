@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -10,7 +13,6 @@
 #include "awmr/compare/check_comparison.h"
 #include "awmr/compare/decision.h"
 #include "awmr/compare/sampled_plants.h"
-#include "awmr/compare/shared_noise.h"
 #include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
 #include "awmr/model/fitted_law.h"
@@ -41,6 +43,35 @@ using Slots = std::vector<std::optional<ComparisonRow>>;
 /// Longest run, in control steps, whose sensor noise is drawn in advance and shared by the modes.
 /// The noise takes 24 bytes per step and run, up to 38 MB for a batch.
 constexpr double kMaxSharedNoise = 1e5;
+
+/// Sensor noise of some samples of a scenario, used by blocks of runs in different modes and with
+/// different gains, possibly on different threads. The first block that needs the noise draws it; the last one frees it.
+class SharedNoise {
+ public:
+  /// Noise of each sample, by the number of the sample.
+  using Drawn = std::map<std::size_t, DrawnNoise>;
+
+  /// Registers a block that will use the noise. Must be called for all blocks before the first of
+  /// them starts.
+  void add_user() { ++users_; }
+
+  /// Returns the noise. The first call obtains it from `draw()`.
+  template <class Draw>
+  const Drawn& drawn(const Draw& draw) {
+    std::call_once(once_, [&] { drawn_ = draw(); });
+    return drawn_;
+  }
+
+  /// Unregisters a block that no longer needs the noise. The last one frees the noise.
+  void remove_user() {
+    if (--users_ == 0) drawn_.clear();
+  }
+
+ private:
+  std::once_flag once_;
+  std::atomic<std::size_t> users_ = 0;
+  Drawn drawn_;
+};
 
 /// A batch of runs: one scenario, set of gains and mode, with the samples to run.
 struct Block {

@@ -1,6 +1,8 @@
 /// Owner of a POSIX file descriptor.
 #pragma once
 
+#include <unistd.h>
+
 #include <utility>
 
 namespace awmr {
@@ -9,7 +11,9 @@ namespace awmr {
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor();
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
   Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   Descriptor& operator=(Descriptor&&) = delete;
   int number() const { return number_; }

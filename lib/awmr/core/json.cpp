@@ -10,7 +10,6 @@
 
 #include "awmr/core/json_fault.h"
 #include "awmr/core/json_shape.h"
-#include "awmr/core/json_text.h"
 #include "awmr/core/nearest.h"
 
 namespace awmr {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "awmr/core/input_file.h"
-#include "awmr/core/json_text.h"
+#include "awmr/core/json_fault.h"
 #include "awmr/core/text.h"
 
 namespace awmr {

@@ -1,7 +1,8 @@
-/// Texts of faults in JSON values. Private to this folder.
+/// Texts and places of faults in JSON values. Private to this folder.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/core/json.h"
@@ -17,5 +18,20 @@ ErrorCode number_error(const Json& value);
 /// Adds a fault at the JSON pointer `pointer` of the file, unless there are kMaxFaults already.
 void add_fault(ErrorCode code, std::vector<Fault>& faults, const std::string& file,
                const std::string& pointer, std::string message);
+
+/// A key as written in a JSON pointer: '~' as "~0", '/' as "~1". [RFC 6901, section 3]
+inline std::string pointer_token(std::string_view key) {
+  std::string text;
+  for (const char c : key) {
+    if (c == '~') {
+      text += "~0";
+    } else if (c == '/') {
+      text += "~1";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
 
 }  // namespace awmr

@@ -7,7 +7,7 @@
 
 #include "awmr/emit/emit.h"
 #include "awmr/simulate/scenario.h"
-#include "literals.h"
+#include "c_text.h"
 
 namespace awmr {
 namespace {

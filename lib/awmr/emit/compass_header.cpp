@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "awmr/core/units.h"
-#include "comment_safe.h"
-#include "literals.h"
+#include "c_text.h"
 
 namespace awmr {
 namespace {

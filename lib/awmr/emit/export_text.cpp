@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "awmr/core/text.h"
-#include "comment_safe.h"
+#include "c_text.h"
 #include "exported_values.h"
 
 namespace awmr {

@@ -7,8 +7,7 @@
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
 #include "awmr/model/observer_rate.h"
-#include "comment_safe.h"
-#include "literals.h"
+#include "c_text.h"
 #include "macros.h"
 
 namespace awmr {

@@ -1,7 +1,9 @@
-/// Converts the vehicle to and from JSON, for vehicle.json and for `/vehicle` of model.json.
-/// Private to this folder; include from .cpp files only.
+/// Converts the vehicle, and the range of a motor's force, to and from JSON: for vehicle.json, for
+/// `/vehicle` of model.json, and for the unmodelled variation (`open`) of a search for gains. Not
+/// installed; include from .cpp files only.
 #pragma once
 
+#include "awmr/core/interval.h"
 #include "awmr/core/json.h"
 #include "awmr/model/vehicle.h"
 
@@ -14,5 +16,9 @@ Vehicle vehicle_from_json(JsonObject& json);
 /// Writes the vehicle. Default values are written, too. An optional quantity that is not known gets
 /// no key.
 Json vehicle_to_json(const Vehicle& vehicle);
+
+/// Reads `{min, max}` of F' of one wheel over F_max: -1 <= min <= 0 < max <= 1.
+Interval wheel_force_from_json(JsonObject json);
+Json wheel_force_to_json(const Interval& force);
 
 }  // namespace awmr

@@ -9,7 +9,7 @@
 #include "awmr/core/drawn_rows.h"
 #include "awmr/core/json.h"
 #include "awmr/model/model.h"
-#include "awmr/report/figures/figure_files.h"
+#include "awmr/report/figures/figure.h"
 #include "awmr/report/figures/figures_of.h"
 #include "awmr/report/live_numbers.h"
 #include "awmr/report/report_data.h"

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "awmr/core/units.h"
 #include "awmr/model/observer_rate.h"
 #include "awmr/simulate/closed_loop.h"
 #include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
-#include "awmr/simulate/straight.h"
 
 namespace awmr {
 
@@ -70,6 +70,34 @@ ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>&
   // A constant thrust replaces the speed law, so a surge observer has no effect.
   if (scenario.held_tau_speed()) observer.surge_max = 0.0;
   return observer;
+}
+
+/// True if nothing in this row turns the vehicle or moves it sideways. Rounding errors, such as
+/// those of sin(pi) or atan2, are tolerated. They have a larger effect than usual, because the
+/// unknown resistances in yaw and sway are simulated as 0.
+bool is_straight(const RunRow& row) {
+  constexpr double kRounding = 1e-9;  // m/s, rad/s, rad, m
+  const double turning[] = {row.state.v_mps,        row.state.r_radps,
+                            row.state.steering_rad, row.steering_command_rad,
+                            row.tau_turn_m,         row.force.right - row.force.left};
+  return std::all_of(std::begin(turning), std::end(turning),
+                     [](double number) { return std::abs(number) <= kRounding; });
+}
+
+/// Checks that the vehicle drives straight in this run. Errors (input): the run turns, or moves
+/// sideways. The message has the time and the parameters that the model lacks. Precondition: the
+/// model only has parameters for straight motion.
+Status check_straight(const Run& run, const Scenario& scenario, const Model& model) {
+  const auto turned = std::find_if_not(run.rows.begin(), run.rows.end(), is_straight);
+  if (turned == run.rows.end()) return {};
+  Error error = model.plant(Motion::kPlanar).error();
+  error.faults.insert(
+      error.faults.begin(),
+      Fault{ErrorCode::kUnsupported, fmt::format("scenario '{}'", scenario.name),
+            fmt::format("the run turns at {:g} s, but the model only has parameters for straight "
+                        "motion; give a scenario without turns, or record the trials named below",
+                        turned->t_s)});
+  return tl::unexpected(std::move(error));
 }
 
 }  // namespace

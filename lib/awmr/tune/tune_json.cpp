@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "awmr/model/model_json.h"
-#include "awmr/model/wheel_force_json.h"
+#include "awmr/model/vehicle_json.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/option_table.h"
 

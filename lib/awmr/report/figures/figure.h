@@ -1,11 +1,13 @@
-/// A print figure as plain values: axes, panels and series. Private to report/.
+/// A print figure as plain values: axes, panels and series; and the text of its files: one CSV file
+/// per figure, and figures.json. Private to report/.
 ///
-/// figures_of.h makes figures from results, figure_files.h writes them, and assets/plot.py draws
-/// them.
+/// figures_of.h makes figures from results, and assets/plot.py draws them.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "awmr/core/result.h"
 
 namespace awmr {
 
@@ -72,5 +74,14 @@ struct Figure {
   bool equal_axes = false;  ///< true: x and y have the same scale; only for a figure with one panel
   std::vector<FigureCircle> circles = {};  ///< obstacles; only for equal_axes
 };
+
+/// Text of the CSV file of a figure: one row per point with the columns panel, series (indices from
+/// 0), name (of the series), x, y, low, high. Error (input): a number is not finite; the message
+/// names series and figure.
+Result<std::string> figure_csv(const Figure& figure);
+
+/// Text of figures.json: names, axes, panels, and series with their shapes and roles, without the
+/// numbers of the CSV files.
+std::string figures_text(const std::vector<Figure>& figures);
 
 }  // namespace awmr

@@ -1,5 +1,6 @@
-/// Options `--plant` and `--tyres` of the commands that simulate scenarios: the simulated vehicle
-/// model, and its tyres.
+/// Options of the commands that simulate scenarios: `--plant` and `--tyres` (the simulated vehicle
+/// model, and its tyres), `--allocation`, and `--heading-rate-limit` (how fast the commanded heading
+/// may change, simulate/validity.h).
 #pragma once
 
 #include <fmt/format.h>
@@ -15,10 +16,11 @@
 #include <vector>
 
 #include "awmr/core/result.h"
+#include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
+#include "awmr/simulate/validity.h"
 #include "awmr/validate/tyre_fit.h"
-#include "choices.h"
-#include "paths.h"
+#include "option_values.h"
 
 namespace awmr::cli {
 
@@ -144,6 +146,72 @@ inline std::vector<std::pair<std::string, std::string>> options_of(
                                      [](const Scenario& s) { return s.tyres.has_value(); });
   if (scenarios.empty() || (is_model && !choice.kind)) return {};
   return {{kPlantName, plants_text(scenarios)}};
+}
+
+/// Form of the equations that compute wheel forces and steering angle (exact, or for small angles),
+/// if given on the command line. Overrides the form in the vehicle and the scenarios. Empty: no
+/// override.
+using AllocationChoice = std::optional<AllocationForm>;
+
+inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
+  const auto set = [&choice](const std::string& name) {
+    choice = value_in(kAllocationFormNames, name);
+  };
+  command
+      .add_option_function<std::string>(
+          "--allocation", set,
+          "How the controller computes wheel forces and steering angle from thrust and yaw moment: "
+          "exactly, or by the paper's equations for small angles (default: as the scenario or "
+          "vehicle selects, else exact)")
+      ->check(one_of(names_in(kAllocationFormNames)));
+}
+
+/// Returns the option and its value, for the list of options in an output file; empty if the option
+/// is not given.
+inline std::vector<std::pair<std::string, std::string>> options_of(const AllocationChoice& choice) {
+  if (!choice) return {};
+  return {{"allocation", std::string(name_in(kAllocationFormNames, *choice))}};
+}
+
+/// Makes the chosen form apply everywhere: sets it in the model's vehicle, and removes the forms in
+/// the scenarios, which would have precedence. Does nothing without a choice.
+inline void choose(const AllocationChoice& choice, Model& model, std::span<Scenario> scenarios) {
+  if (!choice) return;
+  model.vehicle.allocation = *choice;
+  for (Scenario& scenario : scenarios) scenario.control.allocation.reset();
+}
+
+/// Adds `--heading-rate-limit`. `by_default`: text for the help, which describes what happens without the
+/// option.
+inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
+                                   const char* by_default) {
+  command
+      .add_option(
+          "--heading-rate-limit", choice,
+          fmt::format("Limit of the rate of heading commands in closed-loop scenarios, deg/s. "
+                      "'measured': the highest yaw rate in vehicle.json (yaw_rate_max_degps) or, "
+                      "without it, in the turning trials and fitted logs. 'none': no limit except "
+                      "those in the scenarios (default: {})",
+                      by_default))
+      ->check(CLI::Validator(fault_of_rate, "measured, none or deg/s", ""));
+}
+
+/// Returns the option and its value, for the list of options in an output file; empty if the option
+/// is not given.
+inline std::vector<std::pair<std::string, std::string>> options_of_rate(
+    const HeadingRateChoice& choice) {
+  if (choice.empty()) return {};
+  return {{kRateName, choice}};
+}
+
+/// Describes the heading-rate limit. If the choice is 'measured', the text has no number, because
+/// the number is in the model. Empty if only the scenarios limit the rate.
+inline std::string words_of_rate(const HeadingRateChoice& choice) {
+  if (choice == kNoRate) return {};
+  if (choice == kMeasuredRate)
+    return "heading commands limited to the highest yaw rate of the "
+           "turning trials and fitted logs, or to yaw_rate_max_degps of vehicle.json\n";
+  return fmt::format("heading commands limited to {} deg/s\n", choice);
 }
 
 }  // namespace awmr::cli

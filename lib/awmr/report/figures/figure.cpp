@@ -1,4 +1,4 @@
-#include "awmr/report/figures/figure_files.h"
+#include "awmr/report/figures/figure.h"
 
 #include <fmt/format.h>
 
