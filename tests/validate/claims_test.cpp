@@ -52,7 +52,8 @@ TEST(Claims, TheStraightRunGivesTheModelsAndTheMeasuredSpeed) {
   const Claim fitted = check_straight_run(model, plant_of(model));
   EXPECT_TRUE(fitted.reproduced);
   EXPECT_THAT(fitted.figure, HasSubstr("simulated 1.6059 m/s"));
-  EXPECT_THAT(fitted.figure, HasSubstr("measured u_max 1.66 m/s (-3.3 %)"));
+  EXPECT_THAT(fitted.figure, HasSubstr("the measured u_max is 1.66 m/s"));
+  EXPECT_THAT(fitted.figure, HasSubstr("differs by -3.3 %"));
   // With a1 and b1 as printed in the paper, it is (2/1.3268)^(1/0.8933) = 1.583 m/s.
   model[ParameterId::kSurgeAlpha].value = 1.3268;
   model[ParameterId::kSurgeBeta].value = 0.8933;
@@ -96,7 +97,7 @@ TEST(Claims, AVehicleThatCannotTurnMakesNoCircle) {
   model.vehicle.wheel_force = {0.0, 0.005};
   const Claim claim = check_circle(model, plant_of(model));
   EXPECT_FALSE(claim.reproduced);
-  EXPECT_THAT(claim.figure, HasSubstr("no two turns"));
+  EXPECT_THAT(claim.figure, HasSubstr("fewer than two full turns"));
 }
 
 TEST(Claims, TheTimeConstantsAreThePapers) {
@@ -135,7 +136,7 @@ TEST(Claims, MotorsThatOnlyDriveForwardCostTheDifferentialModeItsSpeed) {
   model.vehicle.wheel_force = {0.0, 0.5};
   const Claim drop = claim_of(heading_claims_of(model, kPaperGains), "C5");
   EXPECT_FALSE(drop.reproduced);
-  EXPECT_THAT(drop.why, HasSubstr("a side saturates"));
+  EXPECT_THAT(drop.why, HasSubstr("wheel force reaches its limit"));
 }
 
 TEST(Claims, TheSideslipIsAlsoGivenForThePapersGains) {

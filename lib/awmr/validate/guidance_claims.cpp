@@ -54,29 +54,35 @@ std::string modes_without(const ModeRuns& runs, Condition condition) {
 }
 
 Claim waypoints_reached(const ModeRuns& runs) {
-  const auto steering = [](const ModeRun& run) -> std::optional<double> {
-    return largest_steering_deg(run);
-  };
   constexpr double kStop_deg = 20.0;  // the paper's steering stop [paper 5.1]
-  const auto within = [&](const ModeRun& run) { return *steering(run) <= kStop_deg + 1e-9; };
+  const auto within = [&](const ModeRun& run) {
+    return largest_steering_deg(run) <= kStop_deg + 1e-9;
+  };
   const bool reached = all_modes(runs, completed);
   const bool all_within = all_modes(runs, within);
-  Claim claim{.id = "C8",
-              .statement = "line of sight over E, F, G, H: all reached, |d_r| at most 20 deg",
-              .reproduced = reached && all_within,
-              .figure = fmt::format("all reached after {}; largest |d_r| {}; path length {}",
-                                    by_mode(runs, "s", finish_s), by_mode(runs, "deg", steering),
-                                    by_mode(runs, "m", path_m)),
-              .tolerance = "each within 1 m (the paper prints no radius); d_r at most 20 deg",
-              .why = {},
-              .modes = verdicts_by_mode(
-                  runs, [&](const ModeRun& run) { return completed(run) && within(run); })};
-  claim.why = !reached ? "not all reached in 180 s: " + modes_without(runs, completed) +
-                             " turns too wide for the acceptance radius"
-              : !all_within ? "the front wheels of this vehicle turn further than 20 deg"
-                            : "each turn fits between the points, and the allocation clips d_r at "
-                              "its stop; the longest path is in the mode with the widest turns, in "
-                              "the paper in combined mode";
+  Claim claim{
+      .id = "C8",
+      .statement =
+          "with line-of-sight guidance, the vehicle reaches the waypoints E, F, G and H with a "
+          "steering angle |d_r| of at most 20 deg",
+      .reproduced = reached && all_within,
+      .figure = fmt::format("time to the last waypoint: {}; largest |d_r|: {}; path length: {}",
+                            by_mode(runs, "s", finish_s),
+                            by_mode(runs, "deg", largest_steering_deg), by_mode(runs, "m", path_m)),
+      .tolerance =
+          "the vehicle passes each waypoint within 1 m (chosen here, because the paper prints no "
+          "radius), and |d_r| is at most 20 deg",
+      .why = {},
+      .modes = verdicts_by_mode(runs,
+                                [&](const ModeRun& run) { return completed(run) && within(run); })};
+  claim.why = !reached ? "not all waypoints are reached in 180 s: the turns are too wide for the "
+                         "acceptance radius in " +
+                             modes_without(runs, completed) + " mode"
+              : !all_within
+                  ? "the largest steering angle of this vehicle is above 20 deg"
+                  : "the waypoints are far enough apart for the turns of every mode, and the "
+                    "allocation limits d_r to the largest steering angle. The path is longest in "
+                    "the mode with the widest turns; in the paper, it is longest in combined mode";
   return claim;
 }
 
@@ -94,24 +100,27 @@ Claim line_followed(const ModeRuns& runs) {
   const Scenario scenario = line_scenario();
   const auto& law = std::get<LineOfSight<double>>(std::get<LinePath>(scenario.guidance).law);
   const double accepted_m = kOnTheLineShare * law.width_m;
-  const auto off = [](const ModeRun& run) -> std::optional<double> {
-    return final_cross_track_m(run);
+  const auto on_it = [&](const ModeRun& run) {
+    return completed(run) && final_cross_track_m(run) <= accepted_m;
   };
-  const auto on_it = [&](const ModeRun& run) { return completed(run) && *off(run) <= accepted_m; };
   const bool all_on_it = all_modes(runs, on_it);
-  return {.id = "C9",
-          .statement = "line following: the distance from the line tends to 0",
-          .reproduced = all_on_it,
-          .figure = "largest distance in the last quarter, from 8.9 m at the start: " +
-                    by_mode(runs, "m", off),
-          .tolerance = fmt::format("{} m, a hundredth of the lane's half width, and the end of the "
-                                   "line passed",
-                                   accepted_m),
-          .why = all_on_it ? "with beta subtracted, d_dot = -U sin(Delta sat(d/R)) [paper (113)] "
-                             "as soon as the heading follows"
-                           : "the heading does not follow its reference closely enough in " +
-                                 modes_without(runs, on_it),
-          .modes = verdicts_by_mode(runs, on_it)};
+  return {
+      .id = "C9",
+      .statement = "when the vehicle follows a line, its distance d from the line tends to 0",
+      .reproduced = all_on_it,
+      .figure = "largest |d| in the last quarter of the run (8.9 m at the start): " +
+                by_mode(runs, "m", final_cross_track_m),
+      .tolerance = fmt::format("this distance is at most {} m, {:.0f} % of the width R of the "
+                               "guidance law, and the vehicle passes the end of the line",
+                               accepted_m, 100.0 * kOnTheLineShare),
+      .why =
+          all_on_it
+              ? "the guidance law corrects the heading for the sideslip angle. As soon as the "
+                "vehicle has the commanded heading, d_dot = -U sin(Delta sat(d/R)) [paper (113)] "
+                "with the speed U and the approach angle Delta beyond R, so d decreases to 0"
+              : "the heading does not follow its command closely enough in " +
+                    modes_without(runs, on_it) + " mode",
+      .modes = verdicts_by_mode(runs, on_it)};
 }
 
 bool alike(const ModeRuns& runs) {
@@ -127,24 +136,27 @@ bool alike(const ModeRuns& runs) {
 Claim obstacles_avoided(const ModeRuns& line, const ModeRuns& points) {
   const bool avoided = all_modes(line, completed) && all_modes(points, completed);
   const bool same = alike(line) && alike(points);
-  const auto figure = [](const ModeRuns& runs) {
-    return fmt::format("least clearance {}, finished after {}", by_mode(runs, "m", clearance),
-                       by_mode(runs, "s", finish_s));
+  const auto figure = [](const char* where, const ModeRuns& runs) {
+    return fmt::format("{0}, smallest clearance: {1}; {0}, finishing time: {2}", where,
+                       by_mode(runs, "m", clearance), by_mode(runs, "s", finish_s));
   };
-  return {.id = "C10",
-          .statement =
-              "obstacles are avoided alike by the three modes, on a line and between "
-              "waypoints",
-          .reproduced = avoided && same,
-          .figure = "on a line: " + figure(line) + "; between waypoints: " + figure(points),
-          .tolerance = fmt::format("clearance above 0 and the path completed in every mode; "
-                                   "finishing times within {:.0f} % of each other",
-                                   100.0 * kAlikeShare),
-          .why = !avoided ? "at least one mode does not complete its path"
-                 : !same  ? "all modes avoid the obstacles, but one turns wider and takes longer"
-                          : "the minimum manoeuvring distance is chosen for the widest turn, so "
-                            "every mode has room; the avoidance rule is the project's own, because "
-                            "the figure with the paper's rule is lost"};
+  return {
+      .id = "C10",
+      .statement =
+          "the three modes avoid obstacles about equally well, on a line and between waypoints",
+      .reproduced = avoided && same,
+      .figure = figure("on the line", line) + "; " + figure("between waypoints", points),
+      .tolerance = fmt::format(
+          "in every mode, the vehicle touches no obstacle (clearance above 0) and completes both "
+          "paths. On each path, the slowest mode takes at most {:.0f} % longer than the fastest",
+          100.0 * kAlikeShare),
+      .why =
+          !avoided
+              ? "in at least one mode, the vehicle touches an obstacle or does not complete a path"
+          : !same ? "all modes avoid the obstacles, but one has wider turns and takes too long"
+                  : "the avoidance begins so early that even the mode with the widest turns has "
+                    "room. The avoidance rule is the project's own, because the figure with the "
+                    "paper's rule is missing"};
 }
 
 /// Largest distance of the vehicle from the point of the path at the same time, m.
@@ -187,21 +199,25 @@ Claim timed_path_followed(const ModeRuns& open, const OffPath& closed_off_m) {
   const double radius_m = least_radius_m(std::get<LissajousPath>(open_scenario.guidance).path,
                                          open_scenario.duration_s);
   const std::string slow = modes_without(open, followed);
-  return {.id = "C11",
-          .statement = "the Lissajous path x = 10 cos 0.01t, y = 10 sin 0.03t is followed",
-          .reproduced = all,
-          .figure = fmt::format("largest distance from the point of the path, heading alone (the "
-                                "paper's form): {}; with position feedback: {}",
-                                by_mode(open, "m", off), by_mode(open, "m", closed_off)),
-          .tolerance = fmt::format("{} m in every mode with the paper's form, a twentieth of the "
-                                   "path's width",
-                                   kPathTolerance_m),
-          .why = all ? "no turn of the path is tighter than the modes can make; nothing disturbs "
-                       "the open form here"
-                     : fmt::format("the path turns with a radius down to {:.2f} m, too tight for "
-                                   "{}; without position feedback, a position error remains",
-                                   radius_m, slow),
-          .modes = verdicts_by_mode(open, followed)};
+  return {
+      .id = "C11",
+      .statement =
+          "the vehicle follows a point that moves on the Lissajous path x = 10 cos 0.01t, y = 10 "
+          "sin 0.03t (m, t in s)",
+      .reproduced = all,
+      .figure = fmt::format("largest distance from the moving point, without position feedback (as "
+                            "in the paper): {}; with position feedback: {}",
+                            by_mode(open, "m", off), by_mode(open, "m", closed_off)),
+      .tolerance = fmt::format("without position feedback, this distance is at most {} m (5 % of "
+                               "the path's width) in every mode",
+                               kPathTolerance_m),
+      .why = all ? "every mode can make the tightest turn of the path, and the simulation has no "
+                   "disturbances that position feedback would have to correct"
+                 : fmt::format(
+                       "the smallest radius of the path is {:.2f} m, too tight for {} mode. "
+                       "Without position feedback, the resulting position error is not corrected",
+                       radius_m, slow),
+      .modes = verdicts_by_mode(open, followed)};
 }
 
 /// Largest drop of the speed below u_d after u_d was first reached, m/s.
@@ -222,36 +238,42 @@ Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
   const auto best_for = [](const ModeRuns& runs, YawMode mode) {
     return is_best(runs, mode, finish_s) && is_best(runs, mode, cross_track_m);
   };
-  const YawMode combined = YawMode::kCombined;
-  const bool at_waypoints = best_for(points, combined), along_line = best_for(path, combined);
+  const bool at_waypoints = best_for(points, YawMode::kCombined);
+  const bool along_line = best_for(path, YawMode::kCombined);
   const bool speed = is_best(points, YawMode::kDifferential, drop_mps) &&
                      is_best(path, YawMode::kDifferential, drop_mps);
-  const auto figure = [](const ModeRuns& runs) {
-    return fmt::format("finished after {}, cross-track RMS {}, speed drop {}",
-                       by_mode(runs, "s", finish_s), by_mode(runs, "m", cross_track_m),
-                       by_mode(runs, "m/s", drop_mps));
-  };
-  const auto place = [](bool best) {
-    return fmt::format("{} {:.0f} % of the best", best ? "within" : "not within",
-                       100.0 * kAsGoodShare);
+  const auto figure = [](const char* where, const ModeRuns& runs) {
+    return fmt::format(
+        "{0}, finishing time: {1}; {0}, RMS cross-track error: {2}; {0}, speed drop: {3}", where,
+        by_mode(runs, "s", finish_s), by_mode(runs, "m", cross_track_m),
+        by_mode(runs, "m/s", drop_mps));
   };
   const bool differential_close = is_best(points, YawMode::kDifferential, cross_track_m) &&
                                   is_best(path, YawMode::kDifferential, cross_track_m);
+  constexpr double percent = 100.0 * kAsGoodShare;
   return {
       .id = "C12",
-      .statement = "combined is best for waypoints and paths, differential for speed",
+      .statement =
+          "combined mode is best for waypoints and paths, differential mode for holding the speed",
       .reproduced = at_waypoints && along_line && speed,
-      .figure = "waypoints: " + figure(points) + "; polyline: " + figure(path),
-      .tolerance = fmt::format("combined within {0:.0f} % of the least finishing time and "
-                               "cross-track RMS on both paths, differential within {0:.0f} % "
-                               "of the least speed drop on both",
-                               100.0 * kAsGoodShare),
-      .why = fmt::format(
-          "combined is {} on waypoints and {} on the polyline{}; differential is {} for the "
-          "speed. `awmr compare` gives intervals",
-          place(at_waypoints), place(along_line),
-          differential_close ? "; differential is close to the least cross-track RMS on both" : "",
-          speed ? "best" : "not best: its forces make the whole turn and saturate first")};
+      .figure = figure("waypoints", points) + "; " + figure("polyline", path),
+      .tolerance =
+          fmt::format("on both paths (waypoints and polyline), combined mode is within {0:.0f} % "
+                      "of the shortest finishing time and of the smallest RMS cross-track error, "
+                      "and differential mode is within {0:.0f} % of the smallest speed drop",
+                      percent),
+      .why = fmt::format("on the waypoints, combined mode is {1}within {0:.0f} % of the best. On "
+                         "the polyline, it is {2}within {0:.0f} % of the best. {3}Differential "
+                         "mode {4}. These are single runs; `awmr compare` gives intervals",
+                         percent, at_waypoints ? "" : "not ", along_line ? "" : "not ",
+                         differential_close
+                             ? fmt::format("On both, differential mode is within {:.0f} % of the "
+                                           "smallest RMS cross-track error. ",
+                                           percent)
+                             : "",
+                         speed ? "holds the speed best"
+                               : "does not hold the speed best: its wheel forces make the whole "
+                                 "turn and reach their limits first")};
 }
 
 }  // namespace

@@ -30,19 +30,21 @@ std::optional<double> settling_s(const ModeRun& run) { return run.metrics.settli
 
 std::string why_heading_converges_or_not(const HeadingSetting& setting, const ModeRuns& runs,
                                          bool reproduced, bool none_over) {
-  std::string why = reproduced   ? "every mode follows the sliding surface if it is not saturated"
-                    : !none_over ? "a limited actuator or the servo's lag carries the heading past "
-                                   "its command in the modes named in the figure"
-                                 : "the law, as limited by the actuators, takes longer than "
-                                   "the paper's time constants";
+  std::string why =
+      reproduced ? "in every mode, the heading error decays as the sliding-mode law prescribes, "
+                   "except while an actuator is at its limit"
+      : !none_over
+          ? "an actuator limit or the lag of the steering servo carries the heading past its "
+            "command in the modes with overshoot"
+          : "with these actuator limits, the heading law takes longer than the criterion allows";
   const auto settled_s = [&](YawMode mode) {
     return settling_s(in_mode(runs, mode)).value_or(setting.hold_s());
   };
   if (settled_s(YawMode::kSteering) > settled_s(YawMode::kDifferential) &&
       settled_s(YawMode::kSteering) > settled_s(YawMode::kCombined)) {
     why +=
-        "; steering is slowest: the stop of the front wheels and the small thrust at 1 m/s "
-        "limit its moment";
+        ". Steering is slowest: the largest steering angle and the small thrust at 1 m/s limit its "
+        "yaw moment";
   }
   return why;
 }
@@ -59,25 +61,27 @@ Claim heading_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const bool all_fast = all_modes(runs, fast);
   const bool none_over = all_modes(runs, without_overshoot);
   const bool reproduced = all_fast && none_over;
-  return {.id = "C3",
-          .statement =
-              "headings 30 then -30 deg at 1 m/s: fast and without overshoot in all "
-              "modes",
-          .reproduced = reproduced,
-          .figure = fmt::format("settled after {}; overshoot {}", by_mode(runs, "s", settling_s),
-                                by_mode(runs, "deg", overshoot)),
-          .tolerance = fmt::format(
-              "settled (to 2 %, at least 0.5 deg) in the time for 60 deg at the mode's largest "
-              "steady yaw rate plus 4 (T1 + 2 T2) of the paper's gains: {}; overshoot at most {} "
-              "deg",
-              by_mode(runs, "s",
-                      [&](const ModeRun& run) -> std::optional<double> {
-                        return setting.allowed_s(run.mode);
-                      }),
-              kNoOvershoot_deg),
-          .why = why_heading_converges_or_not(setting, runs, reproduced, none_over),
-          .modes = verdicts_by_mode(
-              runs, [&](const ModeRun& run) { return fast(run) && without_overshoot(run); })};
+  return {
+      .id = "C3",
+      .statement =
+          "at 1 m/s, the heading follows steps to 30 and then -30 deg fast and without overshoot, "
+          "in all modes",
+      .reproduced = reproduced,
+      .figure = fmt::format("settling time: {}; overshoot: {}", by_mode(runs, "s", settling_s),
+                            by_mode(runs, "deg", overshoot)),
+      .tolerance = fmt::format(
+          "fast: the settling time is at most {}. This is the time to turn {} deg at the mode's "
+          "largest steady yaw rate, plus 4 (T1 + 2 T2): four time constants of each phase of the "
+          "heading law with the paper's gains (C14). The heading is settled when its error stays "
+          "within 2 % of the step (at least 0.5 deg). Without overshoot: at most {} deg",
+          by_mode(runs, "s",
+                  [&](const ModeRun& run) -> std::optional<double> {
+                    return setting.allowed_s(run.mode);
+                  }),
+          kLargestStep_deg, kNoOvershoot_deg),
+      .why = why_heading_converges_or_not(setting, runs, reproduced, none_over),
+      .modes = verdicts_by_mode(
+          runs, [&](const ModeRun& run) { return fast(run) && without_overshoot(run); })};
 }
 
 bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double>& b) {
@@ -100,20 +104,28 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
       differential < in(YawMode::kSteering) && differential < in(YawMode::kCombined);
   Claim claim{
       .id = "C6",
-      .statement = "the sideslip angle is smallest in differential mode",
+      .statement =
+          "the sideslip angle (between the vehicle's x axis and its velocity) is smallest in "
+          "differential mode",
       .reproduced = smallest,
-      .figure = fmt::format("largest {}; largest yaw rate {}", by_mode(runs, "deg", sideslip),
-                            by_mode(runs, "deg/s", yaw_rate)),
-      .tolerance = "strictly below that of both other modes, in the rows of the run above 0.05 m/s",
-      .why = smallest
-                 ? "without steering, only the term m' r u of the turn causes lateral speed"
-                 : "the lateral speed follows (tau_steering/l_f - m' r u)/a_s: differential has no "
-                   "steering force, but turns so fast that m' r u alone causes more lateral speed"};
+      .figure = fmt::format("largest sideslip angle: {}; largest yaw rate: {}",
+                            by_mode(runs, "deg", sideslip), by_mode(runs, "deg/s", yaw_rate)),
+      .tolerance =
+          "the largest sideslip angle in differential mode is below that of both other modes. "
+          "Times with a speed of at most 0.05 m/s do not count",
+      .why =
+          smallest
+              ? "with straight wheels, there is no lateral steering force. Only the inertial term "
+                "m' r u (normalised mass m', yaw rate r, surge speed u) causes a sway speed"
+              : "the sway speed is about (tau_steering/l_f - m' r u)/a_s, with the lateral force "
+                "tau_steering/l_f of the steering, the inertial term m' r u (normalised mass m', "
+                "yaw rate r, surge speed u) and the sway resistance a_s. Differential mode has no "
+                "steering force, but turns so fast that m' r u alone causes more sideslip"};
   if (setting.gains.observer.is_on() ||
       !same_heading_gains(setting.gains.heading, kPaperGains.heading)) {
     const HeadingSetting paper{
         {setting.model, setting.plant, kPaperGains, setting.arithmetic, setting.control}};
-    claim.figure += "; with the paper's gains: largest " +
+    claim.figure += "; largest sideslip angle with the paper's gains: " +
                     by_mode(paper.run("C6", kSimulated_deg), "deg", sideslip);
   }
   return claim;
@@ -142,18 +154,21 @@ Claim no_chattering(const Model& model, const ModeRuns& runs) {
   const auto rests = [&](const ModeRun& run) { return *rate(run) <= kReversalsPerSecond; };
   const bool quiet = all_modes(runs, rests);
   return {.id = "C7",
-          .statement = "no chattering",
+          .statement = "the commands do not chatter (reverse rapidly)",
           .reproduced = quiet,
-          .figure = "most reversals of F'L, F'R, d_r: " + by_mode(runs, "reversals/s", rate),
-          .tolerance = fmt::format("no command reverses by more than {:.0f} % of its range more "
-                                   "than {} time(s) per second; with chattering it does so up to "
-                                   "{:.0f} times",
-                                   100.0 * kReversalBand, kReversalsPerSecond,
-                                   0.5 / model.vehicle.sample_time_s),
-          .why = quiet ? "inside the boundary layer the law is continuous: the commands follow the "
-                         "heading steps and then stay constant"
-                       : "the loop is too stiff for the sample time or the servo: the commands "
-                         "reverse without a step",
+          .figure =
+              "reversals of the command that reverses most often (left force F'L, right force F'R "
+              "or steering angle d_r): " +
+              by_mode(runs, "reversals/s", rate),
+          .tolerance = fmt::format(
+              "each command makes at most {} reversal per second, on average over the run. "
+              "Reversals of at most {:.0f} % of the command's range do not count. A chattering "
+              "command reverses up to {:.0f} times per second",
+              kReversalsPerSecond, 100.0 * kReversalBand, 0.5 / model.vehicle.sample_time_s),
+          .why = quiet ? "inside its boundary layer, the sliding-mode law is continuous. The "
+                         "commands change after a heading step and then become constant"
+                       : "the control loop is too fast for the sample time or the steering servo, "
+                         "so the commands reverse without a heading step",
           .modes = verdicts_by_mode(runs, rests)};
 }
 
@@ -174,22 +189,26 @@ Claim yaw_rate_limited(const HeadingSetting& setting) {
   const bool in_steering = holds(in_mode(runs, YawMode::kSteering));
   return {
       .id = "C13",
-      .statement = "headings 30, 45 deg at tau_speed 1.4: reached, yaw rate below 20 deg/s",
+      .statement =
+          "with the constant thrust of the experiment (tau_speed = 1.4), the vehicle reaches "
+          "headings of 30 and then 45 deg with yaw rates below 20 deg/s",
       .reproduced = everywhere,
-      .figure = by_mode(runs, "deg/s",
-                        [](const ModeRun& run) -> std::optional<double> {
-                          return run.metrics.yaw_rate_max_degps;
-                        }),
+      .figure = "largest yaw rate: " + by_mode(runs, "deg/s",
+                                               [](const ModeRun& run) -> std::optional<double> {
+                                                 return run.metrics.yaw_rate_max_degps;
+                                               }),
       .tolerance =
-          "below 20 deg/s and settled after both steps in every mode; without the experiment's "
-          "noise",
-      .why = everywhere ? "the moment that the modes have at this thrust, and g3, bound the rate"
-             : in_steering
-                 ? "the stop of the front wheels bounds the moment in steering mode; left and "
-                   "right wheel forces turn the vehicle faster, in combined mode too, which the "
-                   "paper's conclusion says was used"
-                 : "the moment at the stop of the front wheels turns this model faster, or the "
-                   "headings are not reached in time",
+          "in every mode, the largest yaw rate is below 20 deg/s and the heading settles after "
+          "both steps. The simulation has no sensor noise, unlike the experiment",
+      .why =
+          everywhere ? "at this thrust, the yaw moments of all modes are so small that the yaw "
+                       "resistance g3 keeps the yaw rate below 20 deg/s"
+          : in_steering
+              ? "in steering mode, the largest steering angle limits the yaw moment and therefore "
+                "the yaw rate. In the other two modes, different left and right wheel forces turn "
+                "the vehicle faster. According to its conclusion, the paper used combined mode"
+              : "at the largest steering angle, this model turns faster, or a heading is not "
+                "reached in time",
       .modes = verdicts_by_mode(runs, holds)};
 }
 

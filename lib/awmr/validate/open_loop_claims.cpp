@@ -88,10 +88,13 @@ Turn turn_of(const Model& model, YawMode mode, const ControlOptions& control) {
 }
 
 std::string figure_of(const Turn& turn) {
-  if (!turn.circle) return fmt::format("{}: no two turns in 960 s", name_of(turn.mode));
-  return fmt::format("{}: diameter {:.2f} m, deviation {:.3f} % of the radius, {:.2f} m/s",
-                     name_of(turn.mode), 2.0 * turn.circle->radius_m,
-                     100.0 * turn.circle->deviation_m / turn.circle->radius_m, turn.speed_mps);
+  if (!turn.circle)
+    return fmt::format("{}: fewer than two full turns in 960 s", name_of(turn.mode));
+  return fmt::format(
+      "{}: diameter {:.2f} m, deviation from the circle {:.3f} % of its radius, "
+      "speed {:.2f} m/s",
+      name_of(turn.mode), 2.0 * turn.circle->radius_m,
+      100.0 * turn.circle->deviation_m / turn.circle->radius_m, turn.speed_mps);
 }
 
 /// Text of the yaw moment that each mode delivers when tau_turn is commanded. Different moments
@@ -125,7 +128,9 @@ std::string why_not_settled(const Model& model) {
 Claim check_straight_run(const Model& model, const Plant<double>& plant,
                          const ControlOptions& control) {
   Claim claim{.id = "C1",
-              .statement = "tau_speed 2 without turning: the speed settles at u_max",
+              .statement =
+                  "straight ahead at the paper's full thrust (tau_speed = 2), the speed settles at "
+                  "the top speed u_max",
               .figure = {},
               .tolerance = {},
               .why = {}};
@@ -133,42 +138,51 @@ Claim check_straight_run(const Model& model, const Plant<double>& plant,
   const double settled_mps = run.rows.back().state.u_mps;
   const double steady_mps = std::pow(kFullThrust / plant.surge.alpha, 1.0 / plant.surge.beta);
   const bool settles = std::abs(settled_mps - steady_mps) <= kSteadyTolerance * steady_mps;
-  claim.figure = fmt::format("simulated {:.4f} m/s; the solution of g1(u) = 2 is {:.4f} m/s",
-                             settled_mps, steady_mps);
-  claim.tolerance = fmt::format("within {} % of the solution", 100.0 * kSteadyTolerance);
+  claim.figure =
+      fmt::format("simulated {:.4f} m/s; the resistance g1(u) equals the thrust 2 at {:.4f} m/s",
+                  settled_mps, steady_mps);
+  claim.tolerance =
+      fmt::format("the simulated speed differs from the solution of g1(u) = 2 by at most {} %",
+                  100.0 * kSteadyTolerance);
 
   const TrialPoint* fastest = fastest_trial(model);
   const bool at_full_thrust = fastest && std::abs(fastest->input - kFullThrust) < 1e-9;
   if (!at_full_thrust) {
     claim.reproduced = settles;
-    claim.why =
-        fmt::format("{}; the model has no trial at tau_speed 2, so u_max is predicted by the model",
-                    settles ? std::string("the speed settles where thrust and resistance balance")
-                            : why_not_settled(model));
+    claim.why = fmt::format(
+        "{}. The model has no surge trial at tau_speed = 2, so there is no measured u_max to "
+        "compare with",
+        settles ? std::string("the speed settles where thrust and resistance are equal")
+                : why_not_settled(model));
     return claim;
   }
   const double difference = settled_mps / fastest->measured - 1.0;
   claim.reproduced = settles && std::abs(difference) <= kMeasuredTolerance;
-  claim.figure +=
-      fmt::format(", measured u_max {:.4g} m/s ({:+.1f} %)", fastest->measured, 100.0 * difference);
-  claim.tolerance +=
-      fmt::format(" and {:.0f} % of the measured one, because Table 2 has an error of that size",
-                  100.0 * kMeasuredTolerance);
+  claim.figure += fmt::format(
+      "; the measured u_max is {:.4g} m/s, from which the simulated speed differs by {:+.1f} %",
+      fastest->measured, 100.0 * difference);
+  claim.tolerance += fmt::format(
+      ", and from the measured u_max by at most {:.0f} %. The paper's Table 2 itself has an error "
+      "of that size",
+      100.0 * kMeasuredTolerance);
   claim.why = !settles ? why_not_settled(model)
               : claim.reproduced
-                  ? "the speed settles where thrust and resistance balance; the power law was "
-                    "fitted over all trials and need not go through the last one"
-                  : "the fitted power law does not go through the fastest trial";
+                  ? "the speed settles where thrust and resistance are equal. The power law g1 was "
+                    "fitted to all trials, so it does not go exactly through the fastest one"
+                  : "the fitted power law g1 does not go through the fastest trial";
   return claim;
 }
 
 Claim check_circle(const Model& model, const Plant<double>& plant, const ControlOptions& control) {
   Claim claim{.id = "C2",
-              .statement = "constant tau_speed 2 and tau_turn 0.4 m: the path tends to a circle",
+              .statement =
+                  "with constant thrust tau_speed = 2 and yaw moment tau_turn = 0.4 m, the path "
+                  "becomes a circle",
               .figure = {},
-              .tolerance = fmt::format("in every mode the last full turn stays within {:.0f} % of "
-                                       "the radius of the circle fitted to it",
-                                       100.0 * kCircleTolerance),
+              .tolerance =
+                  fmt::format("a circle is fitted to the last full turn. In every mode, no point "
+                              "of that turn is farther from the circle than {:.0f} % of its radius",
+                              100.0 * kCircleTolerance),
               .why = {}};
   claim.reproduced = true;
   for (const YawMode mode : kYawModes) {
@@ -178,8 +192,9 @@ Claim check_circle(const Model& model, const Plant<double>& plant, const Control
                        turn.circle->deviation_m <= kCircleTolerance * turn.circle->radius_m;
   }
   claim.why = fmt::format(
-      "constant forces settle at constant u, v and r, which is a circle; the diameters differ by "
-      "the moment that each mode's limits allow: {}",
+      "with constant forces, surge speed u, sway speed v and yaw rate r become constant, so the "
+      "path is a circle. The diameters differ because the limits of each mode allow different yaw "
+      "moments: {}",
       delivered_moments(model, plant));
   return claim;
 }
@@ -190,15 +205,20 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains) {
   const double t2_s = paper.reaching_time_constant_s();
   Claim claim{
       .id = "C14",
-      .statement = "lambda 3, mu 50, eps 12 give T1 = 0.33 s and T2 = 0.12 s",
-      .figure = fmt::format("T1 = 1/lambda = {:.4f} s, T2 = eps/(2 mu) = {:.4f} s", t1_s, t2_s),
-      .tolerance = "0.005 s, half of the last printed digit",
-      .why = fmt::format("computed from the gains; S itself decays with 2 T2 = {:.2f} s, which is "
-                         "also {} T1",
-                         2.0 * t2_s, 2.0 * t2_s < t1_s ? "below" : "not below")};
+      .statement =
+          "the heading gains lambda = 3, mu = 50, epsilon = 12 give the time constants T1 = 0.33 s "
+          "and T2 = 0.12 s",
+      .figure = fmt::format("T1 = 1/lambda = {:.4f} s, T2 = epsilon/(2 mu) = {:.4f} s", t1_s, t2_s),
+      .tolerance =
+          "T1 and T2 differ from the paper's values by at most 0.005 s, half a unit of the last "
+          "printed digit",
+      .why = fmt::format("T1 and T2 follow from the gains alone. On the sliding surface S = 0, the "
+                         "heading error decays with T1. On the way to the surface, S^2/2 decays "
+                         "with T2 and S itself with 2 T2 = {:.2f} s, which is {} T1",
+                         2.0 * t2_s, 2.0 * t2_s < t1_s ? "also below" : "not below")};
   claim.reproduced = std::abs(t1_s - 0.33) <= 0.005 && std::abs(t2_s - 0.12) <= 0.005;
   if (gains) {
-    claim.figure += fmt::format("; the gains given here: T1 {:.4f} s, T2 {:.4f} s",
+    claim.figure += fmt::format("; with the gains in use: T1 {:.4f} s, T2 {:.4f} s",
                                 gains->heading.sliding_time_constant_s(),
                                 gains->heading.reaching_time_constant_s());
   }

@@ -51,22 +51,27 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
   const bool no_error = all_modes(runs, is_right);
   return {
       .id = "C4",
-      .statement = "the speed converges to u_d without overshoot and without steady error",
+      .statement =
+          "the speed reaches the commanded speed u_d without overshoot and without steady-state "
+          "error",
       .reproduced = none_over && no_error,
-      .figure = fmt::format("overshoot from rest {}; error at the end {}; largest excess after "
-                            "the heading steps to -30 deg {}",
+      .figure = fmt::format("overshoot from rest: {}; error at the end of the run: {}; largest "
+                            "excess over u_d after the heading step to -30 deg: {}",
                             by_mode(runs, "m/s", overshoot), by_mode(runs, "m/s", error),
                             by_mode(runs, "m/s", later)),
-      .tolerance = fmt::format("overshoot from rest and error at the end at most {} m/s each; the "
-                               "excess after a heading step does not count",
+      .tolerance = fmt::format("overshoot from rest and error at the end of the run are at most {} "
+                               "m/s each. The excess after the heading step does not count",
                                kAccepted_mps),
-      .why = none_over && no_error
-                 ? "the speed loop is of first order, and its law has the exact resistance; the "
-                   "excess at a step comes from the servo's lag: forces are allocated for the "
-                   "commanded steering angle but act at the actual one"
-             : !no_error ? "force limits, or a turn that has not ended, leave a steady error"
-                         : "while the front wheels move, their lag and the force limits make "
-                           "the thrust differ from the command",
+      .why =
+          none_over && no_error
+              ? "the speed loop is of first order, and the speed law compensates exactly the "
+                "resistance of the simulated vehicle, so the speed does not overshoot. The excess "
+                "after the heading step comes from the lag of the steering servo: the wheel forces "
+                "are computed for the commanded steering angle, but the actual angle follows later"
+          : !no_error ? "the force limits, or a turn that is not complete at the end of the run, "
+                        "leave a speed error"
+                      : "while the front wheels move, the lag of the steering servo and the force "
+                        "limits make the thrust differ from the command",
       .modes = verdicts_by_mode(
           runs, [&](const ModeRun& run) { return !is_over(run) && is_right(run); })};
 }
@@ -111,17 +116,16 @@ bool side_saturates(const ModeRun& run, Interval limits, double step_s) {
 }
 
 std::string why_speed_is_held_or_not(bool holds, bool saturates, bool others_drop) {
-  std::string why = holds       ? "differential: the force limits leave room for turn and thrust "
-                                  "together"
-                    : saturates ? "differential: a side saturates in the turn, so "
-                                  "the thrust is below the command"
+  std::string why = holds ? "differential: the wheel forces suffice for thrust and turn together"
+                    : saturates ? "differential: the left or right wheel force reaches its limit "
+                                  "in the turn, so the thrust is below the command"
                                 : "differential: the speed loop is too slow for the turn";
-  why +=
-      others_drop
-          ? "; steering and combined: in the turn the thrust falls short of the command"
-          : "; steering and combined: their speed drops are not both within these limits. With the "
-            "exact allocation, which keeps tau_speed, and a speed law that compensates m' r v, "
-            "only the servo's lag and the limits cause a drop";
+  why += others_drop
+             ? ". Steering and combined: in the turn, the thrust is below the command"
+             : ". Steering and combined: at least one drop is outside the range of the criterion. "
+               "The exact allocation keeps the commanded thrust in a turn, and the speed law "
+               "compensates the inertial term m' r v (normalised mass m', yaw rate r, sway speed "
+               "v). Then only the servo's lag and the force limits cause a drop";
   return why;
 }
 
@@ -142,13 +146,18 @@ Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs) {
   const Interval force = setting.model.vehicle.wheel_force;
   return {
       .id = "C5",
-      .statement = "differential holds the speed at u_d, steering and combined drop slightly",
+      .statement =
+          "after a heading step, the speed stays at u_d in differential mode and drops slightly in "
+          "steering and combined mode",
       .reproduced = holds && others,
-      .figure = fmt::format("drop at the step to -30 deg with F' in [{}, {}]: {}{}", force.lo,
-                            force.hi, by_mode(runs, "m/s", drop), speed_drop_elsewhere(setting)),
-      .tolerance = fmt::format("differential at most {0} m/s; the others above that and at "
-                               "most {1} m/s",
-                               kNoSpeedError * kSpeed_mps, kSlightDrop * kSpeed_mps),
+      .figure = fmt::format("largest speed drop after the heading step to -30 deg, with wheel "
+                            "forces F' in [{}, {}]: {}{}",
+                            force.lo, force.hi, by_mode(runs, "m/s", drop),
+                            speed_drop_elsewhere(setting)),
+      .tolerance = fmt::format(
+          "with the vehicle's range of F' (the first), the drop is at most {0} m/s in differential "
+          "mode. In steering and combined mode, it is above {0} m/s and at most {1} m/s",
+          kNoSpeedError * kSpeed_mps, kSlightDrop * kSpeed_mps),
       .why = why_speed_is_held_or_not(holds, side_saturates(differential, force, step_s), others)};
 }
 

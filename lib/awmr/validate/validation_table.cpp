@@ -92,8 +92,7 @@ std::string validation_table(const Validation& validation) {
   text += wrapped(validation.verdict, 0);
   text += "\nclaims of the paper, simulated with this model\n";
   for (const Claim& claim : validation.claims) {
-    text += fmt::format("{:<4} {:<15} {}\n", claim.id,
-                        claim.reproduced ? "reproduced" : "not reproduced", claim.statement);
+    text += claim_headline(claim);
     text += wrapped(claim.figure, 20);
   }
   return text;

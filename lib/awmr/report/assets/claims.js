@@ -1,8 +1,8 @@
 // Section of the paper's claims. Each claim has a mark for its verdict, its statement, and small
 // bar charts of its numbers by mode.
 
-/// Reads the numbers of a claim by mode from the text that validate writes: "WHAT differential A,
-/// steering B, combined C UNIT; ...". Text of another form is shown as a sentence.
+/// Reads the numbers of a claim by mode from the text that validate writes: "WHAT: differential
+/// A, steering B, combined C UNIT; ...". Text of another form is shown as a sentence.
 function multiplesOf(figure) {
   const pattern = /differential ([-\d.]+), steering ([-\d.]+), combined ([-\d.]+) ?([^\s;,]*)/g;
   let end = 0;
