@@ -126,7 +126,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(force_case(ExtraForce::kTurnDrag, 0.3, "turn-drag"),
                       force_case(ExtraForce::kBrakeForce, 0.4, "brake-force"),
                       force_case(ExtraForce::kReverseForce, -0.3, "reverse-force"),
-                      force_case(ExtraForce::kBackwardDrag, 0.5, "backward-drag")),
+                      force_case(ExtraForce::kBackwardDrag, 0.5, "backward-drag"),
+                      force_case(ExtraForce::kSidePull, 0.004, "side-pull")),
     [](const auto& one) {
       std::string name = one.param.code;
       std::erase(name, '-');

@@ -517,8 +517,9 @@ TEST(LinearReplay, OfExtraForcesHasTheDerivativesOfCentralDifferences) {
   // Derivatives and differences agree less exactly in steps in which friction stops the vehicle.
   // Forces that jump at a stop therefore need a larger tolerance.
   constexpr std::size_t kJumping = at(ExtraForce::kTurnDrag);
-  const ForceCoordinates none{0.0, -2.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
-  const ForceCoordinates all{0.04, -2.0, 0.01, -1.0, 0.06, -0.1, 0.1, 0.8, 0.6, 0.3, -0.2, 0.25};
+  const ForceCoordinates none{0.0, -2.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const ForceCoordinates all{0.04, -2.0, 0.01, -1.0, 0.06, -0.1, 0.1,
+                             0.8,  0.6,  0.3,  -0.2, 0.25, 0.02};
   ForceCoordinates steady = all;
   std::copy(none.begin() + kJumping, none.end(), steady.begin() + kJumping);
   expect_derivatives_by_forces(none, Friction::kCoulomb, 0, kJumping, 3e-3);

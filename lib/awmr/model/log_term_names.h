@@ -19,9 +19,10 @@ inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
 /// Further forces: Stribeck friction (larger friction at low speed) with its speed scale, in surge
 /// and in yaw; acceleration by a slope along x and y; additional surge resistance in turns, with
-/// its exponents. The last three are relative increases: of motor forces that brake, of backward
-/// motor forces, and of the surge resistance in backward motion.
-inline constexpr std::array<std::string_view, 12> kExtraForceNames = {
+/// its exponents. Three relative increases: of motor forces that brake, of backward motor forces,
+/// and of the surge resistance in backward motion. The last one is a yaw moment that pulls the
+/// driving vehicle to one side.
+inline constexpr std::array<std::string_view, 13> kExtraForceNames = {
     "surge.stribeck",
     "surge.stribeck_speed_mps",
     "yaw.stribeck",
@@ -33,7 +34,8 @@ inline constexpr std::array<std::string_view, 12> kExtraForceNames = {
     "surge.turn_drag_speed_exponent",
     "motor.brake_excess",
     "motor.reverse_excess",
-    "surge.backward_excess"};
+    "surge.backward_excess",
+    "yaw.pull_m"};
 inline constexpr std::string_view kSensorDelayPrefix =
     "delay.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSensorLagPrefix =

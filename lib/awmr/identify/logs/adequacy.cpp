@@ -62,7 +62,8 @@ std::string possible_causes(LogChannel channel) {
   }
   const std::string causes =
       "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
-      "slope, sliding tyres), a value in the vehicle file is wrong (half_track_m, front_axle_m, "
+      "curved throttle, play or a curved linkage of the steering, a slope, sliding tyres), a value "
+      "in the vehicle file is wrong (half_track_m, front_axle_m, "
       "steering.max_rate_degps), or the sensor has a bias or drifts";
   if (channel != LogChannel::kYawRate) return causes;
   return causes + " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias)";

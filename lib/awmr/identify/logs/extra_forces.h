@@ -19,6 +19,11 @@
 ///
 /// Driving backward, g1 is 1 + e_g times as large as forward.
 ///
+/// A dragging brake, or a wheel that is out of line, pulls a driving vehicle to one side with a
+/// yaw moment M (over F_max, m; positive to the left when driving forward):
+///
+///     r_dot += M/I'z sgn u,   near rest M/I'z u/w_0 with a small speed w_0
+///
 /// A wheel force against the motion is 1 + e_b times its command, and a negative (backward) wheel
 /// force 1 + e_r times its command. e_b and e_r are called the excess of braking or backward
 /// forces. If the left and right commands differ in the log, "the motion" is that of the wheel's
@@ -46,9 +51,10 @@ enum class ExtraForce {
   kTurnDragSpeedExponent,  ///< q
   kBrakeForce,             ///< e_b
   kReverseForce,           ///< e_r
-  kBackwardDrag            ///< e_g
+  kBackwardDrag,           ///< e_g
+  kSidePull                ///< M, m
 };
-inline constexpr std::size_t kExtraForceCount = 12;
+inline constexpr std::size_t kExtraForceCount = 13;
 
 /// One of these numbers that the fit estimates, and the column of the derivatives with respect to
 /// it.
@@ -61,8 +67,8 @@ struct ExtraColumn {
 /// Values of all these numbers at one point of a search, and the columns of those that the fit
 /// estimates.
 struct ExtraForces {
-  std::array<double, kExtraForceCount> values{0.0, 1.0, 0.0, 1.0, 0.0, 0.0,
-                                              0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
+  std::array<double, kExtraForceCount> values{0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0,
+                                              1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   std::vector<ExtraColumn> columns{};
   bool has_motor_per_side = false;  ///< true: left and right commands differ in the logs
 

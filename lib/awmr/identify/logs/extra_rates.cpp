@@ -245,6 +245,15 @@ void add_turn_drag(const TurnDrag& drag, double per_mass, LinearRates& out) {
   by[at(ExtraForce::kTurnDragSpeedExponent)].u = -drag.by_speed_exponent * per_mass;
 }
 
+void add_side_pull(const LinearPlant& plant, double u_mps, LinearRates& out) {
+  constexpr double kRest_mps = 0.02;  // w_0
+  const double pull_m = plant.extra[ExtraForce::kSidePull];
+  const double way = math::saturate(u_mps / kRest_mps, 1.0);
+  out.rates.r_radps += way * pull_m * plant.per_inertia;
+  if (std::abs(u_mps) < kRest_mps) out.by_state.r_u += pull_m / kRest_mps * plant.per_inertia;
+  out.by_extra[at(ExtraForce::kSidePull)].r = way * plant.per_inertia;
+}
+
 void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out) {
   const double c = std::cos(psi_rad);
   const double d = std::sin(psi_rad);

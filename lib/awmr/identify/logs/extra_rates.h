@@ -87,6 +87,10 @@ TurnDrag turn_drag(const LinearPlant& plant, const State<double>& s);
 /// Adds the derivatives of u_dot with respect to the parameters of the drag in turns.
 void add_turn_drag(const TurnDrag& drag, double per_mass, LinearRates& out);
 
+/// Adds the yaw moment of a side pull to r_dot. Call it before the derivative of r_dot by I'z is
+/// computed from r_dot.
+void add_side_pull(const LinearPlant& plant, double u_mps, LinearRates& out);
+
 /// Adds the acceleration due to the slope of the ground.
 void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out);
 

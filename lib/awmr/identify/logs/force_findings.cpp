@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/logs/log_report.h"
 
@@ -111,6 +112,19 @@ std::vector<Finding> slope_findings(const LogFit& fit, const std::string& file) 
                        degrees(std::asin(std::min(1.0, size / kGravity_mps2))))}};
 }
 
+std::vector<Finding> side_pull_findings(const LogFit& fit, const std::string& file) {
+  const auto pull = significant(fit, ExtraForce::kSidePull);
+  if (!pull) return {};
+  return {
+      {file, 0, Severity::kWarning, "side-pull",
+       fmt::format("a yaw moment of {:.2g} +- {:.1g} m (over F_max) pulls the vehicle to the {} "
+                   "when it drives forward: a dragging brake, unequal tyres, or a wheel out of "
+                   "line. The fit compensates this, but simulations and gains do not; correct "
+                   "the cause, or tune with an observer ({})",
+                   std::abs(pull->value), pull->error, pull->value > 0.0 ? "left" : "right",
+                   option_text("observer"))}};
+}
+
 std::vector<Finding> turn_drag_findings(const LogFit& fit, const std::string& file) {
   const auto drag = significant(fit, ExtraForce::kTurnDrag);
   if (!drag) return {};
@@ -158,8 +172,8 @@ std::vector<Finding> force_excess_findings(const LogFit& fit, const std::string&
 
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings = stribeck_findings(fit, file);
-  for (auto* const more :
-       {&slope_findings, &turn_drag_findings, &backward_drag_findings, &force_excess_findings}) {
+  for (auto* const more : {&slope_findings, &side_pull_findings, &turn_drag_findings,
+                           &backward_drag_findings, &force_excess_findings}) {
     for (Finding& finding : more(fit, file)) findings.push_back(std::move(finding));
   }
   return findings;

@@ -65,6 +65,7 @@ bool has_both_directions(const DrivingLog& log) {
 /// show:
 ///   - Stribeck friction, if the resistance has Coulomb friction;
 ///   - a slope, if heading or position is measured;
+///   - a side pull, if yaw rate, heading or position is measured;
 ///   - drag in turns, if the commands turn the vehicle;
 ///   - a different resistance backward, if the log has forces in both directions;
 ///   - an excess of braking or of backward forces, if the log has forces in both directions. A fit
@@ -82,6 +83,10 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   if (has_heading && !has_force(quantities, ExtraForce::kSlopeX)) {
     found.push_back(extra_force(ExtraForce::kSlopeX));
     found.push_back(extra_force(ExtraForce::kSlopeY));
+  }
+  const bool shows_yaw = has_heading || problem.model.noise.contains(LogChannel::kYawRate);
+  if (shows_yaw && !has_force(quantities, ExtraForce::kSidePull)) {
+    found.push_back(extra_force(ExtraForce::kSidePull));
   }
   const bool turns =
       any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
@@ -164,8 +169,9 @@ std::vector<FreeQuantity> all_terms() {
                                   steering_trim(),   steering_dead_band(), steering_asymmetry(),
                                   force_imbalance(), force_exponent(),     sway_offset(),
                                   sway_angle()};
-  for (const ExtraForce force : {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
-                                 ExtraForce::kReverseForce, ExtraForce::kBackwardDrag}) {
+  for (const ExtraForce force :
+       {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
+        ExtraForce::kReverseForce, ExtraForce::kBackwardDrag, ExtraForce::kSidePull}) {
     terms.push_back(extra_force(force));
   }
   for (const LogChannel channel : kChannels) {

@@ -107,6 +107,7 @@ LinearPlant::LinearPlant(const Plant<double>& p, bool by_back_emf, double longes
       has_yaw_stribeck(has_force(extra, ExtraForce::kYawStribeck, ExtraForce::kYawStribeckSpeed)),
       has_slope(has_force(extra, ExtraForce::kSlopeX, ExtraForce::kSlopeY) ||
                 has_force(extra, ExtraForce::kSlopeY, ExtraForce::kSlopeX)),
+      has_side_pull(has_force(extra, ExtraForce::kSidePull, ExtraForce::kSidePull)),
       has_turn_drag(has_force(extra, ExtraForce::kTurnDrag, ExtraForce::kTurnDragExponent)),
       has_force_excess(has_force(extra, ExtraForce::kBrakeForce, ExtraForce::kReverseForce) ||
                        has_force(extra, ExtraForce::kReverseForce, ExtraForce::kBrakeForce)) {}
@@ -200,9 +201,9 @@ void add_sway(const LinearPlant& plant, const State<double>& s, const SteeredFor
 }
 
 /// Adds the rate of the yaw rate r, with the sum of the left and right wheel forces and their
-/// difference (right minus left):
+/// difference (right minus left) and the side pull M sgn u (extra_forces.h):
 ///
-///     r_dot = (l_f sum sin d_r + d difference (rho + cos d_r) - g3(r))/I'z
+///     r_dot = (l_f sum sin d_r + d difference (rho + cos d_r) - g3(r) + M sgn u)/I'z
 void add_yaw(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,
              LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -211,6 +212,7 @@ void add_yaw(const LinearPlant& plant, const State<double>& s, const SteeredForc
                        p.half_track_m * force.difference * force.reach - g3.value) *
                       plant.per_inertia;
   out.by_state.r_u = 0.0;
+  if (plant.has_side_pull) add_side_pull(plant, s.u_mps, out);
   out.by_state.r_r = -g3.by_speed * plant.per_inertia;
   out.by_state.r_steering =
       (p.front_axle_m * force.sum * force.cos_d - p.half_track_m * force.difference * force.sin_d) *
