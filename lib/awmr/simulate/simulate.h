@@ -125,8 +125,8 @@ Result<Controller<double>> controller_for(const Model& model, const Gains<double
 /// Simulates the model with the controller of controller_for(), at the vehicle's sample time. A
 /// corner of the scenario (parameters at an end of their interval) changes the plant, but not the
 /// controller. A model without turning parameters (Model::simulated_motion()) can only drive
-/// straight. Errors (input): those of plant_for(), Model::plant(), check_mode(), failure_of() and
-/// check_straight() (straight.h).
+/// straight. Errors (input): those of plant_for(), Model::plant(), check_mode() and failure_of(); the
+/// run turns or moves sideways, but the model only has parameters for straight motion.
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 
