@@ -111,6 +111,8 @@ TrialData turns_to_both_sides(double pull_m, std::uint64_t seed) {
                                       .wheel_force = force,
                                       .tau_turn_m = moment,
                                       .yaw_rate_radps = rate * (1.0 + 0.003 * random.normal()),
+                                      .turns = {},
+                                      .elapsed_s = {},
                                       .is_right_turn = side < 0.0});
       }
     }
