@@ -21,6 +21,10 @@ namespace {
 
 constexpr double kStep_s = 0.01;  // row spacing of drive()
 
+DrivingLog precise_drive(const Truth& t) {
+  return drive(t, 8, {.duration_s = 20.0}, kPreciseSensors);
+}
+
 /// Returns the log with the steering command moved to `rows` rows earlier: the steering acts late.
 DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
   std::vector<double>& command = *log.steering_command_rad;
@@ -32,7 +36,7 @@ DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
 TEST(LateLog, SeparatesASteeringDeadTimeFromServoLag) {
   constexpr std::size_t kRows = 8;
   TrialData data;
-  data.logs = {with_late_steering(drive(kTruths[1], 8, {.duration_s = 40.0}), kRows)};
+  data.logs = {with_late_steering(precise_drive(kTruths[1]), kRows)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto delay = estimated(*result, "steering.delay_s");
@@ -56,7 +60,7 @@ DrivingLog with_late_steering_stamps(DrivingLog log, std::size_t rows) {
 TEST(LateLog, FindsLateStampsOfTheSteeringAlone) {
   constexpr std::size_t kRows = 14;
   TrialData data;
-  data.logs = {with_late_steering_stamps(drive(kTruths[1], 8, {.duration_s = 40.0}), kRows)};
+  data.logs = {with_late_steering_stamps(precise_drive(kTruths[1]), kRows)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto delay = estimated(*result, "steering.delay_s");
@@ -118,7 +122,7 @@ TEST(LateLog, FindsACommandDelayOfAFractionOfARow) {
   // The commands are late by 2.25 rows of 0.04 s, and the servo is at its rate limit after many
   // changes of the command.
   TrialData data;
-  data.logs = {with_late_commands(drive(kTruths[1], 8, {.duration_s = 40.0}), kTruths[1], 4, 9)};
+  data.logs = {with_late_commands(precise_drive(kTruths[1]), kTruths[1], 4, 9)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto delay = estimated(*result, "input_delay_s");
@@ -171,8 +175,7 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
   constexpr double kLag_s = 0.2;
   const Truth& t = kTruths[1];
   TrialData data;
-  data.logs = {
-      with_smoothed(drive(t, 8, {.duration_s = 40.0}), LogChannel::kSpeed, kLag_s, GetParam())};
+  data.logs = {with_smoothed(precise_drive(t), LogChannel::kSpeed, kLag_s, GetParam())};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "lag.speed_mps");
@@ -210,7 +213,7 @@ TEST_P(SpeedOfSecondOrder, IsAllowedFor) {
   constexpr double kLag_s = 0.12;
   const Truth& t = kTruths[1];
   TrialData data;
-  data.logs = {with_speed_of_second_order(drive(t, 8, {.duration_s = 40.0}), kLag_s, GetParam())};
+  data.logs = {with_speed_of_second_order(precise_drive(t), kLag_s, GetParam())};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "lag.speed_mps");
@@ -225,8 +228,7 @@ INSTANTIATE_TEST_SUITE_P(CriticallyDampedOrButterworth, SpeedOfSecondOrder,
 TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
   constexpr double kLag_s = 0.2;
   const Truth& t = kTruths[1];
-  DrivingLog log =
-      with_smoothed(drive(t, 8, {.duration_s = 40.0}), LogChannel::kHeading, kLag_s, false);
+  DrivingLog log = with_smoothed(precise_drive(t), LogChannel::kHeading, kLag_s, false);
   for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kYawRate}) {
     log[absent].reset();
   }
@@ -259,7 +261,7 @@ DrivingLog with_differenced_heading(DrivingLog log) {
 TEST(LateLog, AllowsForAYawRateThatIsTheDifferenceOfHeadings) {
   const Truth& t = kTruths[1];
   TrialData data;
-  data.logs = {with_differenced_heading(drive(t, 8, {.duration_s = 40.0}))};
+  data.logs = {with_differenced_heading(precise_drive(t))};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
@@ -285,7 +287,7 @@ TEST(LateLog, AllowsForSpeedAndYawRateThatWereSmoothedAfterTheDrive) {
   constexpr std::size_t kReach = 8;
   const Truth& t = kTruths[1];
   TrialData data;
-  data.logs = {drive(t, 8, {.duration_s = 40.0})};
+  data.logs = {precise_drive(t)};
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
     data.logs.front() = with_centred_mean(std::move(data.logs.front()), channel, kReach);
   }
@@ -326,7 +328,7 @@ TEST(LateLog, FindsPlaceAndDirectionOfASwaySensor) {
   constexpr double kTurned_rad = 0.03;
   const Truth& t = kTruths[1];
   TrialData data;
-  data.logs = {with_sway_sensor(drive(t, 8, {.duration_s = 40.0}), kAhead_m, kTurned_rad)};
+  data.logs = {with_sway_sensor(precise_drive(t), kAhead_m, kTurned_rad)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto ahead = estimated(*result, "sway.offset_m");
@@ -358,7 +360,7 @@ TEST_P(SlippingWheels, AreFoundInTheirReadings) {
   constexpr double kSlip_mps = 0.16;
   const Truth& t = kTruths[1];
   TrialData data;
-  data.logs = {with_slip(drive(t, 8, {.duration_s = 40.0}), kSlip_mps, GetParam())};
+  data.logs = {with_slip(precise_drive(t), kSlip_mps, GetParam())};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto slip = estimated(*result, "slip.speed_mps");
@@ -375,7 +377,7 @@ TEST_P(SlippingWheels, AreFoundInTheirReadings) {
 TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
   // Wheel slip changes the measured speed as if it were read early. Late commands together with a
   // late yaw rate have the same effect, so the log does not show which of the two is the cause.
-  DrivingLog log = with_slip(drive(kTruths[1], 8, {.duration_s = 40.0}), 0.02, false);
+  DrivingLog log = with_slip(precise_drive(kTruths[1]), 0.02, false);
   for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     log[absent].reset();
   }
@@ -464,7 +466,7 @@ class SteeringTrim : public ::testing::TestWithParam<double> {};
 
 TEST_P(SteeringTrim, IsFound) {
   const double trim_rad = GetParam();
-  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  DrivingLog log = precise_drive(kTruths[1]);
   for (double& command : *log.steering_command_rad) command -= trim_rad;
   expect_found(std::move(log), kTruths[1], "steering.trim_rad", trim_rad, "steering-trim");
 }
@@ -479,7 +481,8 @@ TEST(LateLog, FindsAServoThatIsSlowerThanTheVehicleFileSays) {
   Plant<double> slow = plant(t);
   slow.steering_max_rate_radps = kRate_radps;
   Random random(8, 5);
-  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 40.0, .drive = 8}, {}, random);
+  DrivingLog log =
+      simulate_log(slow, robot(), {.duration_s = 20.0, .drive = 8}, kPreciseSensors, random);
   expect_found(std::move(log), t, "steering.max_rate_radps", kRate_radps, "servo-rate");
 }
 
@@ -501,7 +504,8 @@ TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
   Plant<double> slow = plant(t);
   slow.steering_time_constant_s = 0.1;
   Random random(8, 5);
-  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 20.0, .drive = 8}, {}, random);
+  DrivingLog log =
+      simulate_log(slow, robot(), {.duration_s = 10.0, .drive = 8}, kPreciseSensors, random);
   std::vector<double> angle(log.rows());
   replay<double>(LogSignals(log), 0, log.rows(), slow, nullptr, 0.002, {},
                  [&](std::size_t row, const State<double>& s) { angle[row] = s.steering_rad; });
@@ -523,9 +527,9 @@ TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
   expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
 }
 
-/// Smooth commands, with a row every `step_s` for 60 s.
+/// Smooth commands, with a row every `step_s` for 30 s.
 DrivingLog smooth_commands(double step_s) {
-  constexpr double kDuration_s = 60.0;
+  constexpr double kDuration_s = 30.0;
   DrivingLog log;
   log.steering_command_rad.emplace();
   const auto rows = static_cast<std::size_t>(kDuration_s / step_s);
@@ -551,7 +555,7 @@ DrivingLog measured_rows(const DrivingLog& fast, const Plant<double>& vehicle, s
   log.steering_command_rad.emplace();
   Random random(4, 2);
   const std::map<LogChannel, double> noise{
-      {LogChannel::kSpeed, 0.01}, {LogChannel::kYawRate, 0.01}, {LogChannel::kHeading, 0.01}};
+      {LogChannel::kSpeed, 0.007}, {LogChannel::kYawRate, 0.007}, {LogChannel::kHeading, 0.007}};
   for (const auto& [channel, std] : noise) log[channel].emplace();
   for (std::size_t i = 0; i < fast.rows(); i += every) {
     log.t_s.push_back(fast.t_s[i]);
@@ -624,21 +628,21 @@ TEST(LateLog, HoldsSetPointsThatWereInterpolatedInTheLog) {
 
 TEST(LateLog, FindsAGyroscopeThatReadsTooMuch) {
   constexpr double kScale = 0.04;
-  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  DrivingLog log = precise_drive(kTruths[1]);
   for (double& reading : log[LogChannel::kYawRate]->value) reading *= 1.0 + kScale;
   expect_found(std::move(log), kTruths[1], "scale.yaw_rate_radps", kScale, "sensor-scale");
 }
 
 TEST(LateLog, FindsASpeedThatReadsTooLittle) {
   constexpr double kScale = -0.02;
-  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  DrivingLog log = precise_drive(kTruths[1]);
   for (double& reading : log[LogChannel::kSpeed]->value) reading *= 1.0 + kScale;
   expect_found(std::move(log), kTruths[1], "scale.speed_mps", kScale, "sensor-scale");
 }
 
 TEST(LateLog, FindsADeadBandOfTheSteering) {
   constexpr double kBand_rad = 0.03;
-  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  DrivingLog log = precise_drive(kTruths[1]);
   // The commands with which a vehicle with the dead band would have made the same drive.
   for (double& command : *log.steering_command_rad) {
     if (command != 0.0) command += std::copysign(kBand_rad, command);
@@ -649,7 +653,7 @@ TEST(LateLog, FindsADeadBandOfTheSteering) {
 
 TEST(LateLog, FindsSteeringThatIsNotSymmetric) {
   constexpr double kAsymmetry = 0.1;
-  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  DrivingLog log = precise_drive(kTruths[1]);
   for (double& command : *log.steering_command_rad) {
     command /= 1.0 + std::copysign(kAsymmetry, command);
   }
@@ -660,7 +664,7 @@ class ForceImbalance : public ::testing::TestWithParam<double> {};
 
 TEST_P(ForceImbalance, IsFound) {
   const double imbalance = GetParam();
-  DrivingLog log = drive(kTruths[1], 8, {.duration_s = 40.0});
+  DrivingLog log = precise_drive(kTruths[1]);
   for (double& force : log.force_left) force /= 1.0 - imbalance;
   for (double& force : log.force_right) force /= 1.0 + imbalance;
   expect_found(std::move(log), kTruths[1], "motor.imbalance", imbalance, "force-imbalance");
@@ -690,8 +694,8 @@ DrivingLog saturated(DrivingLog log, double loss, double n) {
 
 TEST(LateLog, FindsASmallSaturationOfTheForces) {
   constexpr double kLoss = 0.035;
-  expect_found(saturated(drive(kTruths[1], 8, {.duration_s = 40.0}), kLoss, 4.0), kTruths[1],
-               "motor.saturation", kLoss, "force-saturation");
+  expect_found(saturated(precise_drive(kTruths[1]), kLoss, 4.0), kTruths[1], "motor.saturation",
+               kLoss, "force-saturation");
 }
 
 class ForceSaturation : public ::testing::TestWithParam<double> {};
@@ -700,7 +704,7 @@ class ForceSaturation : public ::testing::TestWithParam<double> {};
 TEST_P(ForceSaturation, IsCompensatedWithoutIntervals) {
   const Truth& truth = kTruths[1];
   TrialData data;
-  data.logs = {saturated(drive(truth, 8, {.duration_s = 40.0}), 0.16, GetParam())};
+  data.logs = {saturated(precise_drive(truth), 0.16, GetParam())};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "force-saturation"));

@@ -26,10 +26,16 @@ inline Plant<double> plant(const Truth& t) {
   return plant;
 }
 
-inline DrivingLog drive(const Truth& t, std::uint64_t seed, DrivePlan plan = {.duration_s = 20.0}) {
+inline DrivingLog drive(const Truth& t, std::uint64_t seed, DrivePlan plan = {.duration_s = 20.0},
+                        const SensorNoise& noise = {}) {
   Random random(seed, 5);
   plan.drive = seed;
-  return simulate_log(plant(t), robot(), plan, {}, random);
+  return simulate_log(plant(t), robot(), plan, noise, random);
 }
+
+/// Sensors with 1/sqrt(2) of the default noise. A log of 20 s then shows as much as one of 40 s with
+/// the default noise, and is fitted in half the time.
+inline constexpr SensorNoise kPreciseSensors{
+    .speed_mps = 0.0141, .yaw_rate_radps = 0.00617, .heading_rad = 0.01234, .position_m = 0.0354};
 
 }  // namespace awmr::testing
