@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "awmr/core/index.h"
-#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/logs/log_report.h"
 
@@ -120,9 +119,8 @@ std::vector<Finding> side_pull_findings(const LogFit& fit, const std::string& fi
        fmt::format("a yaw moment of {:.2g} +- {:.1g} m (over F_max) pulls the vehicle to the {} "
                    "when it drives forward: a dragging brake, unequal tyres, or a wheel out of "
                    "line. The fit compensates this, but simulations and gains do not; correct "
-                   "the cause, or tune with an observer ({})",
-                   std::abs(pull->value), pull->error, pull->value > 0.0 ? "left" : "right",
-                   option_text("observer"))}};
+                   "the cause, or tune with an observer (awmr tune --observer)",
+                   std::abs(pull->value), pull->error, pull->value > 0.0 ? "left" : "right")}};
 }
 
 std::vector<Finding> turn_drag_findings(const LogFit& fit, const std::string& file) {
