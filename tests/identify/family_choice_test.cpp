@@ -35,11 +35,12 @@ LogFitOptions from_nothing(const std::vector<DrivingLog>& logs) {
   return options;
 }
 
-std::vector<DrivingLog> with_coulomb_friction(double coulomb) {
+std::vector<DrivingLog> with_coulomb_friction(double coulomb, double duration_s = 10.0) {
   Plant<double> rubbing = plant(kTruths[1]);
   rubbing.surge.coulomb = coulomb;
   Random random(8, 5);
-  return {simulate_log(rubbing, robot(), {.duration_s = 20.0, .drive = 8}, {}, random)};
+  return {simulate_log(rubbing, robot(), {.duration_s = duration_s, .drive = 8}, kPreciseSensors,
+                       random)};
 }
 
 TEST(Multistart, MostStartsLeadToTheOptimum) {
@@ -303,7 +304,7 @@ TEST(Families, ComparesFamiliesAtTheirOwnOptima) {
 }
 
 TEST(Families, GiveUpIfTheirErrorsAreFarAboveTheLimit) {
-  const std::vector<DrivingLog> logs = with_coulomb_friction(0.4);
+  const std::vector<DrivingLog> logs = with_coulomb_friction(0.4, 20.0);
   LogFitOptions options = from_nothing(logs);
   options.give_up_above = 1.5;
   const FamilyFit hopeless = fit_family(logs, options, Family::kPower, Family::kPower);
@@ -341,8 +342,11 @@ TEST(Families, TestNoTermsThatTheyHave) {
   EXPECT_EQ(both.candidate_gain[1], one.candidate_gain.at(0));
 }
 
-TEST(Families, AreComparedInALogOfInexactPositions) {
-  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 15.0});
+/// Test parameter: true to compare families of yaw too.
+class InexactPositions : public ::testing::TestWithParam<bool> {};
+
+TEST_P(InexactPositions, FamiliesAreCompared) {
+  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 8.0});
   for (const LogChannel channel :
        {LogChannel::kSpeed, LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kSway}) {
     log[channel].reset();
@@ -354,9 +358,12 @@ TEST(Families, AreComparedInALogOfInexactPositions) {
   const std::vector<DrivingLog> logs{log};
   const LogFitOptions options = from_nothing(logs);
   FamilyFit first = fit_family(logs, options, Family::kPower, Family::kPower);
-  const BestFamily found = best_family(logs, options, std::move(first), {.only_candidates = false});
+  const FamilyContest contest{.open = {.surge = true, .yaw = GetParam()}, .only_candidates = false};
+  const BestFamily found = best_family(logs, options, std::move(first), contest);
   EXPECT_TRUE(found.best.fit.usable);
 }
+INSTANTIATE_TEST_SUITE_P(Short, InexactPositions, ::testing::Values(false));
+INSTANTIATE_TEST_SUITE_P(Long, InexactPositions, ::testing::Values(true));
 
 /// Returns a fit with these speed errors at 100 Hz and their most likely noise.
 LogFit fit_with_errors(const std::vector<double>& errors) {

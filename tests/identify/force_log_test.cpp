@@ -141,7 +141,7 @@ DrivingLog log_of_set_points() {
   constexpr double kStepOfLoop_s = 0.001;
   constexpr double kHalfTrack_m = 0.2;
   constexpr int kStepsOfRow = 20;
-  constexpr int kRows = 3000;
+  constexpr int kRows = 2000;
   constexpr int kRowsHeld = 100;
   Random random(3, 1);
   DrivingLog log;

@@ -25,6 +25,14 @@ DrivingLog precise_drive(const Truth& t) {
   return drive(t, 8, {.duration_s = 20.0}, kPreciseSensors);
 }
 
+/// Fits with the power law in instances `Short`, and with a choice of the families in `Long`.
+class LateLogs : public ::testing::TestWithParam<bool> {
+ protected:
+  static IdentifyOptions options() { return GetParam() ? IdentifyOptions{} : power_law(); }
+};
+INSTANTIATE_TEST_SUITE_P(Short, LateLogs, ::testing::Values(false));
+INSTANTIATE_TEST_SUITE_P(Long, LateLogs, ::testing::Values(true));
+
 /// Returns the log with the steering command moved to `rows` rows earlier: the steering acts late.
 DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
   std::vector<double>& command = *log.steering_command_rad;
@@ -57,11 +65,11 @@ DrivingLog with_late_steering_stamps(DrivingLog log, std::size_t rows) {
   return log;
 }
 
-TEST(LateLog, FindsLateStampsOfTheSteeringAlone) {
+TEST_P(LateLogs, FindsLateStampsOfTheSteeringAlone) {
   constexpr std::size_t kRows = 14;
   TrialData data;
   data.logs = {with_late_steering_stamps(precise_drive(kTruths[1]), kRows)};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   const auto delay = estimated(*result, "steering.delay_s");
   ASSERT_TRUE(delay && delay->std_error);
@@ -214,7 +222,7 @@ TEST_P(SpeedOfSecondOrder, IsAllowedFor) {
   const Truth& t = kTruths[1];
   TrialData data;
   data.logs = {with_speed_of_second_order(precise_drive(t), kLag_s, GetParam())};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options_of_instance(), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "lag.speed_mps");
   ASSERT_TRUE(lag && lag->std_error);
@@ -222,10 +230,11 @@ TEST_P(SpeedOfSecondOrder, IsAllowedFor) {
   EXPECT_TRUE(has_finding(*result, "sensor-lag", "second order"));
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
 }
-INSTANTIATE_TEST_SUITE_P(CriticallyDampedOrButterworth, SpeedOfSecondOrder,
-                         ::testing::Values(1.0, 0.70710678));
+/// Damping ratio: critical, and that of a Butterworth filter.
+INSTANTIATE_TEST_SUITE_P(Short, SpeedOfSecondOrder, ::testing::Values(1.0, 0.70710678));
+INSTANTIATE_TEST_SUITE_P(Long, SpeedOfSecondOrder, ::testing::Values(1.0, 0.70710678));
 
-TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
+TEST_P(LateLogs, AllowsForASmoothedCompassWithoutAGyroscope) {
   constexpr double kLag_s = 0.2;
   const Truth& t = kTruths[1];
   DrivingLog log = with_smoothed(precise_drive(t), LogChannel::kHeading, kLag_s, false);
@@ -234,7 +243,7 @@ TEST(LateLog, AllowsForASmoothedCompassWithoutAGyroscope) {
   }
   TrialData data;
   data.logs = {std::move(log)};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "lag.heading_rad");
   ASSERT_TRUE(lag && lag->std_error);
@@ -283,7 +292,7 @@ DrivingLog with_centred_mean(DrivingLog log, LogChannel channel, std::size_t rea
   return log;
 }
 
-TEST(LateLog, AllowsForSpeedAndYawRateThatWereSmoothedAfterTheDrive) {
+TEST_P(LateLogs, AllowsForSpeedAndYawRateThatWereSmoothedAfterTheDrive) {
   constexpr std::size_t kReach = 8;
   const Truth& t = kTruths[1];
   TrialData data;
@@ -291,7 +300,7 @@ TEST(LateLog, AllowsForSpeedAndYawRateThatWereSmoothedAfterTheDrive) {
   for (const LogChannel channel : {LogChannel::kSpeed, LogChannel::kYawRate}) {
     data.logs.front() = with_centred_mean(std::move(data.logs.front()), channel, kReach);
   }
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   // Variance of a uniform distribution over 2 k + 1 rows: k (k + 1)/3 in units of rows^2.
   const double variance_s2 = kReach * (kReach + 1) / 3.0 * kStep_s * kStep_s;
@@ -323,13 +332,13 @@ DrivingLog with_sway_sensor(DrivingLog log, double ahead_m, double turned_rad) {
   return log;
 }
 
-TEST(LateLog, FindsPlaceAndDirectionOfASwaySensor) {
+TEST_P(LateLogs, FindsPlaceAndDirectionOfASwaySensor) {
   constexpr double kAhead_m = -0.04;
   constexpr double kTurned_rad = 0.03;
   const Truth& t = kTruths[1];
   TrialData data;
   data.logs = {with_sway_sensor(precise_drive(t), kAhead_m, kTurned_rad)};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   const auto ahead = estimated(*result, "sway.offset_m");
   const auto turned = estimated(*result, "sway.angle_rad");
@@ -447,10 +456,10 @@ TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
 /// Expects that the fit of a log with an error of the motors or the steering estimates the error,
 /// reports its finding, and estimates the true parameters.
 void expect_found(DrivingLog log, const Truth& truth, const std::string& name, double value,
-                  const std::string& code) {
+                  const std::string& code, const IdentifyOptions& options = {}) {
   TrialData data;
   data.logs = {std::move(log)};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options, {});
   ASSERT_TRUE(result);
   const auto found = estimated(*result, name);
   ASSERT_TRUE(found && found->std_error);
@@ -468,13 +477,14 @@ TEST_P(SteeringTrim, IsFound) {
   const double trim_rad = GetParam();
   DrivingLog log = precise_drive(kTruths[1]);
   for (double& command : *log.steering_command_rad) command -= trim_rad;
-  expect_found(std::move(log), kTruths[1], "steering.trim_rad", trim_rad, "steering-trim");
+  expect_found(std::move(log), kTruths[1], "steering.trim_rad", trim_rad, "steering-trim",
+               options_of_instance());
 }
 INSTANTIATE_TEST_SUITE_P(Short, SteeringTrim, ::testing::Values(-0.03));
-/// Long tests: the other sign and a larger value.
-INSTANTIATE_TEST_SUITE_P(Long, SteeringTrim, ::testing::Values(0.07));
+/// Long tests: a choice of the families, the other sign and a larger value.
+INSTANTIATE_TEST_SUITE_P(Long, SteeringTrim, ::testing::Values(-0.03, 0.07));
 
-TEST(LateLog, FindsAServoThatIsSlowerThanTheVehicleFileSays) {
+TEST_P(LateLogs, FindsAServoThatIsSlowerThanTheVehicleFileSays) {
   const Truth& t = kTruths[1];
   constexpr double kRate_radps = 1.0;
   ASSERT_GT(radians(robot().steering_max_rate_degps), 4.0 * kRate_radps);
@@ -483,7 +493,7 @@ TEST(LateLog, FindsAServoThatIsSlowerThanTheVehicleFileSays) {
   Random random(8, 5);
   DrivingLog log =
       simulate_log(slow, robot(), {.duration_s = 20.0, .drive = 8}, kPreciseSensors, random);
-  expect_found(std::move(log), t, "steering.max_rate_radps", kRate_radps, "servo-rate");
+  expect_found(std::move(log), t, "steering.max_rate_radps", kRate_radps, "servo-rate", options());
 }
 
 TEST(LateLog, WithdrawsTheIntervalsOfLogsWithDifferentTrims) {
@@ -573,11 +583,11 @@ DrivingLog measured_rows(const DrivingLog& fast, const Plant<double>& vehicle, s
   return log;
 }
 
-TEST(LateLog, InterpolatesCommandsThatChangeFasterThanTheRows) {
+TEST_P(LateLogs, InterpolatesCommandsThatChangeFasterThanTheRows) {
   const Truth& t = kTruths[1];
   TrialData data;
   data.logs = {measured_rows(smooth_commands(0.01), plant(t), 5)};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "interpolated-commands"));
   EXPECT_FALSE(has_finding(*result, "late-commands"));
@@ -605,7 +615,7 @@ std::vector<double> on_lines(const std::vector<double>& signal, std::size_t rows
   return lines;
 }
 
-TEST(LateLog, HoldsSetPointsThatWereInterpolatedInTheLog) {
+TEST_P(LateLogs, HoldsSetPointsThatWereInterpolatedInTheLog) {
   constexpr std::size_t kRowsHeld = 5;
   const Truth& t = kTruths[1];
   DrivingLog fast = smooth_commands(0.02);
@@ -617,7 +627,7 @@ TEST(LateLog, HoldsSetPointsThatWereInterpolatedInTheLog) {
   }
   TrialData data;
   data.logs = {std::move(log)};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "interpolated-set-points"));
   EXPECT_FALSE(has_finding(*result, "interpolated-commands"));
@@ -640,7 +650,7 @@ TEST(LateLog, FindsASpeedThatReadsTooLittle) {
   expect_found(std::move(log), kTruths[1], "scale.speed_mps", kScale, "sensor-scale");
 }
 
-TEST(LateLog, FindsADeadBandOfTheSteering) {
+TEST_P(LateLogs, FindsADeadBandOfTheSteering) {
   constexpr double kBand_rad = 0.03;
   DrivingLog log = precise_drive(kTruths[1]);
   // The commands with which a vehicle with the dead band would have made the same drive.
@@ -648,16 +658,17 @@ TEST(LateLog, FindsADeadBandOfTheSteering) {
     if (command != 0.0) command += std::copysign(kBand_rad, command);
   }
   expect_found(std::move(log), kTruths[1], "steering.dead_band_rad", kBand_rad,
-               "steering-dead-band");
+               "steering-dead-band", options());
 }
 
-TEST(LateLog, FindsSteeringThatIsNotSymmetric) {
+TEST_P(LateLogs, FindsSteeringThatIsNotSymmetric) {
   constexpr double kAsymmetry = 0.1;
   DrivingLog log = precise_drive(kTruths[1]);
   for (double& command : *log.steering_command_rad) {
     command /= 1.0 + std::copysign(kAsymmetry, command);
   }
-  expect_found(std::move(log), kTruths[1], "steering.asymmetry", kAsymmetry, "steering-asymmetry");
+  expect_found(std::move(log), kTruths[1], "steering.asymmetry", kAsymmetry, "steering-asymmetry",
+               options());
 }
 
 class ForceImbalance : public ::testing::TestWithParam<double> {};
@@ -667,11 +678,12 @@ TEST_P(ForceImbalance, IsFound) {
   DrivingLog log = precise_drive(kTruths[1]);
   for (double& force : log.force_left) force /= 1.0 - imbalance;
   for (double& force : log.force_right) force /= 1.0 + imbalance;
-  expect_found(std::move(log), kTruths[1], "motor.imbalance", imbalance, "force-imbalance");
+  expect_found(std::move(log), kTruths[1], "motor.imbalance", imbalance, "force-imbalance",
+               options_of_instance());
 }
 INSTANTIATE_TEST_SUITE_P(Short, ForceImbalance, ::testing::Values(0.05));
-/// Long tests: the other sign and a larger value.
-INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(-0.1));
+/// Long tests: a choice of the families, the other sign and a larger value.
+INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(0.05, -0.1));
 
 /// The log of a vehicle whose motors saturate: a command F' gives the force
 ///   F'/(1 + s (F'/F'm)^n)^(1/n),   s = (1 - L)^(-n) - 1
@@ -705,7 +717,7 @@ TEST_P(ForceSaturation, IsCompensatedWithoutIntervals) {
   const Truth& truth = kTruths[1];
   TrialData data;
   data.logs = {saturated(precise_drive(truth), 0.16, GetParam())};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options_of_instance(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "force-saturation"));
   const std::pair<ParameterId, double> truths[] = {
@@ -757,7 +769,7 @@ TEST(LateLog, DoesNotCompareLogsWithALargeSaturation) {
 
 INSTANTIATE_TEST_SUITE_P(Short, ForceSaturation, ::testing::Values(4.0));
 /// Sharpness n of the saturation: from a gradual loss of force (1) to nearly a hard limit (20).
-INSTANTIATE_TEST_SUITE_P(Long, ForceSaturation, ::testing::Values(1.0, 2.0, 20.0));
+INSTANTIATE_TEST_SUITE_P(Long, ForceSaturation, ::testing::Values(1.0, 2.0, 4.0, 20.0));
 
 TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {
   TrialData data;

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "awmr/trials/replay.h"
@@ -29,6 +30,13 @@ inline IdentifyOptions power_law() {
   IdentifyOptions options;
   options.surge_family = options.yaw_family = {.family = Family::kPower, .requested = true};
   return options;
+}
+
+/// power_law() in instances `Short` of a parameterised test; all families in the others.
+inline IdentifyOptions options_of_instance() {
+  const std::string_view suite =
+      ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name();
+  return suite.starts_with("Short/") ? power_law() : IdentifyOptions{};
 }
 
 /// Force of motors with the time constant T = lag_s, averaged from each row to the next. The

@@ -49,7 +49,7 @@ TEST(LogSample, HasTheChannelsAndInitialStatesOfItsWindows) {
   EXPECT_EQ(states.coordinates, point.coordinates);
 }
 
-TEST(LogSample, LeadsToTheValuesOfALongLogWithASlowServo) {
+TEST(LogSample, LeadsToTheValuesOfLogsWithASlowServo) {
   constexpr double kRate_radps = 1.0;
   const Truth& t = kTruths[1];
   ASSERT_GT(radians(robot().steering_max_rate_degps), 4.0 * kRate_radps);
@@ -57,8 +57,12 @@ TEST(LogSample, LeadsToTheValuesOfALongLogWithASlowServo) {
   slow.steering_max_rate_radps = kRate_radps;
   Random random(8, 5);
   TrialData data;
-  data.logs = {
-      simulate_log(slow, robot(), {.duration_s = 250.0, .rate_hz = 50.0, .drive = 8}, {}, random)};
+  // Each log has at least one window.
+  for (std::uint64_t seed = 1; seed <= 2 * kSampleWindows; ++seed) {
+    data.logs.push_back(simulate_log(
+        slow, robot(), {.duration_s = 6.0, .rate_hz = 50.0, .drive = seed}, {}, random));
+    data.logs.back().file = std::to_string(seed);
+  }
   const auto result = identify(robot(), data, power_law(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "servo-rate"));

@@ -220,22 +220,26 @@ TEST(Log, SeparatesMotorLagFromADeadTime) {
 }
 
 /// The motors are switched on at the first row. The lag makes speed and yaw rate look filtered.
-TEST(Log, FindsALargeMotorLagInALogThatBeginsWithTheMotors) {
-  constexpr double kLag_s = 0.3;
+class LargeMotorLag : public ::testing::TestWithParam<double> {};
+
+TEST_P(LargeMotorLag, IsFoundInALogThatBeginsWithTheMotors) {
+  const double lag_s = GetParam();
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 20.0}, true)};
+  data.logs = {drive_with_lag(kTruths[1], 8, lag_s, {.duration_s = 12.0}, true)};
   add_row_of_rest(data.logs[0]);
   ASSERT_EQ(data.logs[0].force_left[0], 0.0);
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options_of_instance(), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "motor.time_constant_s");
   ASSERT_TRUE(lag && lag->std_error);
-  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  EXPECT_NEAR(lag->value, lag_s, 4.5 * *lag->std_error);
   EXPECT_FALSE(has_finding(*result, "sensor-lag"));
   EXPECT_FALSE(has_finding(*result, "stribeck-friction"));
   expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
 }
+INSTANTIATE_TEST_SUITE_P(Short, LargeMotorLag, ::testing::Values(0.3));
+INSTANTIATE_TEST_SUITE_P(Long, LargeMotorLag, ::testing::Values(0.3));
 
 TEST(Log, RefusesAnImpossibleInertia) {
   TrialData data;
@@ -420,7 +424,8 @@ TEST(Log, SelectsAndReportsABetterFamily) {
   braked.surge = {.alpha = 0.74, .beta = 1.0, .coulomb = 0.15};
   Random random(22, 5);
   TrialData data;
-  data.logs = {simulate_log(braked, robot(), {.duration_s = 40.0, .drive = 22}, {}, random)};
+  data.logs = {
+      simulate_log(braked, robot(), {.duration_s = 20.0, .drive = 22}, kPreciseSensors, random)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(terms_of(result->model.surge_family).coulomb);
@@ -470,7 +475,7 @@ INSTANTIATE_TEST_SUITE_P(Long, BackEmfOfSeeds, ::testing::Values(3));
 
 TEST(BackEmf, IsNotFoundForIdealMotorsAndRefusedOnRequest) {
   TrialData data;
-  data.logs = {drive(kTruths[0], 31, {.duration_s = 40.0})};
+  data.logs = {drive(kTruths[0], 31, {.duration_s = 20.0}, kPreciseSensors)};
   const auto by_itself = identify(robot(), data, {}, {});
   ASSERT_TRUE(by_itself);
   EXPECT_FALSE(has_finding(*by_itself, "back-emf", ""));
@@ -532,7 +537,8 @@ TEST(Log, ReportsAnotherMassOnTheSecondDayAndWidensTheInterval) {
   Truth heavy = kTruths[0];
   heavy.mass_norm *= 1.2;
   TrialData data;
-  data.logs = {drive(kTruths[0], 23, {.duration_s = 40.0}), drive(heavy, 24, {.duration_s = 40.0})};
+  data.logs = {drive(kTruths[0], 23, {.duration_s = 20.0}, kPreciseSensors),
+               drive(heavy, 24, {.duration_s = 20.0}, kPreciseSensors)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "logs-disagree", "mass_norm"));

@@ -89,7 +89,7 @@ TEST_F(RecoverShards, OfLogsMergeToTheBytesOfASingleRun) {
   RecoverOptions options = seven_runs();
   options.runs = 3;
   options.plan = RecoverPlan::kLog;
-  options.drive.duration_s = 20.0;
+  options.drive.duration_s = 10.0;
   const auto whole = recover(model(), options, {});
   ASSERT_TRUE(whole) << to_text(whole.error());
   std::vector<fs::path> parts;

@@ -38,7 +38,7 @@ IdentifyOptions with_terms(std::vector<std::string> terms) {
 
 TEST(RequestedTerms, AreEstimated) {
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, 0.08, {.duration_s = 40.0})};
+  data.logs = {drive_with_lag(kTruths[1], 8, 0.08)};
   const auto result = identify(robot(), data, with_terms({"motor.time_constant_s"}), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "motor.time_constant_s");
