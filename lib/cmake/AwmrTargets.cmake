@@ -43,17 +43,21 @@ endfunction()
 include(CheckLinkerFlag)
 check_linker_flag(CXX -fuse-ld=gold AWMR_HAS_GOLD)
 
-# awmr_test(NAME SOURCES file... [TIER tier] [LINK target...] [CASES n] [TOGETHER suite...]): one GoogleTest executable.
+# awmr_test(NAME SOURCES file... [TIER tier] [LINK target...] [CASES n] [COST n] [TOGETHER suite...]): one GoogleTest executable.
 # Each test case is a test of CTest, except that each suite in TOGETHER is one test, because its cases share a costly set-up.
 # RapidCheck's properties have a fixed seed and n random cases, 100 by default. TIER is `unit` by default (tests/README.md). Instances
 # of value-parameterised suites that are named Long are in tier `long`; those named Short detect the same defects with fewer repeats.
+# CTest starts tests with a larger COST first, so that the last ones to run are short.
 function(awmr_test name)
-  cmake_parse_arguments(ARG "" "CASES;TIER" "SOURCES;LINK;TOGETHER" ${ARGN})
+  cmake_parse_arguments(ARG "" "CASES;COST;TIER" "SOURCES;LINK;TOGETHER" ${ARGN})
   if(NOT ARG_CASES)
     set(ARG_CASES 100)
   endif()
   if(NOT ARG_TIER)
     set(ARG_TIER unit)
+  endif()
+  if(NOT ARG_COST)
+    set(ARG_COST 0)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
@@ -73,7 +77,7 @@ function(awmr_test name)
       awmr_command_test(${suite} TIER ${ARG_TIER} TIMEOUT 300 COMMAND ${name} --gtest_filter=${suite}.*)
     endforeach()
   endif()
-  set(properties TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=20260117 max_success=${ARG_CASES}")
+  set(properties TIMEOUT 300 COST ${ARG_COST} ENVIRONMENT "RC_PARAMS=seed=20260117 max_success=${ARG_CASES}")
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${others}" PROPERTIES ${properties} LABELS ${ARG_TIER})
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "Long/*" TEST_LIST ${name}_long PROPERTIES ${properties} LABELS long)
 endfunction()
