@@ -103,11 +103,11 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
 /// Warns if the sample time is shorter than the chip's longest step with the parts that are
 /// compiled in, longer than the permitted time between two steps, or longer than half of the
 /// heading timeout.
-std::vector<Finding> sample_time(double sample_time_s, bool has_observer,
+std::vector<Finding> sample_time(double sample_time_s, const Gains<double>& gains,
                                  const EmitCommand& command) {
-  std::set<FirmwarePart> parts = command.emit.parts;
-  if (has_observer) parts.insert(FirmwarePart::kObserver);
-  const double longest_step_s = longest_step_cycles(parts, command.emit.resistance) / kChipClock_Hz;
+  const double longest_step_s =
+      longest_step_cycles(parts_with(command.emit.parts, gains), command.emit.resistance) /
+      kChipClock_Hz;
   const double oldest_s = 1e-3 * command.emit.heading_timeout_ms;
   std::vector<Finding> findings;
   const auto add = [&](std::string message) {
@@ -203,7 +203,7 @@ Result<Outcome> execute(const EmitCommand& command) {
   AWMR_RETURN_IF_ERROR(note_other_model(command.gains, command.model, outcome.findings));
   if (auto finding = missing_intervals(model)) outcome.findings.push_back(*std::move(finding));
   const double sample_time_s = model.vehicle.sample_time_s;
-  std::ranges::move(sample_time(sample_time_s, gains.observer.is_on(), command),
+  std::ranges::move(sample_time(sample_time_s, gains, command),
                     std::back_inserter(outcome.findings));
   note_unstable(gains, sample_time_s, command.gains, outcome.findings);
   if (const auto plant = model.plant(Motion::kStraight)) {

@@ -99,12 +99,11 @@ void bind_identify(py::module_& module) {
       py::arg("threads") = 0,
       "Fits the parameters of a vehicle to its trials. The arguments are the options of the same "
       "names of `awmr identify`, and the results equal those of that command. `method`: "
-      "\"log-linear\", "
-      "\"nonlinear\" or \"trajectory\" (None: chosen by the data); `noise`: the quantity that has "
+      "\"log-linear\", \"nonlinear\" or \"trajectory\" (None: chosen by the data); `noise`: the "
+      "quantity that has "
       "the errors, \"force\", \"speed\" or \"time\"; `family`, `fit`: lists of the values of "
       "--family and --fit; `time_limit_s`: 0 is no limit; `threads`: 0 is all cores, and the "
-      "number "
-      "does not change the results. Raises InputError.");
+      "number does not change the results. Raises InputError.");
   module.def(
       "suggest", suggested, py::arg("model"), py::kw_only(), py::arg("parameter") = "",
       py::arg("repeats") = 3,

@@ -243,16 +243,15 @@ Json ranking_json(const Preferences& preferences) {
   }
   json["first_by_weights"] =
       "fraction of random weightings of the metrics (uniform over all that sum to 1) with which "
-      "the "
-      "mode has the best score. A weighting is divided equally among all modes within relevance of "
+      "the mode has the best score. A weighting is divided equally among all modes within "
+      "relevance of "
       "the best score. Modes that are tied for best have the mean of their fractions";
   json["decision"] = fmt::format(
       "decided: one mode has rank 1 in the ranking and under every change of one assumption; "
-      "level: "
-      "several modes have; undecided: no mode has. Changes: any weights within a factor {:g}; with "
+      "level: several modes have; undecided: no mode has. Changes: any weights within a factor "
+      "{:g}; with "
       "option plant both, also the other plant and, for a single set of gains, the rates of "
-      "heading "
-      "and speed loop multiplied and divided by {:.3g}, each with up to {} samples",
+      "heading and speed loop multiplied and divided by {:.3g}, each with up to {} samples",
       kWeightFactor, kGainsFactor, kBatchRuns - 1);
   return json;
 }

@@ -223,9 +223,8 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   parameters.on_course_rad = single(sketch.on_course_rad);
   parameters.off_course_mrad = single(sketch.off_course_mrad);
   set_position_filter(model.vehicle, parameters);
-  parameters.parts = options.parts;
+  parameters.parts = parts_with(options.parts, gains);
   parameters.observer = observer_of(gains.observer, parameters.sample_time_s);
-  if (parameters.observer) parameters.parts.insert(FirmwarePart::kObserver);
   parameters.split = options.split;
   parameters.line_law = options.line_law;
   parameters.block = block_of(plant, model, gains, options);

@@ -68,6 +68,9 @@ inline constexpr NameTable<FirmwarePart, 6> kFirmwarePartNames{
      {"shaping", FirmwarePart::kShaping},
      {"observer", FirmwarePart::kObserver}}};
 
+/// The optional features of the firmware: `parts`, and kObserver if the gains have an observer.
+std::set<FirmwarePart> parts_with(std::set<FirmwarePart> parts, const Gains<double>& gains);
+
 /// Largest number of clock cycles that a control step with these parts takes on the ATmega2560: the
 /// slowest guidance, plus the parts that are computed in addition. Source: the largest
 /// `cycles_bound` of `awmr pil` over configs/ (apps/awmr-pil/README.md), rounded up; it comes from a

@@ -40,6 +40,11 @@ std::uint32_t added_cycles(FirmwarePart part) {
 
 }  // namespace
 
+std::set<FirmwarePart> parts_with(std::set<FirmwarePart> parts, const Gains<double>& gains) {
+  if (gains.observer.is_on()) parts.insert(FirmwarePart::kObserver);
+  return parts;
+}
+
 std::uint32_t longest_step_cycles(const std::set<FirmwarePart>& parts, ResistanceForm resistance) {
   std::uint32_t guidance = kWaypointCycles;
   std::uint32_t added = resistance == ResistanceForm::kPowf ? 16'000 : 0;

@@ -247,8 +247,7 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
         heading_damping(gains, context, loops, context.latency_s, lag_s, dominant_damping_ratio),
         context.limits.late_damping,
         "smallest damping ratio of the slow poles of the heading loop with latency and motor lag "
-        ">= "
-        "required"));
+        ">= required"));
     const double doubled_s = 2.0 * context.latency_s + context.sample_time_s;
     worst.push_back(at_least("delay margin",
                              heading_damping(gains, context, ends, doubled_s, lag_s, damping_ratio),

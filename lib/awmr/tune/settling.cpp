@@ -207,8 +207,7 @@ std::string describe(const std::vector<SettlingChange>& changes, std::string_vie
 std::string no_change_settles(std::string_view runs) {
   return fmt::format(
       "None of these changes lets {} settle: four times the duration, no heading-rate limit, an "
-      "observer, "
-      "gains for one mode only, relaxed limits",
+      "observer, gains for one mode only, relaxed limits",
       runs);
 }
 

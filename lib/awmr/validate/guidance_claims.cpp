@@ -234,29 +234,32 @@ bool is_best(const ModeRuns& runs, YawMode mode, Value value) {
   });
 }
 
+/// Finishing time, cross-track error and speed drop of each mode on one path.
+std::string along(const char* where, const ModeRuns& runs) {
+  return fmt::format(
+      "{0}, finishing time: {1}; {0}, RMS cross-track error: {2}; {0}, speed drop: {3}", where,
+      by_mode(runs, "s", finish_s), by_mode(runs, "m", cross_track_m),
+      by_mode(runs, "m/s", drop_mps));
+}
+
 Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
   const auto best_for = [](const ModeRuns& runs, YawMode mode) {
     return is_best(runs, mode, finish_s) && is_best(runs, mode, cross_track_m);
   };
   const bool at_waypoints = best_for(points, YawMode::kCombined);
   const bool along_line = best_for(path, YawMode::kCombined);
-  const bool speed = is_best(points, YawMode::kDifferential, drop_mps) &&
-                     is_best(path, YawMode::kDifferential, drop_mps);
-  const auto figure = [](const char* where, const ModeRuns& runs) {
-    return fmt::format(
-        "{0}, finishing time: {1}; {0}, RMS cross-track error: {2}; {0}, speed drop: {3}", where,
-        by_mode(runs, "s", finish_s), by_mode(runs, "m", cross_track_m),
-        by_mode(runs, "m/s", drop_mps));
+  const auto differential = [&](auto value) {
+    return is_best(points, YawMode::kDifferential, value) &&
+           is_best(path, YawMode::kDifferential, value);
   };
-  const bool differential_close = is_best(points, YawMode::kDifferential, cross_track_m) &&
-                                  is_best(path, YawMode::kDifferential, cross_track_m);
+  const bool speed = differential(drop_mps);
   constexpr double percent = 100.0 * kAsGoodShare;
   return {
       .id = "C12",
       .statement =
           "combined mode is best for waypoints and paths, differential mode for holding the speed",
       .reproduced = at_waypoints && along_line && speed,
-      .figure = figure("waypoints", points) + "; " + figure("polyline", path),
+      .figure = along("waypoints", points) + "; " + along("polyline", path),
       .tolerance =
           fmt::format("on both paths (waypoints and polyline), combined mode is within {0:.0f} % "
                       "of the shortest finishing time and of the smallest RMS cross-track error, "
@@ -266,7 +269,7 @@ Claim best_modes(const ModeRuns& points, const ModeRuns& path) {
                          "the polyline, it is {2}within {0:.0f} % of the best. {3}Differential "
                          "mode {4}. These are single runs; `awmr compare` gives intervals",
                          percent, at_waypoints ? "" : "not ", along_line ? "" : "not ",
-                         differential_close
+                         differential(cross_track_m)
                              ? fmt::format("On both, differential mode is within {:.0f} % of the "
                                            "smallest RMS cross-track error. ",
                                            percent)

@@ -27,6 +27,23 @@ Interval speed_range(const ModeRun& run, double from_s, double to_s) {
   return range;
 }
 
+/// Reason for the verdict of C4. `none_over`: no mode overshoots; `no_error`: no mode has an error
+/// at the end of the run.
+std::string why_it_converges(bool none_over, bool no_error) {
+  if (!no_error) {
+    return "the force limits, or a turn that is not complete at the end of the run, leave a speed "
+           "error";
+  }
+  if (!none_over) {
+    return "while the front wheels move, the lag of the steering servo and the force limits make "
+           "the thrust differ from the command";
+  }
+  return "the speed loop is of first order, and the speed law compensates exactly the resistance "
+         "of the simulated vehicle, so the speed does not overshoot. The excess after the heading "
+         "step comes from the lag of the steering servo: the wheel forces are computed for the "
+         "commanded steering angle, but the actual angle follows later";
+}
+
 }  // namespace
 
 /// Evaluates the overshoot of the speed from the start to the second heading step, and the speed
@@ -62,16 +79,7 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
       .tolerance = fmt::format("overshoot from rest and error at the end of the run are at most {} "
                                "m/s each. The excess after the heading step does not count",
                                kAccepted_mps),
-      .why =
-          none_over && no_error
-              ? "the speed loop is of first order, and the speed law compensates exactly the "
-                "resistance of the simulated vehicle, so the speed does not overshoot. The excess "
-                "after the heading step comes from the lag of the steering servo: the wheel forces "
-                "are computed for the commanded steering angle, but the actual angle follows later"
-          : !no_error ? "the force limits, or a turn that is not complete at the end of the run, "
-                        "leave a speed error"
-                      : "while the front wheels move, the lag of the steering servo and the force "
-                        "limits make the thrust differ from the command",
+      .why = why_it_converges(none_over, no_error),
       .modes = verdicts_by_mode(
           runs, [&](const ModeRun& run) { return !is_over(run) && is_right(run); })};
 }

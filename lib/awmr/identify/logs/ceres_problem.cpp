@@ -257,7 +257,7 @@ void report_end(const ceres::Solver::Summary& summary, bool at_limit, const std:
                                     : stop_reason(summary);
 }
 
-/// What the search does if a step leads to a point at which the simulation is not finite.
+/// Response of a search to a step after which the simulation is not finite.
 enum class LineSearch {
   /// Ceres cuts steps at the bounds and shortens steps that fail. One Jacobian per step.
   kOff,

@@ -155,7 +155,8 @@ void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss
 
 /// Makes a short fit (one round) with each candidate term, and returns the fit with the lowest AIC.
 /// If no term lowers AIC, returns the fit with the most significant candidate, provided that its
-/// score test exceeds 20 standard errors. Otherwise returns empty.
+/// score test exceeds 20 standard errors. Otherwise returns empty. Reason: AIC may rise in one round
+/// even if the term has a large effect, because the drift of the noise model had absorbed it before.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   LowestAic lowest(settled);
   // Fit with the most significant candidate, if above kBeyondDoubt.
@@ -194,8 +195,6 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
       terms.front().quantity.kind == FreeQuantity::Kind::kSmoothing) {
     strongest = std::move(smoothed);
   }
-  // AIC may rise in one round even if the term has a large effect, because the drift of the noise
-  // model had absorbed this effect before.
   return lowest.best() ? std::move(lowest.best()) : std::move(strongest);
 }
 

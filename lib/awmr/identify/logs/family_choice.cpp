@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "awmr/core/option_text.h"
@@ -125,24 +126,15 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                              apart, families_in_words(best.surge, best.yaw))};
 }
 
-Finding not_compared(const std::string& file, const FamilyFit& first) {
+/// The finding of a search that reached its limit. `before`: what it had not done, with the
+/// families of `fit`.
+Finding not_finished(const std::string& file, std::string_view before, const FamilyFit& fit) {
   return {
       file, 0, Severity::kWarning, "families-not-compared",
-      fmt::format(
-          "the search reached its limit of computation or time before every resistance family was "
-          "compared with {}, so the intervals are withdrawn. Select the family ({}), or use a part "
-          "of the logs",
-          families_in_words(first.surge, first.yaw), option_text("family surge=..."))};
-}
-
-Finding terms_not_searched(const std::string& file, const FamilyFit& best) {
-  return {
-      file, 0, Severity::kWarning, "families-not-compared",
-      fmt::format(
-          "the search reached its limit of computation or time before it had looked for delays, "
-          "lags and command errors with {}, so the intervals are withdrawn. Select the family "
-          "({}), or use a part of the logs",
-          families_in_words(best.surge, best.yaw), option_text("family surge=..."))};
+      fmt::format("the search reached its limit of computation or time before {} with {}, so "
+                  "the intervals are withdrawn. Select the family ({}), or use a part of the "
+                  "logs",
+                  before, families_in_words(fit.surge, fit.yaw), option_text("family surge=..."))};
 }
 
 /// A fit is stopped early if its LogFit::relative_error exceeds that of the best fit by more than
@@ -191,7 +183,8 @@ void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool 
   }
   if (is_over(power_law)) {
     result.is_out_of_time = true;
-    result.findings.push_back(not_compared(logs.front().file, fits.front()));
+    result.findings.push_back(
+        not_finished(logs.front().file, "every resistance family was compared", fits.front()));
   }
   std::swap(fits.front(), fits[selected(fits, of_yaw, lead)]);
   result.best = std::move(fits.front());
@@ -255,7 +248,8 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
   FamilyFit own = fit_with(logs, std::move(options), best.surge, best.yaw);
   if (is_over(power_law)) {
     result.is_out_of_time = true;
-    result.findings.push_back(terms_not_searched(logs.front().file, best));
+    result.findings.push_back(
+        not_finished(logs.front().file, "it had looked for delays, lags and command errors", best));
   }
   if (aic_lead(own.fit, best.fit) > 0.0) best = std::move(own);
 }

@@ -154,8 +154,7 @@ std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, Paramete
 
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities) {
-  // Information of the weak prior of the search, whose standard deviation is kPriorStd large
-  // changes.
+  // Information of the search's weak prior: a standard deviation of kPriorStd large changes.
   constexpr double kPrior = 1.0 / (kPriorStd * kPriorStd);
   constexpr double kNull = 1e-12;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
