@@ -117,10 +117,10 @@ TEST(Goal, IsForItsModeOrForEach) {
 
 TuneOptions options_with(const TuningGoal& goal) {
   TuneOptions options;
-  options.global_evaluations = 150;
-  options.local_evaluations = 60;
+  options.global_evaluations = 80;
+  options.local_evaluations = 30;
   options.draws = 3;
-  options.evaluation_draws = 100;
+  options.evaluation_draws = 60;
   options.goals = {goal};
   return options;
 }
@@ -158,7 +158,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
   }
   ASSERT_EQ(held->robust->goals.size(), 3U);  // robust, paper's and nominal gains
   EXPECT_EQ(held->robust->goals.front().gains, "robust");
-  EXPECT_EQ(held->robust->goals.front().runs, 100);
+  EXPECT_EQ(held->robust->goals.front().runs, 60);
   EXPECT_NE(held->gains.heading.lambda, free->gains.heading.lambda);
   EXPECT_GT(held->objective, 0.99 * free->objective) << "a limit cannot improve the objective";
 }
