@@ -278,7 +278,7 @@ TEST_F(Honesty, NoNumberDependsOnTheOrderOfFiles) {
     const std::string logs = fmt::format("--log {} --log {}", one, other);
     fits.push_back(without_inputs(
         result_of(fmt::format("identify --vehicle configs/paper/vehicle.json {} --family power "
-                              "--bootstrap 20 -o {}",
+                              "--bootstrap 5 -o {}",
                               logs, path("m.json")))["result"]));
     Json validation = result_of(fmt::format("validate --model {} {} -o {}", kept("model.json"),
                                             logs, path("v.json")))["result"];

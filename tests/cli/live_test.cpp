@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -46,12 +47,17 @@ class Live : public ::testing::Test {
   static ProcessResult shell(const std::string& words) {
     return run_process(words, AWMR_SOURCE_DIR);
   }
-  /// Model that `identify` makes of the recording with the same options.
-  std::string identified(const std::string& options = kPowerLaw) const {
-    const ProcessResult run = awmr("identify" + kVehicle + " --quiet --log " + path("live.csv") +
-                                   " -o " + path("again.json") + " " + options);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    return read_all(path("again.json"));
+  /// Model that `identify` makes of the recording with the same options. Equal recordings are
+  /// identified once.
+  const std::string& identified(const std::string& options = kPowerLaw) {
+    const auto [model, is_new] = models_.try_emplace(read_all(path("live.csv")) + options);
+    if (is_new) {
+      const ProcessResult run = awmr("identify" + kVehicle + " --quiet --log " + path("live.csv") +
+                                     " -o " + path("again.json") + " " + options);
+      EXPECT_EQ(run.exit_code, 0) << run.err;
+      model->second = read_all(path("again.json"));
+    }
+    return model->second;
   }
   /// Writes the drive with one column scaled and returns its path.
   std::string drive_with(const std::string& column, double factor) const {
@@ -77,6 +83,7 @@ class Live : public ::testing::Test {
   }
 
   TemporaryDirectory directory_;
+  std::map<std::string, std::string> models_;  ///< by recording and options
 };
 
 TEST_F(Live, APipeInPiecesEndsInTheLogAndItsModel) {
