@@ -137,7 +137,7 @@ TEST_F(JsonOutput, OfAnErrorIsAnObjectOnStderr) {
 }
 
 TEST_F(JsonOutput, IsTheSameEveryTime) {
-  const std::string line = "suggest --json --model " + path("model.json");
+  const std::string line = "recover --runs 2 --json --model " + path("model.json");
   EXPECT_EQ(awmr(line).out, awmr(line).out);
 }
 

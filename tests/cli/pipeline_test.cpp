@@ -110,7 +110,7 @@ TEST_F(Pipeline, TunedGainsBeatThePapersInEveryModeUnderTheConstraint) {
 TEST_F(Pipeline, GivesTheSameBytesAgain) {
   const TemporaryDirectory one, two;
   write_all(one.path() / "tune.json",
-            R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 4, "judged_draws": 4,
+            R"({"global_evaluations": 10, "local_evaluations": 5, "draws": 1, "judged_draws": 2,
           "mode": "combined"})");
   Json project =
       Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/configs/paper/project.json"));
@@ -119,7 +119,9 @@ TEST_F(Pipeline, GivesTheSameBytesAgain) {
   };
   below_configs(project["vehicle"]);
   for (Json& trial : project["trials"]) below_configs(trial);
-  for (Json& scenario : project["compare"]["scenarios"]) below_configs(scenario);
+  Json& scenarios = project["compare"]["scenarios"];
+  scenarios = Json::array({scenarios.front()});
+  below_configs(scenarios.front());
   project["tune"] = (one.path() / "tune.json").string();
   write_all(one.path() / "project.json", project.dump());
   for (const TemporaryDirectory* folder : {&one, &two}) {
