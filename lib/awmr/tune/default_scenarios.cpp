@@ -12,7 +12,9 @@
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/validity.h"
 #include "awmr/tune/constraints.h"
+#include "awmr/tune/pole_placement.h"
 #include "awmr/tune/tune.h"
+#include "awmr/tune/tuning_context.h"
 
 namespace awmr {
 namespace {
@@ -28,6 +30,8 @@ constexpr double kLongestHold_s = 20.0;
 /// Time for which each heading is commanded, as a multiple of the time that the turn takes
 /// (turning_time_s()).
 constexpr double kHoldOverTurn = 1.6;
+/// Longest time for each heading if the loop must be slow because of noise or latency, s.
+constexpr double kLongestDecay_s = 60.0;
 /// Settling time after the turn, as a multiple of T + latency, T the lag of servo or motors.
 constexpr double kSettlingOverLag = 10.0;
 
@@ -59,6 +63,17 @@ double speed_for(const Model& model, const Plant<double>& plant) {
       std::max(kShareOfReachable * at_full.value_or(kFastestUnmeasured_mps), at_part.value_or(0.0));
   speed = std::min(speed, measured ? kShareOfMeasured * *measured : kFastestUnmeasured_mps);
   return rounded(std::max(speed, 1e-6));
+}
+
+/// Time, s, in which the heading error decays to 2 % with gains by pole placement under the default
+/// limits: 4/lambda + epsilon/mu. 0 if the latency is too long for these limits.
+double decay_time_s(const Model& model, const Plant<double>& plant, const Scenario& scenario) {
+  ConstraintContext context = context_of({}, plant, model.vehicle, {scenario});
+  add_conditions(conditions_of(model.vehicle), context);
+  limit_steering_rate(context);
+  if (context.latency_s > kMaxLatencySamples * context.sample_time_s) return 0.0;
+  const HeadingGains<double> heading = place_poles(context).heading;
+  return 4.0 / heading.lambda + heading.epsilon / heading.mu;
 }
 
 /// Returns the time, s, that the weaker mode takes to turn by an angle:
@@ -103,7 +118,12 @@ Result<Manoeuvre> manoeuvre_for(const Model& model) {
   const double hold_s =
       std::clamp(std::round(hold_for(step_deg) / kShortestHold_s) * kShortestHold_s,
                  kShortestHold_s, kLongestHold_s);
-  return Manoeuvre{speed_mps, step_deg, hold_s};
+  const Scenario scenario =
+      heading_steps({step_deg, -step_deg}, {.hold_s = hold_s, .speed_mps = speed_mps});
+  const double settled_s = turning_time_s(model, plant, speed_mps, radians(2.0 * step_deg)) +
+                           decay_time_s(model, plant, scenario);
+  return Manoeuvre{speed_mps, step_deg,
+                   std::max(hold_s, std::min(std::ceil(settled_s), kLongestDecay_s))};
 }
 
 }  // namespace

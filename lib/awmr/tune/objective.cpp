@@ -180,14 +180,23 @@ Objective::Objective(ObjectiveSetting setting, const Gains<double>& baseline)
 }
 
 std::vector<Evaluation> Objective::operator()(std::span<const Gains<double>> gains) const {
-  std::vector<Gains<double>> unknown;
-  for (const Gains<double>& one : gains) {
-    if (known_.try_emplace(std::bit_cast<GainNumbers>(one)).second) unknown.push_back(one);
+  std::map<GainNumbers, Evaluation> unknown;
+  {
+    const std::lock_guard lock(known_mutex_);
+    for (const Gains<double>& one : gains) {
+      const auto numbers = std::bit_cast<GainNumbers>(one);
+      if (!known_.contains(numbers)) unknown.try_emplace(numbers);
+    }
   }
-  auto scores = run_all(setting_, noise_, unknown);
-  for (std::size_t i = 0; i < unknown.size(); ++i) {
-    known_[std::bit_cast<GainNumbers>(unknown[i])] = evaluate(std::move(scores[i]));
+  std::vector<Gains<double>> to_run;
+  for (const auto& [numbers, evaluation] : unknown) {
+    to_run.push_back(std::bit_cast<Gains<double>>(numbers));
   }
+  auto scores = run_all(setting_, noise_, to_run);
+  std::size_t next = 0;
+  for (auto& [numbers, evaluation] : unknown) evaluation = evaluate(std::move(scores[next++]));
+  const std::lock_guard lock(known_mutex_);
+  known_.merge(std::move(unknown));
   std::vector<Evaluation> evaluations;
   for (const Gains<double>& one : gains) {
     evaluations.push_back(known_.at(std::bit_cast<GainNumbers>(one)));

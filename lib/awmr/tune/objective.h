@@ -23,6 +23,7 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -111,7 +112,7 @@ struct Evaluation {
   bool valid = false;  ///< true: the objective is finite, and no run breaks off
 };
 
-/// Evaluates gains. Not thread-safe; the runs of a call are distributed over the cores.
+/// Evaluates gains. Thread-safe; the runs of a call are distributed over the cores.
 class Objective {
  public:
   Objective(ObjectiveSetting setting, const Gains<double>& baseline);
@@ -140,6 +141,7 @@ class Objective {
   /// Cache of evaluations by the values of the gains: the stages of a search repeat some gains.
   using GainNumbers = std::array<double, sizeof(Gains<double>) / sizeof(double)>;
   mutable std::map<GainNumbers, Evaluation> known_;
+  mutable std::mutex known_mutex_;
 };
 
 /// Simulates all runs of each set of gains. Returns for each set its scores, sorted by vehicle,

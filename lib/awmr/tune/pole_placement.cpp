@@ -58,8 +58,14 @@ class HeadingPoles {
  public:
   HeadingPoles(const ConstraintContext& context, const SpeedGains<double>& speed, double mu,
                const ObserverGains<double>& observer)
-      : context_(context), own_(context), speed_(speed), mu_(mu), observer_(observer) {
+      : context_(context),
+        own_(context),
+        last_violating_(context),
+        speed_(speed),
+        mu_(mu),
+        observer_(observer) {
     own_.draws.clear();
+    last_violating_.draws.clear();
   }
 
   Gains<double> fastest() {
@@ -76,15 +82,26 @@ class HeadingPoles {
   }
 
   bool is_met(const Gains<double>& gains) {
-    // The drawn vehicles are examined only if the nominal vehicle meets the constraints, because it
-    // takes longer.
+    // The drawn vehicles are examined only if the nominal vehicle and the drawn vehicle that last
+    // violated a constraint meet all of them, because it takes longer.
     double broken = violation(gains, own_);
-    if (broken <= 0.0 && !context_.draws.empty()) broken = violation(gains, context_);
+    if (broken <= 0.0 && !last_violating_.draws.empty()) broken = violation(gains, last_violating_);
+    if (broken <= 0.0 && !context_.draws.empty()) broken = violation_of_draws(gains);
     if (broken < least_broken_) {
       least_broken_ = broken;
       nearest_ = gains;
     }
     return broken <= 0.0;
+  }
+
+  /// Largest violation on all vehicles. If it is above 0, sets last_violating_.
+  double violation_of_draws(const Gains<double>& gains) {
+    const double broken = violation(gains, context_);
+    for (std::size_t i = 0; broken > 0.0 && i < context_.draws.size(); ++i) {
+      last_violating_.draws.assign(1, context_.draws[i]);
+      if (violation(gains, last_violating_) > 0.0) break;
+    }
+    return broken;
   }
 
   /// Searches the largest k = mu/epsilon, from 1/T_s downwards, that meets every constraint at a
@@ -110,6 +127,8 @@ class HeadingPoles {
 
   const ConstraintContext& context_;
   ConstraintContext own_;  ///< the nominal vehicle without the drawn ones
+  /// The nominal vehicle and the drawn vehicle that last violated a constraint.
+  ConstraintContext last_violating_;
   SpeedGains<double> speed_;
   double mu_;
   ObserverGains<double> observer_;

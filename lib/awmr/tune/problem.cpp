@@ -164,14 +164,37 @@ std::vector<Looked> Problem::look_at(std::span<const Point> points) {
     if (nearest.feasible()) steps.push_back({evaluations, nearest.objective});
   }
   simulated += static_cast<int>(found.size());
-  if (options_.progress) {
-    const auto total = static_cast<std::size_t>(options_.global_evaluations) +
-                       static_cast<std::size_t>(options_.local_evaluations);
-    // The evaluations at the starts of the search are not part of the budget, so the count can
-    // exceed it.
-    options_.progress(std::min(static_cast<std::size_t>(evaluations), total), total);
-  }
+  report();
   return all;
+}
+
+Problem Problem::unused() const {
+  Problem same(options_, context_, objective_);
+  same.simulate_all = simulate_all;
+  same.tolerated = tolerated;
+  same.reports_ = false;
+  return same;
+}
+
+void Problem::add(const Problem& part) {
+  for (const SearchStep& step : part.steps) {
+    if (nearest.feasible() && !(step.objective < nearest.objective)) continue;
+    steps.push_back({evaluations + step.evaluation, step.objective});
+  }
+  if (better(part.nearest, nearest)) nearest = part.nearest;
+  evaluations += part.evaluations;
+  simulated += part.simulated;
+  met.insert(met.end(), part.met.begin(), part.met.end());
+  report();
+}
+
+void Problem::report() const {
+  if (!reports_ || !options_.progress) return;
+  const auto total = static_cast<std::size_t>(options_.global_evaluations) +
+                     static_cast<std::size_t>(options_.local_evaluations);
+  // The evaluations at the starts of the search are not part of the budget, so the count can exceed
+  // it.
+  options_.progress(std::min(static_cast<std::size_t>(evaluations), total), total);
 }
 
 }  // namespace awmr

@@ -99,11 +99,18 @@ class Problem {
   /// the order of the points.
   std::vector<Looked> look_at(std::span<const Point> points);
 
+  /// The same problem, without evaluated points and without reports of the progress.
+  Problem unused() const;
+  /// Adds the evaluations of a part of the search that used unused().
+  void add(const Problem& part);
+
  private:
   Looked before_runs(const Point& point) const;
   void add_runs(const Evaluation& evaluation, Looked& looked) const;
+  void report() const;
 
   const TuneOptions& options_;
+  bool reports_ = true;  ///< true: calls TuneOptions::progress
   SearchSpace space_;
   const ConstraintContext& context_;
   const Objective& objective_;

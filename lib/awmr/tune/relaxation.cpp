@@ -125,6 +125,7 @@ std::string pointer_to(const std::string& constraint) {
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context) {
   constexpr double kShares[] = {0.25, 0.5, 0.75, 1.0};
   constexpr double kFactors[] = {1.2, 2.0, 5.0, 20.0};
+  constexpr double kBeyond[] = {1.4, 2.0};
   constexpr double kOfServo = 2.0;
   ConstraintContext given = context;
   ConstraintContext by_default;
@@ -150,6 +151,12 @@ std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& c
       for (const double share : kShares) {
         const double number = in_two_digits(limit, strict + share * (loose - strict));
         if (limit.relaxed_by_less ? number < strict : number > strict) add(number);
+      }
+      // T2 < T1 is always required, so its margin is not relaxed beyond the default.
+      for (const double factor : kBeyond) {
+        if (&limit == limit_of("T2 < T1 (strict)")) break;
+        add(in_two_digits(limit, limit.relaxed_by_less ? std::min(strict, loose) / factor
+                                                       : std::max(strict, loose) * factor));
       }
     }
     if (!numbers.empty()) all.push_back(std::move(numbers));

@@ -32,6 +32,7 @@ struct RelaxedLimit {
 
 /// For each limit of the context that can be relaxed, some less strict values, strictest first:
 ///   - limits that are stricter than their default: up to the default
+///   - limits of damping and noise: also beyond the default, up to half or twice of it
 ///   - the limit of the steering rate: up to 20 times the present one, and up to twice the rate of
 ///     the servo
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);

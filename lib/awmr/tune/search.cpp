@@ -11,7 +11,9 @@
 #include <mutex>
 #include <span>
 
+#include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
+#include "awmr/tune/pole_placement.h"
 #include "awmr/tune/steering_rate.h"
 
 namespace awmr {
@@ -33,7 +35,9 @@ constexpr int kStartEvaluations = 300;
 
 /// Evaluations of the local search on all drawn vehicles, if the gains from which it starts are
 /// feasible on all of them.
-constexpr int kFinishEvaluations = 12;
+constexpr int kFinishEvaluations = 24;
+/// Factor of slowed() for the second start of the local searches.
+constexpr double kSlower = 0.8;
 
 using Optimizer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
 
@@ -321,17 +325,50 @@ void note_broken(Problem& problem, SearchResult& result) {
   result.broken_by = *most;
 }
 
-/// Local search on all drawn vehicles. `from`: the gains that were found on some of these vehicles.
-Result<std::string> finish(Problem& problem, const Gains<double>& from,
+/// Evaluates sets of gains together.
+void look_at_gains(Problem& problem, std::span<const Gains<double>> gains) {
+  std::vector<Point> points;
+  for (const Gains<double>& one : gains) points.push_back(problem.space().point_of(one));
+  problem.look_at(points);
+}
+
+/// Runs search_locally() from each of `starts`, independently and in parallel, with at most
+/// `most_evaluations` each. Adds the evaluations to `problem`, in the order of the starts. Returns
+/// the reasons for stopping.
+Result<std::string> search_from_each(Problem& problem, std::span<const Gains<double>> starts,
+                                     int most_evaluations) {
+  std::vector<Problem> searches(starts.size(), problem.unused());
+  std::vector<Result<std::string>> stops(starts.size(), std::string());
+  parallel_for(starts.size(), 0, [&](std::size_t i) {
+    stops[i] = search_locally(searches[i], starts[i], most_evaluations);
+  });
+  std::string all;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    AWMR_ASSIGN_OR_RETURN(const std::string stop, std::move(stops[i]));
+    all += stop;
+    problem.add(searches[i]);
+  }
+  return all;
+}
+
+}  // namespace
+
+Result<std::string> search_near(Problem& problem, int most_evaluations) {
+  problem.simulate_all = true;
+  const Gains<double> best = problem.nearest.gains;
+  const Gains<double> starts[] = {best, slowed(best, kSlower)};
+  return search_from_each(problem, starts, most_evaluations / static_cast<int>(std::size(starts)));
+}
+
+namespace {
+
+/// Local search on all drawn vehicles, from the best of `found` (the best gains on some of these
+/// vehicles) and `starts`. The result is never worse than a feasible start, although some vehicles
+/// can mislead, above all if noise decides the metrics.
+Result<std::string> finish(Problem& problem, const Gains<double>& found,
                            std::span<const Gains<double>> starts, int most_evaluations) {
-  const auto look_at = [&problem](const Gains<double>& gains) {
-    const Point point = problem.space().point_of(gains);
-    problem.look_at(std::span(&point, 1));
-  };
-  look_at(from);
-  // `from` can violate a limit on the vehicles that were not used before. Then one of the starts
-  // can violate it less.
-  if (!problem.nearest.feasible()) std::ranges::for_each(starts, look_at);
+  look_at_gains(problem, std::span(&found, 1));
+  look_at_gains(problem, starts);
   problem.simulate_all = true;
   const int budget = problem.nearest.feasible() ? std::min(kFinishEvaluations, most_evaluations)
                                                 : most_evaluations;
@@ -351,19 +388,13 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
   if (failed(global)) return program_fault("NLopt's ISRES: " + reason(global));
   std::string stop = "global: " + reason(global);
   const int global_evaluations = problem.evaluations;
-  problem.simulate_all = true;
-  for (const Gains<double>& start : starts.subspan(1)) {
-    const Point point[] = {problem.space().point_of(start)};
-    problem.look_at(point);
-  }
-  // The starts are tried only if the search from the nearest point finds no feasible gains.
-  std::vector<Gains<double>> from{problem.nearest.gains};
-  from.insert(from.end(), starts.begin(), starts.end());
-  const int budget = problem.evaluations + options.local_evaluations;
-  for (std::size_t i = 0; i < from.size() && (i == 0 || !problem.nearest.feasible()); ++i) {
-    AWMR_ASSIGN_OR_RETURN(const std::string local,
-                          search_locally(problem, from[i], budget - problem.evaluations));
-    stop += local;
+  look_at_gains(problem, starts.subspan(1));
+  AWMR_ASSIGN_OR_RETURN(const std::string local, search_near(problem, options.local_evaluations));
+  stop += local;
+  if (!problem.nearest.feasible()) {
+    AWMR_ASSIGN_OR_RETURN(const std::string others,
+                          search_from_each(problem, starts, options.local_evaluations / 2));
+    stop += others;
   }
   TuneOptions quiet = options;
   quiet.progress = {};

@@ -38,6 +38,12 @@ struct SearchResult {
 Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
                                    int most_evaluations);
 
+/// Runs search_locally() in parallel from the best point of `problem` and from gains with slower
+/// poles, with half of `most_evaluations` each. The best point often lies where several constraints
+/// meet. COBYLA, whose models of the constraints are linear, can fail to move from there. Returns
+/// the reasons for stopping. Errors (program fault): a failure of NLopt.
+Result<std::string> search_near(Problem& problem, int most_evaluations);
+
 /// Returns gains within the bounds that meet the constraints that need no simulation. If it finds
 /// none, it returns the gains with the smallest violation. Searches from `baseline`, then from
 /// other points.
@@ -55,9 +61,9 @@ std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
 /// Searches the logarithms of the gains with NLopt. `searched` is the objective on the nominal
 /// vehicle and some of the drawn vehicles, `all` on the nominal vehicle and all drawn vehicles.
 ///   1. GN_ISRES on `searched` from the first of `starts`;
-///   2. LN_COBYLA on `searched` from the best point so far, including the other starts;
+///   2. search_near() on `searched` the best point so far, including the other starts;
 ///   3. if there are no feasible gains yet, LN_COBYLA on `searched` from each start;
-///   4. if `all` has more vehicles, LN_COBYLA on `all` from the best point.
+///   4. if `all` has more vehicles, LN_COBYLA on `all` from the best point, including the starts.
 /// Precondition: at least one start; all starts meet the constraints that need no simulation.
 /// SearchResult::best meets every constraint exactly, whatever the tolerance of NLopt.
 /// Deterministic: NLopt's random generator is reseeded, and global searches in one process take

@@ -99,8 +99,7 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
     Problem problem(quiet, context, objective);
     if (wider < problem.tolerated.size()) problem.tolerated[wider] = kWider;
     problem.look_at(std::span(&point, 1));
-    problem.simulate_all = true;
-    AWMR_RETURN_IF_ERROR(search_locally(problem, problem.nearest.gains, kPriceEvaluations));
+    AWMR_RETURN_IF_ERROR(search_near(problem, kPriceEvaluations));
     return problem.nearest.objective;
   };
   Problem problem(quiet, context, objective);

@@ -29,7 +29,7 @@ std::optional<SettlingChange> more_time(const ObjectiveSetting& setting, const G
   for (const double factor : {2.0, 4.0}) {
     ObjectiveSetting longer = setting;
     for (Scenario& scenario : longer.scenarios) scenario = stretched(scenario, factor);
-    if (settled_share(longer, gains) < share) continue;
+    if (!enough_settle(longer, gains, share)) continue;
     return SettlingChange{
         "/scenarios",
         fmt::format("scenarios of {:g} s in place of {:g} s, with all times in "
@@ -48,7 +48,7 @@ std::optional<SettlingChange> no_rate_limit(const ObjectiveSetting& setting,
     limit_degps = degrees(scenario.shaping->rate_max_radps);
     scenario.shaping.reset();
   }
-  if (!limit_degps || settled_share(stepped, gains) < share) return std::nullopt;
+  if (!limit_degps || !enough_settle(stepped, gains, share)) return std::nullopt;
   return SettlingChange{"/scenarios",
                         fmt::format("{} in place of the heading-rate limit of {:.3g} deg/s",
                                     option_text("heading_rate_limit none"), *limit_degps)};
@@ -58,31 +58,47 @@ bool meets_constraints(const Gains<double>& gains, const ConstraintContext& cont
   return std::ranges::max(residuals(constraints_of(gains, context))) <= 0.0;
 }
 
-/// True if gains by pole placement meet the constraints and let at least `share` of the runs
-/// settle.
-bool poles_settle(const ObjectiveSetting& setting, const ConstraintContext& context, double share,
-                  const ObserverGains<double>& observer = {}) {
-  return std::ranges::any_of(starting_poles(context, observer), [&](const Gains<double>& gains) {
-    return meets_constraints(gains, context) && settled_share(setting, gains) >= share;
-  });
+/// Gains by pole placement that meet the constraints.
+std::vector<Gains<double>> feasible_poles(const ConstraintContext& context,
+                                          const ObserverGains<double>& observer = {}) {
+  std::vector<Gains<double>> feasible;
+  for (const Gains<double>& gains : starting_poles(context, observer)) {
+    if (meets_constraints(gains, context)) feasible.push_back(gains);
+  }
+  return feasible;
 }
 
-/// Returns a bandwidth, rad/s, of an observer that lets at least `share` of the runs settle,
-/// together with gains by pole placement. Empty if there is none.
-std::optional<double> settling_bandwidth_radps(const ObjectiveSetting& setting,
-                                               const ConstraintContext& context,
-                                               const Gains<double>& gains, double share) {
-  if (gains.observer.is_on()) return std::nullopt;
+/// True if at least `share` of the runs settle with one of the sets of gains.
+bool any_settles(const ObjectiveSetting& setting, const std::vector<Gains<double>>& gains,
+                 double share) {
+  return std::ranges::any_of(
+      gains, [&](const Gains<double>& one) { return enough_settle(setting, one, share); });
+}
+
+/// Gains by pole placement with an observer: for each bandwidth, in increasing order, the gains that
+/// meet the constraints. Empty if the vehicle has no force left to compensate a disturbance.
+std::vector<std::vector<Gains<double>>> observed_poles(const ConstraintContext& context) {
   const Plant<double>& plant = context.plant;
   const double authority_m = turning_authority_m(context.own(), context.speed_mps);
   const double thrust = driven_wheels(plant) * forces_beyond_dead_zone(context.own()).hi -
                         plant.surge(context.speed_mps);
-  if (!(thrust > 0.0)) return std::nullopt;
+  std::vector<std::vector<Gains<double>>> poles;
+  if (!(thrust > 0.0)) return poles;
   for (const double bandwidth_radps : {0.5, 1.0, 2.0, 4.0}) {
     if (bandwidth_radps * context.sample_time_s >= 1.0) break;
-    const ObserverGains<double> observer{bandwidth_radps, kObserverShare * authority_m,
-                                         kObserverShare * thrust};
-    if (poles_settle(setting, context, share, observer)) return bandwidth_radps;
+    poles.push_back(feasible_poles(
+        context, {bandwidth_radps, kObserverShare * authority_m, kObserverShare * thrust}));
+  }
+  return poles;
+}
+
+/// Returns a bandwidth, rad/s, of an observer that lets at least `share` of the runs settle,
+/// together with gains by pole placement. Empty if there is none.
+std::optional<double> settling_bandwidth_radps(
+    const ObjectiveSetting& setting, const std::vector<std::vector<Gains<double>>>& observed,
+    double share) {
+  for (const std::vector<Gains<double>>& gains : observed) {
+    if (any_settles(setting, gains, share)) return gains.front().observer.bandwidth_radps;
   }
   return std::nullopt;
 }
@@ -97,13 +113,15 @@ std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
                           fmt::format("{}{} (confirmed with a bandwidth of {:g} rad/s)",
                                       option_text("observer"), more, bandwidth_radps)};
   };
-  if (const auto bandwidth = settling_bandwidth_radps(setting, context, gains, share)) {
+  if (gains.observer.is_on()) return std::nullopt;
+  if (const auto bandwidth = settling_bandwidth_radps(setting, observed_poles(context), share)) {
     return change(*bandwidth, "");
   }
   for (const std::vector<RelaxedLimit>& numbers : relaxed_limits(context)) {
     for (const RelaxedLimit& limit : numbers) {
       if (!limit.is_steering_rate) continue;
-      if (const auto bandwidth = settling_bandwidth_radps(setting, limit.context, gains, share)) {
+      const auto observed = observed_poles(limit.context);
+      if (const auto bandwidth = settling_bandwidth_radps(setting, observed, share)) {
         return change(*bandwidth, fmt::format(" together with `{}` {:g}", limit.key, limit.number));
       }
     }
@@ -119,7 +137,7 @@ std::optional<SettlingChange> one_mode(const ObjectiveSetting& setting,
     alone.mode = mode;
     ObjectiveSetting runs = setting;
     runs.mode = mode;
-    if (!poles_settle(runs, alone, share)) continue;
+    if (!any_settles(runs, feasible_poles(alone), share)) continue;
     return SettlingChange{"/mode", fmt::format("{}, gains for this mode only",
                                                option_text("mode " + std::string(name_of(mode))))};
   }
@@ -135,8 +153,8 @@ std::vector<SettlingChange> relaxed(const ObjectiveSetting& setting,
   for (const std::vector<RelaxedLimit>& numbers : relaxed_limits(context)) {
     const auto settles = std::ranges::find_if(numbers, [&](const RelaxedLimit& limit) {
       const Gains<double> same = with_friction_width(gains, limit.context);
-      return (meets_constraints(same, limit.context) && settled_share(setting, same) >= share) ||
-             poles_settle(setting, limit.context, share);
+      return (meets_constraints(same, limit.context) && enough_settle(setting, same, share)) ||
+             any_settles(setting, feasible_poles(limit.context), share);
     });
     if (settles == numbers.end()) continue;
     changes.push_back({fmt::format("/{}", settles->key),
@@ -153,6 +171,30 @@ double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains
   const auto settled = std::ranges::count_if(
       scores, [](const ModeScore& score) { return score.metrics.completed && !score.has_failed; });
   return static_cast<double>(settled) / static_cast<double>(scores.size());
+}
+
+bool enough_settle(const ObjectiveSetting& setting, const Gains<double>& gains, double share) {
+  constexpr std::size_t kFirst = 3;
+  if (setting.vehicles.size() > kFirst) {
+    ObjectiveSetting first = setting;
+    first.vehicles.resize(kFirst);
+    const double all = static_cast<double>(setting.vehicles.size());
+    const double missing = (1.0 - settled_share(first, gains)) * kFirst / all;
+    constexpr double kRounding = 1e-9;
+    if (missing > 1.0 - share + kRounding) return false;
+  }
+  return settled_share(setting, gains) >= share;
+}
+
+double settled_share_without_noise(ObjectiveSetting setting, const Gains<double>& gains) {
+  for (Scenario& scenario : setting.scenarios) {
+    if (!scenario.sensors) continue;
+    for (Channel* sensor :
+         {&scenario.sensors->heading, &scenario.sensors->yaw_rate, &scenario.sensors->speed}) {
+      sensor->noise = 0.0;
+    }
+  }
+  return settled_share(setting, gains);
 }
 
 ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, YawMode mode) {
@@ -172,12 +214,13 @@ ObjectiveSetting on_few_vehicles(ObjectiveSetting setting) {
 
 bool observer_settles_more(const ObjectiveSetting& setting, const ConstraintContext& context,
                            const Gains<double>& gains) {
+  if (gains.observer.is_on()) return false;
+  const std::vector<std::vector<Gains<double>>> observed = observed_poles(context);
   for (const Scenario& scenario : setting.scenarios) {
     for (const YawMode mode : setting.modes()) {
       const ObjectiveSetting runs = runs_in(setting, scenario.name, mode);
       if (settled_share(runs, gains) >= kSettledShare) continue;
-      if (settling_bandwidth_radps(on_few_vehicles(runs), context, gains, kSettledShare))
-        return true;
+      if (settling_bandwidth_radps(on_few_vehicles(runs), observed, kSettledShare)) return true;
     }
   }
   return false;

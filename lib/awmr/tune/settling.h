@@ -12,11 +12,16 @@
 
 namespace awmr {
 
-/// Share of the runs that should settle. Below it, the finding `unsettled` is reported.
-inline constexpr double kSettledShare = 0.95;
-
 /// Share of the runs of the setting that settle with these gains, [0, 1].
 double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
+
+/// True if at least `share` of the runs of the setting settle. Simulates a few vehicles first; if too
+/// many of their runs do not settle, the others are not simulated.
+bool enough_settle(const ObjectiveSetting& setting, const Gains<double>& gains, double share);
+
+/// As settled_share(), but with sensors without noise: a share that is larger shows that the noise
+/// keeps runs from settling.
+double settled_share_without_noise(ObjectiveSetting setting, const Gains<double>& gains);
 
 /// Returns the setting with only one mode and one scenario (all scenarios if `scenario` is empty),
 /// and without goals.

@@ -37,8 +37,10 @@ std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveS
     const ObjectiveSetting runs = on_few_vehicles(runs_in(setting, scenario, mode));
     const Status turns =
         check_turning(context.own(), std::span(&mode, 1), runs.scenarios, std::string());
-    UnsettledRuns unsettled{.scenario = scenario, .mode = mode, .why = {}, .changes = {}};
+    UnsettledRuns unsettled{.scenario = scenario, .mode = mode};
     if (turns) {
+      unsettled.share_without_noise = settled_share_without_noise(runs, tuning.gains);
+      if (unsettled.is_noise_the_cause()) return all.push_back(std::move(unsettled));
       unsettled.changes = changes_that_settle(runs, context, tuning.gains, kSettledShare);
     } else {
       unsettled.why = turns.error().faults.front().message;
@@ -129,12 +131,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   for (Scenario& scenario : setting.scenarios) scenario = under(c, std::move(scenario));
   setting.goals = options.goals;
   context.draws.assign(setting.vehicles.begin() + 1, setting.vehicles.end());
-  context.heading_noise_rad = radians(c.heading_noise_deg);
-  context.yaw_rate_noise_radps = radians(c.yaw_rate_noise_degps);
-  context.heading_correlation = noise_correlation(c.heading_correlation_s, context.sample_time_s);
-  context.yaw_rate_correlation = noise_correlation(c.yaw_rate_correlation_s, context.sample_time_s);
-  context.latency_s = std::max(c.heading_latency_s, c.yaw_rate_latency_s);
-  context.motor_time_constant_s = c.motor_time_constant_s;
+  add_conditions(c, context);
   limit_steering_rate(context);
   AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));

@@ -397,6 +397,9 @@ struct Certificate {
 };
 inline constexpr double kCertifiedShare = 0.95;  ///< probability of the confidence set
 
+/// Share of the runs that should settle. Below it, the finding `unsettled` is reported.
+inline constexpr double kSettledShare = 0.95;
+
 /// A change with which runs settle.
 struct SettlingChange {
   std::string pointer;  ///< JSON pointer in tune.json, such as "/observer"
@@ -407,9 +410,23 @@ struct UnsettledRuns {
   std::string scenario;  ///< name of the scenario; empty if there is only one
   YawMode mode{};
   /// Why the mode cannot turn the vehicle (turning.h); empty if it can.
-  std::string why;
-  /// Changes with which the runs settle, by changes_that_settle() (settling.h).
-  std::vector<SettlingChange> changes;
+  std::string why = {};
+  /// Share of the runs that settle if the sensors have no noise, on the nominal vehicle and the
+  /// first drawn vehicles, [0, 1].
+  double share_without_noise = 0.0;
+  /// Changes with which the runs settle, by changes_that_settle() (settling.h). Empty if the noise
+  /// alone keeps runs from settling.
+  std::vector<SettlingChange> changes = {};
+
+  bool is_noise_the_cause() const { return share_without_noise >= kSettledShare; }
+};
+
+/// A mode in which gains for this mode alone settle much faster than the tuned gains, with a lower
+/// objective. Both are evaluated on the nominal vehicle and the first drawn vehicles.
+struct ModeAlone {
+  YawMode mode{};
+  double settling_time_s = 0.0;        ///< mean settling time, s, with gains for this mode alone
+  double tuned_settling_time_s = 0.0;  ///< mean settling time in this mode with the tuned gains
 };
 
 /// Result of tune().
@@ -452,6 +469,7 @@ struct Tuning {
   /// true: an observer was tuned because runs needed it to settle (TuneOptions::adds_observer).
   bool observer_added = false;
   std::vector<UnsettledRuns> unsettled;
+  std::vector<ModeAlone> alone;        ///< see ModeAlone; empty if only one mode is tuned
   std::optional<RobustTuning> robust;  ///< absent for nominal gains
 };
 
@@ -462,7 +480,9 @@ struct Tuning {
 ///   psi   30 deg. If the time for each heading would exceed 20 s, psi is reduced in steps of
 ///         5 deg, down to 5 deg
 ///   hold  time for which each heading is commanded: 1.6 times the time that the weaker mode takes
-///         to turn by 2 psi without exceeding the measured yaw rates; rounded to 5, 10, 15 or 20 s
+///         to turn by 2 psi without exceeding the measured yaw rates, rounded to 5, 10, 15 or 20 s;
+///         at least the time of the turn plus 4/lambda + epsilon/mu of pole placement under the
+///         default limits (the error decays to 2 %), rounded up to 1 s, at most 60 s
 /// The paper's vehicle has 30 then -30 deg at 1 m/s, 10 s each. [paper 4.3] Errors (input): those
 /// of Model::plant().
 Result<Scenario> default_tuning_scenario(const Model& model);

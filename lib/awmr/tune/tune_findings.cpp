@@ -11,6 +11,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/simulate/conditions.h"
+#include "awmr/simulate/meter.h"
 #include "awmr/simulate/validity.h"
 #include "awmr/tune/settling.h"
 
@@ -41,6 +42,13 @@ std::string advice_for(const std::string& scenario, YawMode mode,
     return runs.scenario == scenario && runs.mode == mode;
   });
   if (!found->why.empty()) return ": " + found->why;
+  if (found->is_noise_the_cause()) {
+    return fmt::format(
+        ". With sensors without noise, {:.0f} % settle: the noise moves the heading by more than "
+        "{:g} deg and {:g} % of the step, the limits of the error of a settled run. Use or filter "
+        "sensors so that the noise is smaller (keys noise and noise_correlation_s of vehicle.json)",
+        100.0 * found->share_without_noise, meter::kSettledLeastDeg, 100.0 * meter::kSettledShare);
+  }
   const std::string share = fmt::format("{:g} %", 100.0 * kSettledShare);
   return ". " +
          (found->changes.empty() ? no_change_settles(share) : describe(found->changes, share));
@@ -116,6 +124,21 @@ void note_baseline(const Tuning& tuning, std::vector<Finding>& findings) {
                    option_text("baseline"))});
 }
 
+/// Adds a note if gains for one mode alone settle much faster than gains for all modes.
+void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
+  if (tuning.alone.empty()) return;
+  std::string modes;
+  for (const ModeAlone& one : tuning.alone) {
+    modes += fmt::format("{}{}: {:.2g} s in place of {:.2g} s", modes.empty() ? "" : "; ",
+                         name_of(one.mode), one.settling_time_s, one.tuned_settling_time_s);
+  }
+  findings.push_back(
+      {"", 0, Severity::kNote, "faster-in-one-mode",
+       fmt::format("gains for one mode alone settle faster (mean settling time by pole placement: "
+                   "{}). If the vehicle uses only one mode, tune for this mode ({})",
+                   modes, option_text("mode MODE"))});
+}
+
 /// Adds findings about requests that the vehicle cannot meet: headings and speeds of the scenarios,
 /// and the sensor and motor conditions of the drawn vehicles (unattainable_requests()).
 void note_scenarios(const Model& model, const TuneOptions& options, const Tuning& tuning,
@@ -171,6 +194,7 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
   note_observer(options, tuning, findings);
   note_baseline(tuning, findings);
+  note_modes(tuning, findings);
   if (const auto plant = model.plant()) {
     auto finding = unsigned_speed_finding(*plant, model.vehicle, tuning.gains, "");
     if (finding) findings.push_back(*std::move(finding));

@@ -64,6 +64,15 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
   return context;
 }
 
+void add_conditions(const LoopConditions& c, ConstraintContext& context) {
+  context.heading_noise_rad = radians(c.heading_noise_deg);
+  context.yaw_rate_noise_radps = radians(c.yaw_rate_noise_degps);
+  context.heading_correlation = noise_correlation(c.heading_correlation_s, context.sample_time_s);
+  context.yaw_rate_correlation = noise_correlation(c.yaw_rate_correlation_s, context.sample_time_s);
+  context.latency_s = std::max(c.heading_latency_s, c.yaw_rate_latency_s);
+  context.motor_time_constant_s = c.motor_time_constant_s;
+}
+
 void limit_steering_rate(ConstraintContext& context) {
   if (context.limits.steering_rate_rms_degps || !context.steers()) return;
   constexpr double kShareOfServo = 0.9;

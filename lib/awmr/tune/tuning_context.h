@@ -7,6 +7,7 @@
 
 #include "awmr/core/result.h"
 #include "awmr/model/vehicle.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/tune.h"
@@ -17,6 +18,9 @@ namespace awmr {
 /// largest of all scenarios.
 ConstraintContext context_of(const TuneOptions& options, const Plant<double>& plant,
                              const Vehicle& vehicle, const std::vector<Scenario>& scenarios);
+
+/// Adds noise, latency and motor lag to the context.
+void add_conditions(const LoopConditions& conditions, ConstraintContext& context);
 
 /// Sets the limit of the steering rate to its default, if it is absent (TuningLimits).
 void limit_steering_rate(ConstraintContext& context);
