@@ -615,6 +615,35 @@ std::vector<double> on_lines(const std::vector<double>& signal, std::size_t rows
   return lines;
 }
 
+/// Log with rows every 20 ms and commands that are held for `rows` times 4 ms. They change between
+/// the rows unless `rows` is a multiple of 5.
+DrivingLog sampled_steps(std::size_t rows) {
+  DrivingLog fast = smooth_commands(0.004);
+  hold_commands(fast, rows);
+  return measured_rows(fast, plant(kTruths[1]), 5);
+}
+
+TEST(LateLog, EstimatesTheTimesOfCommandsThatChangeBetweenRows) {
+  const Truth& t = kTruths[1];
+  for (const std::size_t rows : {163U, 165U}) {
+    TrialData data;
+    data.logs = {sampled_steps(rows)};
+    const auto result = identify(robot(), data, {}, {});
+    ASSERT_TRUE(result);
+    EXPECT_EQ(has_finding(*result, "changes-between-rows"), rows % 5 != 0) << rows;
+    for (const char* code : {"late-commands", "actuator-lag", "sensor-delay", "wheel-slip",
+                             "force-saturation", "power-law-inadequate", "model-inadequate"}) {
+      EXPECT_FALSE(has_finding(*result, code)) << code << ' ' << rows;
+    }
+    expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+    expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+    expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+    expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
+    expect_recovered(*result, ParameterId::kSteeringTimeConstant, plant(t).steering_time_constant_s,
+                     4.5);
+  }
+}
+
 TEST_P(LateLogs, HoldsSetPointsThatWereInterpolatedInTheLog) {
   constexpr std::size_t kRowsHeld = 5;
   const Truth& t = kTruths[1];

@@ -2,6 +2,7 @@
 /// differences.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -76,6 +77,43 @@ TEST(Residuals, SmoothingOfOneChannelLeavesTheOthersAsTheyAre) {
   }
   EXPECT_NE(errors_of_channel(with, LogChannel::kSpeed),
             errors_of_channel(without, LogChannel::kSpeed));
+}
+
+/// The log with its change of commands at `row` moved to a later time, by `later_s`.
+DrivingLog with_later_change(DrivingLog log, std::size_t row, double later_s) {
+  log.t_s[row] += later_s;
+  return log;
+}
+
+/// Root of the sum of squares of the differences between two series.
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double squares = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) squares += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(squares);
+}
+
+// Errors at the likeliest times of changes hardly depend on the time at which a change is assumed.
+// Errors at known times do.
+TEST(Residuals, AreThoseAtTheLikeliestTimesOfChanges) {
+  constexpr double kLater_s = 0.003;
+  const Truth& t = kTruths[1];
+  DrivingLog log = with_changes_between_rows({drive(t, 3, {.duration_s = 10.0})}).front();
+  for (double& std_s : log.change_std_s) std_s *= 10.0;
+  std::size_t row = 0;  // of the last change of the force
+  for (std::size_t i = 1; i < log.rows(); ++i) {
+    if (log.force_left[i] != log.force_left[i - 1]) row = i;
+  }
+  DrivingLog known = log;
+  known.change_std_s.clear();
+  const auto change_by_time = [&](const DrivingLog& of) {
+    const std::vector<DrivingLog> logs = {of};
+    const std::vector<DrivingLog> moved = {with_later_change(of, row, kLater_s)};
+    const LogProblem before = log_problem(logs, options_with(t, {}));
+    const LogProblem after = log_problem(moved, options_with(t, {}));
+    return difference(errors_of_channel(before, LogChannel::kSpeed),
+                      errors_of_channel(after, LogChannel::kSpeed));
+  };
+  EXPECT_LT(change_by_time(log), 0.1 * change_by_time(known));
 }
 
 class TermDerivatives : public ::testing::TestWithParam<TermCase> {};

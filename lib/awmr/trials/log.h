@@ -53,6 +53,9 @@ struct DrivingLog {
   /// True: commands are set-points that stay constant until the next one. Commands that the logger
   /// had interpolated were replaced by such set-points.
   bool has_held_set_points = false;
+  /// By row: standard deviation, s, of the time at which the commands changed to those of the row.
+  /// 0: the time is known. Empty: all times are known.
+  std::vector<double> change_std_s = {};
   /// True: x (east) and y (north) were computed from latitude and longitude.
   bool is_geographic = false;
   std::vector<double> t_s;          ///< time, s, strictly rising

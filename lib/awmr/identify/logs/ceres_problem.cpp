@@ -25,15 +25,17 @@ double prior_residual(const LogProblem& problem, std::size_t i, double x) {
 /// Work of one evaluation of all windows with derivatives: integration steps times numbers per
 /// step, as counted by Effort.
 std::int64_t numbers_integrated(const LogProblem& problem) {
-  double steps = 0.0;
+  double numbers = 0.0;
   for (const FitWindow& window : problem.windows) {
     const std::vector<double>& t_s = window.rows.log->t_s;
     const double duration_s = t_s[window.rows.end - 1] - t_s[window.rows.begin];
-    steps +=
+    const double steps =
         static_cast<double>(window.samples().size()) + duration_s / problem.model.longest_step_s;
+    const std::size_t derivatives =
+        problem.model.quantities.size() + problem.model.initial.size() + window.changes.size();
+    numbers += steps * static_cast<double>(1 + derivatives);
   }
-  const std::size_t derivatives = problem.model.quantities.size() + problem.model.initial.size();
-  return std::llround(steps * static_cast<double>(1 + derivatives));
+  return std::llround(numbers);
 }
 
 /// Computes the residuals and derivatives of all windows in parallel at each new point, before

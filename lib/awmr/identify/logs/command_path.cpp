@@ -1,7 +1,9 @@
 #include "awmr/identify/logs/command_path.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "awmr/core/index.h"
 #include "awmr/identify/logs/quantities.h"
 
 namespace awmr {
@@ -115,6 +117,18 @@ void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
 
 }  // namespace
 
+std::optional<std::size_t> CommandPath::change_column(std::size_t row) const {
+  const auto found = std::ranges::lower_bound(changes, row, {}, &UncertainChange::row);
+  if (found == changes.end() || found->row != row) return std::nullopt;
+  return first_change_column + at(found - changes.begin());
+}
+
+std::optional<std::size_t> CommandPath::last_change_column(std::size_t row) const {
+  const auto next = std::ranges::upper_bound(changes, row, {}, &UncertainChange::row);
+  if (next == changes.begin()) return std::nullopt;
+  return first_change_column + at(next - changes.begin()) - 1;
+}
+
 CommandColumns columns_of(const CommandPath& path) {
   const auto column = [](const auto& term) {
     return term ? std::optional(term->column) : std::nullopt;
@@ -140,6 +154,7 @@ DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, d
   at.command.force = mean.force;
   at.by_lag = mean.by_lag;
   at.by_delay = mean.by_delay;
+  at.change_column = path.last_change_column(rows.forces);
   if (path.switches_off) switch_off(logged.force, at);
   return with_errors(at, path);
 }

@@ -5,8 +5,10 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "awmr/identify/logs/linear_rates.h"
+#include "awmr/identify/logs/uncertain_changes.h"
 #include "awmr/trials/lagged_forces.h"
 
 namespace awmr {
@@ -51,6 +53,17 @@ struct CommandPath {
   /// earlier commands would still give one.
   bool switches_off = false;
 
+  /// Changes of the commands at uncertain times, in the order of their rows. The column of the
+  /// derivatives with respect to the time of changes[i] is `first_change_column` + i.
+  std::span<const UncertainChange> changes = {};
+  std::size_t first_change_column = 0;
+
+  /// Column of the derivatives with respect to the time at which the commands of `row` begin to
+  /// act. Empty if this time is known.
+  std::optional<std::size_t> change_column(std::size_t row) const;
+  /// Column of the last of the changes up to `row`; empty if there is none.
+  std::optional<std::size_t> last_change_column(std::size_t row) const;
+
   double force_delay_s() const { return delay ? delay->delay_s : 0.0; }
   double steering_delay_s() const {
     return force_delay_s() + (steering_delay ? steering_delay->delay_s : 0.0);
@@ -85,6 +98,9 @@ struct DelayedCommand {
   SideForces<double> by_exponent{};    ///< d force / d ln p
   SideForces<double> by_saturation{};  ///< d force / d L
   SideForces<double> by_sharpness{};   ///< d force / d ln n
+  /// Column of the latest change of the forces at an uncertain time. Set only for motors with lag.
+  /// The derivative with respect to this time is `by_delay`, as earlier changes act no longer.
+  std::optional<std::size_t> change_column = {};
   double steering_by_trim = 0.0;       ///< d steering / d trim: 1 with a trim in the path, else 0
   double steering_by_dead_band = 0.0;  ///< d steering / d dead band
   double steering_by_asymmetry = 0.0;  ///< d steering / d asymmetry, rad

@@ -234,10 +234,12 @@ std::optional<NoiseIteration> with_next_term(const NoiseIteration& settled, Loss
 
 }  // namespace
 
-NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss) {
+NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss,
+                                      const std::function<bool(const NoiseIteration&)>& ends) {
   while (auto more = with_next_term(settled, loss)) {  // each step lowers AIC
     settled = std::move(*more);
     if (auto lag = with_motor_lag_for_filters(settled, loss)) settled = std::move(*lag);
+    if (ends && ends(settled)) break;
   }
   return settled;
 }

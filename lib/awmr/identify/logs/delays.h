@@ -2,6 +2,8 @@
 /// a free quantity of the fit if it lowers AIC significantly. Private to identify/.
 #pragma once
 
+#include <functional>
+
 #include "awmr/identify/logs/noise_iteration.h"
 
 namespace awmr {
@@ -19,6 +21,9 @@ namespace awmr {
 ///     After each added term, one motor lag is tried in place of all filters.
 ///   - Steering trim and force imbalance have nearly the same effect. If one of them is found and
 ///     the commands allow an estimate of both, both become free.
-NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss);
+///
+/// The search also ends if `ends` returns true for a fit with an added term.
+NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss,
+                                      const std::function<bool(const NoiseIteration&)>& ends = {});
 
 }  // namespace awmr

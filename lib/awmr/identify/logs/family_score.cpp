@@ -25,7 +25,7 @@ double log_size_of_errors(const LogFit& fit) {
 }  // namespace
 
 double aic_under(const NoiseLevels& noise, const LogFit& fit) {
-  double aic = 2.0 * static_cast<double>(fit.quantities.size());
+  double aic = 2.0 * static_cast<double>(fit.quantities.size()) + fit.change_cost;
   for (const auto& [channel, errors] : fit.errors) aic += cost_of(errors, noise.at(channel));
   return aic;
 }

@@ -7,11 +7,27 @@
 namespace awmr {
 namespace {
 
+/// Updates the derivatives with respect to the time at which other rows of the log begin to act, if
+/// it is uncertain: `before` are the rows that acted until then, `after` the new ones. The forces of
+/// motors with lag are left out, because they do not jump (DelayedCommand::change_column).
+void change_time_of_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
+                         const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
+  if (stepper.columns() == 0 || path.changes.empty()) return;
+  const bool is_of_forces = before.forces != after.forces;
+  const auto column = path.change_column(is_of_forces ? after.forces : after.steering);
+  if (!column) return;
+  if (path.lag) before.forces = after.forces;
+  const DrivingLog& log = *signals.log;
+  stepper.change_time(*column, command_of_rows(log, before, path),
+                      command_of_rows(log, after, path), motion);
+}
+
 /// Updates the derivatives with respect to the delays at a time at which other rows of the log
 /// begin to act: `before` are the rows that acted until then, `after` the new ones. The forces of
 /// motors with lag are left out, because they do not jump.
 void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                  const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
+  change_time_of_rows(signals, before, after, path, stepper, motion);
   if (path.lag) before.forces = after.forces;
   const DrivingLog& log = *signals.log;
   stepper.change_command(command_of_rows(log, before, path), command_of_rows(log, after, path),
@@ -56,6 +72,9 @@ void advance_after_row(const LogSignals& signals, std::size_t row, double from_s
                        const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                        LinearMotion& motion) {
   if (!path.delay && !path.steering_delay) {
+    if (row > 0 && from_s == signals.log->t_s[row]) {
+      change_time_of_rows(signals, {row - 1, row - 1}, {row, row}, path, stepper, motion);
+    }
     return step_along(signals, row, {row, row}, from_s, to_s, path, stepper, longest_step_s,
                       motion);
   }

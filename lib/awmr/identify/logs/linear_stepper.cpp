@@ -125,6 +125,9 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   for_each_force_column(c, command, [&](std::size_t column, const SideForces<double>& by) {
     set_column({by, 0.0}, column, driven);
   });
+  if (command.change_column) {
+    set_column({command.by_delay, 0.0}, *command.change_column, driven);
+  }
   if (c.steering_trim) set_column({{}, command.steering_by_trim}, *c.steering_trim, driven);
   if (c.steering_dead_band) {
     set_column({{}, command.steering_by_dead_band}, *c.steering_dead_band, driven);
@@ -135,6 +138,14 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   if (c.servo_rate) {
     driven[(kDrivenSize - 1) * columns_ + *c.servo_rate] = rates_.steering_by_max_rate;
   }
+}
+
+void LinearStepper::follow_change(const DelayedCommand& command) {
+  if (command.change_column == change_column_) return;
+  for (std::size_t i = 0; change_column_ && i < kStages * kDrivenSize; ++i) {
+    driven_[i * columns_ + *change_column_] = 0.0;
+  }
+  change_column_ = command.change_column;
 }
 
 void LinearStepper::set_column(const HeldCommand& by, std::size_t column, double* driven) const {
@@ -209,6 +220,7 @@ void LinearStepper::stop(LogChannel speed, const DelayedCommand& command, Linear
 }
 
 void LinearStepper::step(const DelayedCommand& command, double h, LinearMotion& motion) {
+  if (columns_ > 0) follow_change(command);
   for (int stops = 0;; ++stops) {
     find_way(command, motion);
     const State<double>& from = motion.state;
@@ -225,6 +237,7 @@ void LinearStepper::step(const DelayedCommand& command, double h, LinearMotion& 
 
 State<double> LinearStepper::step_along_tangent(const DelayedCommand& command, double h,
                                                 LinearMotion& motion) {
+  if (columns_ > 0) follow_change(command);
   find_way(command, motion);
   find_rates(command, motion.state);
   motion.state = moved(motion.state, rates_.rates, h);
@@ -248,6 +261,15 @@ void LinearStepper::change_command(const DelayedCommand& before, const DelayedCo
     double* const row = motion.row(channel, columns_);
     if (c.delay) row[*c.delay] += less;
     if (c.steering_delay && channel == LogChannel::kSteering) row[*c.steering_delay] += less;
+  }
+}
+
+void LinearStepper::change_time(std::size_t column, const DelayedCommand& before,
+                                const DelayedCommand& after, LinearMotion& motion) {
+  const State<double> old = rates(before, motion);
+  const State<double> now = rates(after, motion);
+  for (const LogChannel channel : kChannels) {
+    motion.row(channel, columns_)[column] += channel_of(old, channel) - channel_of(now, channel);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "awmr/identify/logs/command_path.h"
@@ -54,6 +55,10 @@ class LinearStepper {
   /// The additional delay of the steering changes only the derivative of the steering angle.
   void change_command(const DelayedCommand& before, const DelayedCommand& after,
                       LinearMotion& motion);
+  /// Updates the derivatives with respect to the time of this jump of the commands, whose column is
+  /// `column`, as change_command() does for the delay.
+  void change_time(std::size_t column, const DelayedCommand& before, const DelayedCommand& after,
+                   LinearMotion& motion);
   /// Returns the rates of the state, friction included. If friction holds a speed at 0, sets the
   /// derivatives of this speed in `motion` to 0.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
@@ -73,6 +78,9 @@ class LinearStepper {
   /// Sets the derivatives of the rates with respect to a quantity that changes the commands. `by`:
   /// derivatives of the commands with respect to this quantity; `column`: its column.
   void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
+  /// Sets the derivatives of the rates with respect to the change that acted last
+  /// (DelayedCommand::change_column) to 0 if another change acts now.
+  void follow_change(const DelayedCommand& command);
   /// Computes the rates at the state `s` and their derivatives, friction included, into rates_.
   void find_rates(const DelayedCommand& command, const State<double>& s);
   /// Sets way_, the direction in which u and r move next. If friction holds a speed at 0, sets the
@@ -95,6 +103,7 @@ class LinearStepper {
   Sliding way_;
   LinearRates rates_;
   std::array<StateSlopes, kStages> slopes_{};
+  std::optional<std::size_t> change_column_;  ///< of the change that acted last
   std::vector<double> driven_;  ///< derivatives of the rates, [kStages][kDrivenSize][columns]
 };
 

@@ -13,6 +13,7 @@
 #include "awmr/core/random.h"
 #include "awmr/core/sample_quantile.h"
 #include "awmr/identify/logs/ceres_problem.h"
+#include "awmr/identify/logs/changes_between_rows.h"
 #include "awmr/identify/logs/delays.h"
 #include "awmr/identify/logs/information.h"
 #include "awmr/identify/logs/log_report.h"
@@ -148,12 +149,15 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
       identifiability(fit_evidence(sums, n).information, scores, quantities), problem, coordinates);
   const std::vector<Interval> bootstrap95 = block_bootstrap(
       {quantities, coordinates, found.covariance, scores.blocks}, options.bootstrap, options.seed);
+  const std::vector<WindowErrors> errors = errors_at(problem, solved.point);
   return {.quantities = quantities,
           .coordinates = coordinates,
           .covariance = found.covariance,
           .refusal_reason = found.refusal_reason,
           .noise = problem.model.noise,
-          .errors = errors_by_channel(problem, errors_at(problem, solved.point), options.loss),
+          .change_cost = change_cost_of(errors),
+          .change_times = change_times_of(errors),
+          .errors = errors_by_channel(problem, errors, options.loss),
           .candidate_gain = candidate_gains(problem, solved.point, options.candidate_terms),
           .widened = found.widened(),
           .report = log_report({problem, solved, found, bootstrap95}),
@@ -168,6 +172,15 @@ LogFit given_up(const NoiseIteration& at) {
   fit.coordinates = at.point.coordinates;
   fit.relative_error = 2.0 * at.first_cost / at.problem.readings();
   fit.gave_up = true;
+  return fit;
+}
+
+/// Result of a fit that was stopped, because the commands of the logs change between rows.
+LogFit stopped_at(const NoiseIteration& at) {
+  LogFit fit = without_solution("stopped, because commands change between rows", {});
+  fit.quantities = at.problem.model.quantities;
+  fit.coordinates = at.point.coordinates;
+  fit.has_changes_between_rows = true;
   return fit;
 }
 
@@ -207,8 +220,18 @@ NoiseIteration settled_from(LogProblem problem, std::vector<double> coordinates,
 std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double>& coordinates,
                                const LogFitOptions& options) {
   NoiseIteration settled = settled_from(guess, coordinates, options);
+  bool is_between_rows = false;
+  const auto tests = [&](const NoiseIteration& fit) {
+    is_between_rows = options.tests_changes &&
+                      has_changes_between_rows(fit.problem, fit.point, options.candidate_terms);
+    return is_between_rows;
+  };
+  if (tests(settled)) return stopped_at(settled);
   if (settled.gave_up) return given_up(settled);
-  if (options.finds_delays) settled = find_delays_and_errors(std::move(settled), options.loss);
+  if (options.finds_delays) {
+    settled = find_delays_and_errors(std::move(settled), options.loss, tests);
+  }
+  if (is_between_rows) return stopped_at(settled);
   const Solved solved = solve(settled.problem, settled.point, kFine);
   const std::vector<WindowSums> sums =
       sums_at(settled.problem, solved.point, block_length_s(settled.problem.model.noise));

@@ -25,7 +25,9 @@ struct LogFit {
   /// One per quantity; empty text: the quantity is identified.
   std::vector<std::string> refusal_reason;
   NoiseLevels noise;
-  ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI; not whitened
+  double change_cost = 0.0;          ///< sum of WindowErrors::change_cost at the optimum
+  std::vector<double> change_times;  ///< WindowErrors::change_times of all windows
+  ErrorsByChannel errors;            ///< model + bias - measured at the optimum, SI; not whitened
   /// One per term in LogFitOptions::candidate_terms: the decrease of -2 ln L, >= 0, that a score
   /// test predicts if the term were also estimated.
   std::vector<double> candidate_gain;
@@ -40,6 +42,10 @@ struct LogFit {
   /// LogFitOptions::give_up_above. The fit is then not usable. Of its results only `quantities`,
   /// `coordinates`, `relative_error` and `report` are set.
   bool gave_up = false;
+  /// True if the fit was stopped early because the commands of the logs probably change between
+  /// rows (LogFitOptions::tests_changes). The fit is then not usable. Of its results only
+  /// `quantities` and `coordinates` are set.
+  bool has_changes_between_rows = false;
 
   /// Standard error of coordinate i.
   double error_of(std::size_t i) const {

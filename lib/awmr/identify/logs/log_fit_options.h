@@ -51,6 +51,9 @@ struct LogFitOptions {
   std::vector<FreeTerm> terms;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is estimated
   bool finds_delays = true;        ///< true: the fit also searches delays.h for further terms
+  /// True: the fit is stopped early (LogFit::has_changes_between_rows) if the commands probably
+  /// change between the rows of the logs.
+  bool tests_changes = false;
   /// Time interval of the rows that are fitted, s. Commands before it still act through delays and
   /// lags. Absent: all rows.
   std::optional<Interval> only_s;

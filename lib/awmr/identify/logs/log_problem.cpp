@@ -103,6 +103,20 @@ std::vector<WindowSums> sums_at(const LogProblem& problem, const SearchPoint& po
   return sums;
 }
 
+double change_cost_of(const std::vector<WindowErrors>& errors) {
+  double cost = 0.0;
+  for (const WindowErrors& window : errors) cost += window.change_cost;
+  return cost;
+}
+
+std::vector<double> change_times_of(const std::vector<WindowErrors>& errors) {
+  std::vector<double> times;
+  for (const WindowErrors& window : errors) {
+    times.insert(times.end(), window.change_times.begin(), window.change_times.end());
+  }
+  return times;
+}
+
 bool all_finite(const std::vector<WindowErrors>& errors) {
   return std::ranges::all_of(errors, &WindowErrors::finite);
 }

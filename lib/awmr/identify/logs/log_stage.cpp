@@ -11,7 +11,9 @@
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/adequacy.h"
 #include "awmr/identify/logs/between_logs.h"
+#include "awmr/identify/logs/changes_between_rows.h"
 #include "awmr/identify/logs/command_findings.h"
+#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/force_findings.h"
 #include "awmr/identify/logs/inertia_check.h"
 #include "awmr/identify/logs/interpolated_commands.h"
@@ -21,6 +23,7 @@
 #include "awmr/identify/logs/set_points.h"
 #include "awmr/identify/logs/slip_choice.h"
 #include "awmr/identify/logs/speed_control.h"
+#include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/trials/log_consistency.h"
 
@@ -242,16 +245,56 @@ std::optional<ReadAgain> read_again(const std::vector<DrivingLog>& logs,
   return std::nullopt;
 }
 
+/// First fit of the logs with the commands as they are used.
+struct FirstFit {
+  std::vector<DrivingLog> logs;
+  FamilyFit fit;
+  std::vector<Finding> findings;
+};
+
+/// Makes the first fit. If the commands probably change between the rows, first fits the logs with
+/// uncertain times of the changes. This fit is used if the times are between the rows
+/// (are_times_between_rows()) and its AIC is lower by more than kFamilyAicThreshold than that of a
+/// fit of the same terms with changes at the rows.
+FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                   const IdentifyOptions& options) {
+  constexpr std::int64_t kEffortShare = 3;  // a trial in vain may spend a third of the limit
+  LogFitOptions tests = power_law;
+  tests.tests_changes = std::ranges::none_of(logs, [](const DrivingLog& log) {
+    return log.has_interpolated_commands || log.has_held_set_points;
+  });
+  FamilyFit at_rows = fit_first_family(logs, tests, options);
+  at_rows.options.tests_changes = false;
+  if (!at_rows.fit.has_changes_between_rows) return {logs, std::move(at_rows), {}};
+  FirstFit between{with_changes_between_rows(logs), {}, {}};
+  LogFitOptions from = power_law;
+  from.initial_guess = fitted_values(at_rows.options, at_rows.fit);
+  from.guessed.clear();
+  from.effort = std::make_shared<Effort>(power_law.effort->left() / kEffortShare);
+  between.fit = fit_first_family(between.logs, from, options);
+  at_rows =
+      fit_family(logs, from_optimum(power_law, between.fit), between.fit.surge, between.fit.yaw);
+  between.fit.options.effort = power_law.effort;
+  if (!from.effort->is_over() && between.fit.fit.usable &&
+      are_times_between_rows(between.fit.fit.change_times) &&
+      aic_lead(between.fit.fit, at_rows.fit) > kFamilyAicThreshold) {
+    between.findings.push_back(changes_between_rows_finding(logs.front().file));
+    return between;
+  }
+  return {logs, fit_first_family(logs, power_law, options), {}};
+}
+
 }  // namespace
 
-Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<DrivingLog>& rows,
                                const IdentifyOptions& options,
                                const std::vector<ParameterId>& requested, const Model& model,
                                bool overrule) {
   LogStage stage;
-  LogFitOptions power_law = log_setup(vehicle, logs, options, requested, model, stage.reasons);
-  AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), logs.front().file));
-  FamilyFit first = fit_first_family(logs, power_law, options);
+  LogFitOptions power_law = log_setup(vehicle, rows, options, requested, model, stage.reasons);
+  AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), rows.front().file));
+  auto [logs, first, findings] = first_fit(rows, power_law, options);
+  append(stage.findings, findings);
   if (const auto other = read_again(logs, power_law, first)) {
     Result<LogStage> again =
         run_log_stage(vehicle, other->logs, options, requested, model, overrule);

@@ -71,7 +71,9 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
   first.give_up_above = kErrorOfModel;
   FamilyFit fit = fit_family(logs, first, surge, yaw);
   if (!fit.fit.gave_up) return fit;
-  return refine(logs, power_law, likely_families(logs, power_law, fit, open));
+  first = power_law;
+  first.tests_changes = false;
+  return refine(logs, first, likely_families(logs, first, fit, open));
 }
 
 std::vector<DrivingLog> with_measured_steering(std::vector<DrivingLog> logs) {

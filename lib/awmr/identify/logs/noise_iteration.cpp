@@ -134,6 +134,7 @@ NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
   const double fine_step_s = problem.model.longest_step_s;
   const double first_step_s = rounds.is_near ? fine_step_s : rough_step_s(problem.model);
   double first_cost = 0.0;
+  double change_cost = 0.0;
   for (int round = 0; round < rounds.most; ++round) {
     problem.model.longest_step_s = round == 0 ? first_step_s : fine_step_s;
     Solved solved = solve(problem, std::move(point), kMiddling);
@@ -141,17 +142,18 @@ NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
     problem.model.longest_step_s = fine_step_s;
     if (round == 0) first_cost = solved.cost;
     if (first_cost > rounds.give_up_above) {
-      return {std::move(problem), std::move(point), first_cost, true};
+      return {std::move(problem), std::move(point), first_cost, change_cost, true};
     }
     const std::vector<WindowErrors> errors = errors_at(problem, point);
     if (!all_finite(errors)) break;  // simulation diverged; fit_logs() refuses such a fit
     const NoiseLevels levels = noise_levels(problem, errors, loss);
     const double change = largest_change(problem.model.noise, levels);
     problem.model.noise = levels;
+    change_cost = change_cost_of(errors);
     weigh(problem, errors, loss);
     if (change < kSettled && (round > 0 || rounds.is_near)) break;
   }
-  return {std::move(problem), std::move(point), first_cost};
+  return {std::move(problem), std::move(point), first_cost, change_cost};
 }
 
 }  // namespace awmr

@@ -11,8 +11,9 @@ namespace awmr {
 struct NoiseIteration {
   LogProblem problem;  ///< the problem with its estimated noise levels and robust weights
   SearchPoint point;
-  double first_cost = 0.0;  ///< cost after the first round, under the initial noise levels
-  bool gave_up = false;     ///< true: first_cost exceeds NoiseRounds::give_up_above
+  double first_cost = 0.0;   ///< cost after the first round, under the initial noise levels
+  double change_cost = 0.0;  ///< sum of WindowErrors::change_cost
+  bool gave_up = false;      ///< true: first_cost exceeds NoiseRounds::give_up_above
 };
 
 /// Collects the errors (not whitened) by channel. With a robust loss, clips them at three robust

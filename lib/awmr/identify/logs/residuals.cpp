@@ -133,10 +133,84 @@ class Blocks {
   double block_s_;
 };
 
+/// The errors of a window and their derivatives with respect to the times of its m changes: one row
+/// [J_o r] per sample.
+struct ErrorRows {
+  Eigen::MatrixXd raw;           ///< not whitened
+  Eigen::MatrixXd standardised;  ///< whitened, divided by the standard deviation and weighted
+};
+
+ErrorRows error_rows(const LogModel& model, const FitWindow& window, const double* coordinates,
+                     const double* initial_state) {
+  const std::vector<Sample>& samples = window.samples();
+  const SimulatedVehicle vehicle = vehicle_at(model, window, coordinates, initial_state);
+  const std::size_t first = vehicle.path.first_change_column;
+  const std::size_t m = window.changes.size();
+  const Eigen::Index columns = eigen_index(m + 1);
+  ErrorRows rows{Eigen::MatrixXd(rows_of(samples), columns),
+                 Eigen::MatrixXd(rows_of(samples), columns)};
+  std::array<std::optional<RowWhitener>, kChannelCount> whiteners;
+  std::vector<double> row(m + 1);
+  for_each_error(model, window, vehicle, ProductSums(first + m + 1).columns(),
+                 [&](std::size_t i, double error, const std::vector<double>& by) {
+                   std::copy_n(by.begin() + static_cast<std::ptrdiff_t>(first), m, row.begin());
+                   row[m] = error;
+                   const Eigen::Map<const Eigen::RowVectorXd> numbers(row.data(), columns);
+                   rows.raw.row(eigen_index(i)) = numbers;
+                   auto& whitener = whiteners[at(samples[i].channel)];
+                   if (!whitener) whitener.emplace(model.noise.at(samples[i].channel), m + 1);
+                   whitener->next(samples[i].since_s, window.weight(i), row);
+                   rows.standardised.row(eigen_index(i)) = numbers;
+                 });
+  return rows;
+}
+
+/// errors_of() for a window with changes of the commands at uncertain times.
+WindowErrors errors_at_likeliest_times(const LogModel& model, const FitWindow& window,
+                                       const double* coordinates, const double* initial_state) {
+  const ErrorRows rows = error_rows(model, window, coordinates, initial_state);
+  const Marginalised times =
+      marginalised(rows.standardised.transpose() * rows.standardised, window.changes);
+  const Eigen::Index m = rows_of(window.changes);
+  Eigen::VectorXd with_one(m + 1);  // [o 1]
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const UncertainChange& change = window.changes[at(i)];
+    with_one(i) = change.mean_s + change.std_s * times.standardised(i);
+  }
+  with_one(m) = 1.0;
+  WindowErrors result{.raw = rows.raw * with_one,
+                      .standardised = rows.standardised * with_one,
+                      .change_cost = times.standardised.squaredNorm() + times.ln_det,
+                      .change_times = times.standardised};
+  result.finite = result.standardised.allFinite();
+  return result;
+}
+
+/// Eliminates the times of the window's changes from the sums. `products`: [J J_o r]^T [J J_o r].
+void eliminate_times(const FitWindow& window, const Eigen::MatrixXd& products, WindowSums& sums) {
+  const Marginalised times = marginalised(products, window.changes);
+  const Eigen::Index m = rows_of(window.changes);
+  const Eigen::Index n = products.rows() - 1 - m;
+  sums.products_at_known_times.resize(n + 1, n + 1);
+  sums.products_at_known_times << products.topLeftCorner(n, n), products.block(0, n + m, n, 1),
+      products.block(n + m, 0, 1, n), products(n + m, n + m);
+  sums.products = times.products;
+  sums.change_cost = times.ln_det;
+  sums.change_times.resize(m, n + 1);
+  sums.change_times << times.decrease, times.standardised;
+  for (Eigen::VectorXd& gradient : sums.block_gradients) {
+    for (Eigen::Index i = 0; i < m; ++i) gradient(n + i) *= window.changes[at(i)].std_s;
+    gradient = (gradient.head(n) - times.decrease.transpose() * gradient.tail(m)).eval();
+  }
+}
+
 }  // namespace
 
 WindowErrors errors_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                        const double* initial_state) {
+  if (!window.changes.empty()) {
+    return errors_at_likeliest_times(model, window, coordinates, initial_state);
+  }
   const std::vector<Sample>& samples = window.samples();
   WindowErrors result;
   result.raw.resize(rows_of(samples));
@@ -160,7 +234,8 @@ WindowSums sums_of(const LogModel& model, const FitWindow& window, const double*
   const std::size_t q = model.quantities.size();
   const std::size_t k = model.initial.size();
   const std::vector<Sample>& samples = window.samples();
-  ProductSums sums(q + k + 1);
+  const std::size_t last = q + k + window.changes.size();  // column of the residuals
+  ProductSums sums(last + 1);
   Blocks blocks(window, block_s);
   WindowSums result;
   std::array<std::optional<RowWhitener>, kChannelCount> whiteners;
@@ -174,7 +249,7 @@ WindowSums sums_of(const LogModel& model, const FitWindow& window, const double*
                    if (!whitener) {
                      whitener.emplace(model.noise.at(sample.channel), sums.columns());
                    }
-                   row[q + k] = error;
+                   row[last] = error;
                    whitener->next(sample.since_s, window.weight(i), row);
                    sums.add(row.data());
                  });
@@ -182,10 +257,14 @@ WindowSums sums_of(const LogModel& model, const FitWindow& window, const double*
   for (std::size_t i = 0; i < k; ++i) {
     std::vector<double> row(sums.columns(), 0.0);
     row[q + i] = 1.0 / model.initial[i].prior_std;
-    row[q + k] = pull(model.initial[i], window, initial_state[i]);
+    row[last] = pull(model.initial[i], window, initial_state[i]);
     sums.add(row.data());
   }
-  result.products = sums.products();
+  if (window.changes.empty()) {
+    result.products = sums.products();
+  } else {
+    eliminate_times(window, sums.products(), result);
+  }
   result.finite = result.products.allFinite();
   return result;
 }

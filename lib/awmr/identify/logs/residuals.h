@@ -18,6 +18,11 @@ struct WindowErrors {
   Eigen::VectorXd raw;  ///< the n errors, model + bias - measured, SI
   /// The n errors, whitened, divided by their standard deviation and weighted.
   Eigen::VectorXd standardised;
+  /// Part of -2 ln L of the uncertain times at which commands change (marginalised()). The errors
+  /// are those at the likeliest times.
+  double change_cost = 0.0;
+  /// Likeliest time of each of these changes, less its mean, in standard deviations of its prior.
+  Eigen::VectorXd change_times;
   bool finite = false;  ///< false if the simulation is not finite
 };
 
@@ -29,11 +34,17 @@ WindowErrors errors_of(const LogModel& model, const FitWindow& window, const dou
 /// Sums over the residuals r of one window and their Jacobian J. The residuals are the standardised
 /// errors of the samples, and those of a weak prior about the measured initial state. J has a
 /// column for each of the q free quantities, then for each of the k free components of the initial
-/// state.
+/// state. If commands change at uncertain times, these times are eliminated (marginalised()).
 struct WindowSums {
   Eigen::MatrixXd products;  ///< [J r]^T [J r], (q + k + 1) x (q + k + 1)
   /// J^T r (length q + k) of each block of samples. The prior is left out. Empty unless requested.
   std::vector<Eigen::VectorXd> block_gradients;
+  /// `products` if the uncertain times of changes were known; empty if there are none.
+  Eigen::MatrixXd products_at_known_times;
+  double change_cost = 0.0;  ///< ln det of marginalised()
+  /// Likeliest times of changes as in WindowErrors::change_times, and their decrease per change of
+  /// the unknowns: [decrease times], [m][q + k + 1].
+  Eigen::MatrixXd change_times;
   bool finite = false;  ///< false if the simulation or its derivatives are not finite
 
   /// Half of r^T r.

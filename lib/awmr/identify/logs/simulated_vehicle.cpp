@@ -159,6 +159,8 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
   for (std::size_t i = 0; i < model.initial.size(); ++i) {
     channel_of(vehicle.initial, model.initial[i].channel) = initial_state[i];
   }
+  vehicle.path.changes = window.changes;
+  vehicle.path.first_change_column = model.quantities.size() + model.initial.size();
   if (vehicle.path.steering_trim) vehicle.initial.steering_rad += vehicle.path.steering_trim->value;
   return vehicle;
 }

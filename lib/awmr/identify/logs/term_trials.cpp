@@ -63,7 +63,7 @@ NoiseIteration with_largest_steering(const NoiseIteration& settled, Loss loss) {
 }  // namespace
 
 double akaike_of(const NoiseIteration& fit) {
-  return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities));
+  return akaike(fit.problem.model.noise, rows_of(fit.problem.model.quantities)) + fit.change_cost;
 }
 
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss) {

@@ -63,8 +63,13 @@ std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
       rows.begin = std::clamp(first, rows.begin, rows.end);
       auto samples = std::make_shared<const std::vector<Sample>>(samples_of(rows));
       if (samples->empty()) continue;
-      windows.push_back(
-          {rows, signals, row_spacing_s, std::move(samples), measured_initial_state(rows), {}});
+      windows.push_back({rows,
+                         signals,
+                         row_spacing_s,
+                         std::move(samples),
+                         measured_initial_state(rows),
+                         {},
+                         uncertain_changes(rows)});
     }
   }
   return windows;
@@ -87,7 +92,8 @@ std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s) {
                      window.row_spacing_s,
                      std::move(samples),
                      measured_initial_state(rows),
-                     {}});
+                     {},
+                     uncertain_changes(rows)});
   }
   return parts;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "awmr/core/interval.h"
+#include "awmr/identify/logs/uncertain_changes.h"
 #include "awmr/trials/replay.h"
 
 namespace awmr {
@@ -34,6 +35,8 @@ struct FitWindow {
   State<double> measured{};  ///< measured initial state; 0 for components that are not measured
   /// One per sample: square root of its weight under the robust loss. Empty: all weights are 1.
   std::vector<double> weights;
+  /// Changes of the commands within the window at uncertain times (DrivingLog::change_std_s).
+  std::vector<UncertainChange> changes;
 
   const std::vector<Sample>& samples() const { return *all_samples; }
   double weight(std::size_t sample) const { return weights.empty() ? 1.0 : weights[sample]; }

@@ -1,0 +1,98 @@
+#include "awmr/identify/logs/changes_between_rows.h"
+
+#include <cmath>
+
+#include "awmr/core/index.h"
+#include "awmr/core/linear_algebra.h"
+#include "awmr/identify/logs/further_terms.h"
+#include "awmr/identify/logs/information.h"
+#include "awmr/identify/logs/score_test.h"
+
+namespace awmr {
+namespace {
+
+/// Result of a Gauss-Newton step of all coordinates and initial states.
+struct Predicted {
+  double squares = 0.0;               ///< twice the predicted cost
+  std::vector<double> change_times;   ///< WindowErrors::change_times
+};
+
+/// `prior`: information of the weak prior of each coordinate.
+Predicted predicted(const std::vector<WindowSums>& sums, const Eigen::VectorXd& prior) {
+  const Eigen::Index n = prior.size();
+  const FitEvidence evidence = fit_evidence(sums, n);
+  Eigen::MatrixXd information = evidence.information;
+  information.diagonal() += prior;
+  const Eigen::VectorXd change = -solve_ldlt(information, evidence.score);
+  Predicted result{.squares = evidence.score.dot(change), .change_times = {}};
+  for (const WindowSums& window : sums) {
+    const Eigen::Index k = window.products.rows() - 1 - n;
+    const Eigen::MatrixXd of_initial = window.products.block(n, n, k, k);
+    const Eigen::VectorXd gradient = window.products.block(n, n + k, k, 1);
+    result.squares += window.products(n + k, n + k) -
+                      gradient.dot(Eigen::VectorXd(solve_ldlt(of_initial, gradient)));
+    if (window.change_times.size() == 0) continue;
+    Eigen::VectorXd all(n + k + 1);  // changes of the unknowns, and -1
+    all << change,
+        -solve_ldlt(of_initial, gradient + window.products.block(n, 0, k, n) * change), -1.0;
+    const Eigen::VectorXd times = -window.change_times * all;
+    result.change_times.insert(result.change_times.end(), times.begin(), times.end());
+  }
+  return result;
+}
+
+}  // namespace
+
+bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
+                              const std::vector<ParameterId>& candidate_terms) {
+  constexpr double kClearly = 20.0;
+  constexpr double kPerChange = 2.0;
+  std::vector<FreeQuantity> more = further_terms(problem);
+  for (const ParameterId term : candidate_terms) {
+    if (!place_of(problem.model.quantities, term)) more.push_back(free_parameter(term));
+  }
+  Extended with = extended(with_white_noise(problem), point, more,
+                           std::vector<double>(more.size(), 0.0));
+  bool any = false;
+  for (FitWindow& window : with.problem.windows) {
+    if (window.changes.empty()) window.changes = changes_before_rows(window.rows);
+    any = any || !window.changes.empty();
+  }
+  if (!any) return false;
+  std::vector<WindowSums> sums = sums_at(with.problem, with.point);
+  if (!all_finite(sums)) return false;
+  const std::vector<FreeQuantity>& quantities = with.problem.model.quantities;
+  Eigen::VectorXd prior(rows_of(quantities));
+  for (Eigen::Index i = 0; i < prior.size(); ++i) {
+    const double std = kPriorStd * quantities[at(i)].large_change;
+    prior(i) = 1.0 / (std * std);
+  }
+  const Predicted between = predicted(sums, prior);
+  double lead = -between.squares;
+  for (WindowSums& window : sums) {
+    lead -= window.change_cost;
+    if (window.products_at_known_times.size() == 0) continue;
+    window.products = window.products_at_known_times;
+    window.change_times.resize(0, 0);
+  }
+  lead += predicted(sums, prior).squares;
+  const double threshold = kClearly + kPerChange * static_cast<double>(between.change_times.size());
+  return lead > threshold && are_times_between_rows(between.change_times);
+}
+
+bool are_times_between_rows(const std::vector<double>& times) {
+  constexpr double kVariance = 0.8;  // of the square of a uniform number with the variance 1
+  double squares = 0.0;
+  for (const double time : times) squares += time * time;
+  const auto n = static_cast<double>(times.size());
+  return squares / n < 1.0 + std::sqrt(kVariance / n);
+}
+
+Finding changes_between_rows_finding(const std::string& file) {
+  return {file, 0, Severity::kNote, "changes-between-rows",
+          "the commands change between the rows, and the log shows only samples of them; the fit "
+          "treats the time of each change as unknown within one row spacing. Log every command "
+          "when it is sent"};
+}
+
+}  // namespace awmr
