@@ -13,8 +13,8 @@ namespace {
 
 /// Result of a Gauss-Newton step of all coordinates and initial states.
 struct Predicted {
-  double squares = 0.0;               ///< twice the predicted cost
-  std::vector<double> change_times;   ///< WindowErrors::change_times
+  double squares = 0.0;              ///< twice the predicted cost
+  std::vector<double> change_times;  ///< WindowErrors::change_times
 };
 
 /// `prior`: information of the weak prior of each coordinate.
@@ -33,34 +33,35 @@ Predicted predicted(const std::vector<WindowSums>& sums, const Eigen::VectorXd& 
                       gradient.dot(Eigen::VectorXd(solve_ldlt(of_initial, gradient)));
     if (window.change_times.size() == 0) continue;
     Eigen::VectorXd all(n + k + 1);  // changes of the unknowns, and -1
-    all << change,
-        -solve_ldlt(of_initial, gradient + window.products.block(n, 0, k, n) * change), -1.0;
+    all << change, -solve_ldlt(of_initial, gradient + window.products.block(n, 0, k, n) * change),
+        -1.0;
     const Eigen::VectorXd times = -window.change_times * all;
     result.change_times.insert(result.change_times.end(), times.begin(), times.end());
   }
   return result;
 }
 
-}  // namespace
+/// Comparison of uncertain times of the changes with times at the rows.
+struct UncertainTimes {
+  bool are_likelier = false;
+  std::vector<double> standardised;  ///< WindowErrors::change_times
+};
 
-bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
-                              const std::vector<ParameterId>& candidate_terms) {
+/// `more`: free quantities in addition to those of the problem.
+UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& point,
+                               const std::vector<FreeQuantity>& more) {
   constexpr double kClearly = 20.0;
   constexpr double kPerChange = 2.0;
-  std::vector<FreeQuantity> more = further_terms(problem);
-  for (const ParameterId term : candidate_terms) {
-    if (!place_of(problem.model.quantities, term)) more.push_back(free_parameter(term));
-  }
-  Extended with = extended(with_white_noise(problem), point, more,
-                           std::vector<double>(more.size(), 0.0));
+  Extended with =
+      extended(with_white_noise(problem), point, more, std::vector<double>(more.size(), 0.0));
   bool any = false;
   for (FitWindow& window : with.problem.windows) {
     if (window.changes.empty()) window.changes = changes_before_rows(window.rows);
     any = any || !window.changes.empty();
   }
-  if (!any) return false;
+  if (!any) return {};
   std::vector<WindowSums> sums = sums_at(with.problem, with.point);
-  if (!all_finite(sums)) return false;
+  if (!all_finite(sums)) return {};
   const std::vector<FreeQuantity>& quantities = with.problem.model.quantities;
   Eigen::VectorXd prior(rows_of(quantities));
   for (Eigen::Index i = 0; i < prior.size(); ++i) {
@@ -77,7 +78,24 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
   }
   lead += predicted(sums, prior).squares;
   const double threshold = kClearly + kPerChange * static_cast<double>(between.change_times.size());
-  return lead > threshold && are_times_between_rows(between.change_times);
+  return {lead > threshold, between.change_times};
+}
+
+}  // namespace
+
+bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
+                              const std::vector<ParameterId>& candidate_terms) {
+  const std::vector<FreeQuantity>& quantities = problem.model.quantities;
+  std::vector<FreeQuantity> delays;  // a quick test first
+  if (!has_kind(quantities, FreeQuantity::Kind::kDelay)) delays.push_back(input_delay());
+  if (!has_kind(quantities, FreeQuantity::Kind::kSteeringDelay)) delays.push_back(steering_delay());
+  if (!uncertain_times(problem, point, delays).are_likelier) return false;
+  std::vector<FreeQuantity> more = further_terms(problem);
+  for (const ParameterId term : candidate_terms) {
+    if (!place_of(quantities, term)) more.push_back(free_parameter(term));
+  }
+  const UncertainTimes times = uncertain_times(problem, point, more);
+  return times.are_likelier && are_times_between_rows(times.standardised);
 }
 
 bool are_times_between_rows(const std::vector<double>& times) {
