@@ -19,6 +19,9 @@ struct Adequacy {
   std::vector<Finding> findings;
   /// True: no interval is valid, because a model error is too large.
   bool withdraws_intervals = false;
+  /// True: heading or yaw rate show a model error, for example play of the steering, so that the
+  /// time constant of the servo has no interval.
+  bool withdraws_servo = false;
   bool withdraws_sway = false;  ///< true: the measured sway speed shows a model error
 };
 

@@ -100,10 +100,11 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
 
 bool are_times_between_rows(const std::vector<double>& times) {
   constexpr double kVariance = 0.8;  // of the square of a uniform number with the variance 1
+  constexpr double kErrors = 2.0;    // standard errors
   double squares = 0.0;
   for (const double time : times) squares += time * time;
   const auto n = static_cast<double>(times.size());
-  return squares / n < 1.0 + std::sqrt(kVariance / n);
+  return squares / n < 1.0 + kErrors * std::sqrt(kVariance / n);
 }
 
 Finding changes_between_rows_finding(const std::string& file) {

@@ -62,6 +62,9 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   if (adequacy.withdraws_sway) {
     withdraw_interval(chosen.fit.report, info(ParameterId::kSwayAlpha).name);
   }
+  if (adequacy.withdraws_servo) {
+    withdraw_interval(chosen.fit.report, info(ParameterId::kSteeringTimeConstant).name);
+  }
   return chosen;
 }
 

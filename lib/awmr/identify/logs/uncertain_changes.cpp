@@ -29,7 +29,8 @@ std::vector<PlannedRow> planned_rows(const DrivingLog& log) {
   const double gap_s = kGapSteps * log.median_step_s();
   std::vector<PlannedRow> rows;
   for (std::size_t row = 0; row < log.rows(); ++row) {
-    const bool inserts = row > 0 && is_change(signals, row) && log.t_s[row] - log.t_s[row - 1] <= gap_s;
+    const bool inserts =
+        row > 0 && is_change(signals, row) && log.t_s[row] - log.t_s[row - 1] <= gap_s;
     if (inserts) rows.push_back({row, true});
     rows.push_back({row, false});
   }
@@ -37,7 +38,8 @@ std::vector<PlannedRow> planned_rows(const DrivingLog& log) {
 }
 
 /// The signal at these rows: halfway to the previous row for an inserted row.
-std::vector<double> at_rows(const std::vector<double>& signal, const std::vector<PlannedRow>& rows) {
+std::vector<double> at_rows(const std::vector<double>& signal,
+                            const std::vector<PlannedRow>& rows) {
   std::vector<double> values;
   for (const auto& [row, is_inserted] : rows) {
     values.push_back(is_inserted ? 0.5 * (signal[row - 1] + signal[row]) : signal[row]);
