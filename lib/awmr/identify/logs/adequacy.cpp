@@ -29,15 +29,15 @@ std::optional<std::string> try_alternatives(BestFamily alternatives, const Famil
 }
 
 /// True for channels whose large drift invalidates the intervals: speed and yaw rate, the position
-/// if there is no speed, the heading if there is no yaw rate. (With a speed or yaw rate, a drift of
-/// position or heading alone can come from the GNSS receiver or the compass.)
+/// if there is no speed, the heading if there is no yaw rate or if the yaw rate shows a model error
+/// too. (A drift of position or heading alone can come from the GNSS receiver or the compass.)
 bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:
     case LogChannel::kYawRate:
       return true;
     case LogChannel::kHeading:
-      return !noise.contains(LogChannel::kYawRate);
+      return !noise.contains(LogChannel::kYawRate) || noise.at(LogChannel::kYawRate).of_the_model();
     case LogChannel::kX:
     case LogChannel::kY:
       return !noise.contains(LogChannel::kSpeed);
