@@ -127,6 +127,10 @@ TEST(ParseColumn, WhatAnOutputNamesReadsBackTheSame) {
   }
   EXPECT_EQ(text_of(*parse_column("x=V")), "x=V*1+0");
   EXPECT_EQ(text_of(*parse_column("x=\"V (km/h)\" * 0.5")), "x=V (km/h)*0.5+0");
+  for (const char* text :
+       {"x=\"a*b\"*0.5+0", "x=\"a+b\"*2+1", "x=\"an \"\"inner\"\" quote\"*0.5+0"}) {
+    EXPECT_EQ(text_of(*parse_column(text)), text);
+  }
 }
 
 TEST(ParseColumn, ScalesAMappingForASuggestion) {

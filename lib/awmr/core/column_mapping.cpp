@@ -55,6 +55,13 @@ std::optional<std::string> take_source(std::string_view& text) {
   return std::nullopt;
 }
 
+/// The column name in double quotes, as take_source() reads it.
+std::string in_quotes(std::string_view source) {
+  std::string text = "\"";
+  for (const char c : source) text.append(c == '"' ? 2 : 1, c);
+  return text + '"';
+}
+
 /// Parses `rest` as `[*SCALE][+OFFSET]` and stores both numbers in `mapping`. Returns false if
 /// `rest` is not of this form.
 bool take_scale_and_offset(std::string_view rest, ColumnMapping& mapping) {
@@ -137,8 +144,11 @@ std::string text_of(const ColumnMapping& mapping) {
   // this name. The constant is written as it was given.
   const bool scaled = !mapping.source.empty() && !number_from_text(mapping.expression);
   if (!scaled) return fmt::format("{}={}", name, mapping.expression);
-  return fmt::format("{}={}*{}+{}", name, mapping.source, format_number(mapping.scale),
-                     format_number(mapping.offset));
+  // Quotes only where the parser needs them, so that plain names remain readable.
+  const bool is_plain = mapping.source.find_first_of("*+\"") == std::string::npos &&
+                        trimmed(mapping.source).size() == mapping.source.size();
+  return fmt::format("{}={}*{}+{}", name, is_plain ? mapping.source : in_quotes(mapping.source),
+                     format_number(mapping.scale), format_number(mapping.offset));
 }
 
 std::string scaled_expression(const ColumnMapping& mapping, double factor, double offset) {
@@ -149,7 +159,7 @@ std::string scaled_expression(const ColumnMapping& mapping, double factor, doubl
                                  ColumnExpression::parse(mapping.expression).has_value());
   const double scale = is_formula ? factor : factor * mapping.scale;
   const std::string source =
-      is_formula ? fmt::format("({})", mapping.expression) : fmt::format("\"{}\"", mapping.source);
+      is_formula ? fmt::format("({})", mapping.expression) : in_quotes(mapping.source);
   const std::string scaled = scale == 1.0 ? source : fmt::format("{}*{:.7g}", source, scale);
   // The text of a formula contains its offset. Only a scaled column has a separate one.
   const double added = offset + (is_formula ? 0.0 : factor * mapping.offset);

@@ -35,7 +35,7 @@ Result<ColumnMapping> parse_column(std::string_view text);
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);
 
 /// Writes a mapping as `[FILE:]NAME=EXPRESSION`, the form in which output files record it among the
-/// options of the command (Provenance::options).
+/// options of the command (Provenance::options). parse_column() reads it back.
 std::string text_of(const ColumnMapping& mapping);
 
 /// Returns an EXPRESSION (see parse_column()) for the column that `mapping` defines, multiplied by
