@@ -26,7 +26,7 @@ using bench::Counted;
 ///   atan      8 operations, an FMA and a polynomial of 11
 constexpr double kPower = 48.0;
 constexpr double kSineAndCosine = 38.0;
-constexpr double kArcTangent = 31.0;
+constexpr double kArcTangent = 30.0;
 
 using View = OneRunOf<Counted>;
 constexpr LoopSteps<Counted> kCountedSteps = {

@@ -76,7 +76,7 @@ bool zsh_completes(const std::string& line, const std::string& whole) {
                 whole +
                 "*'\n"
                 "zpty -d z\n");
-  return run_process("HOME=" + here + " timeout 20 zsh -f " + here + "/ask.zsh").exit_code == 0;
+  return run_process("HOME=" + here + " timeout 60 zsh -f " + here + "/ask.zsh").exit_code == 0;
 }
 
 TEST(Completion, OfZshKnowsCommandsOptionsChoicesAndFiles) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -54,14 +55,27 @@ Plant<double> drawn_plant(std::uint64_t sample, double spread) {
   return plant;
 }
 
-/// Returns all vector instruction sets of this processor. Afterwards, AWMR_INSTRUCTIONS is not set.
+/// batch_arithmetic() with AWMR_INSTRUCTIONS set to `name`. Afterwards, the variable is as before.
+Result<BatchArithmetic> arithmetic_named(const std::string& name) {
+  constexpr const char* kVariable = "AWMR_INSTRUCTIONS";
+  const char* const value = std::getenv(kVariable);
+  const auto before = value != nullptr ? std::optional<std::string>(value) : std::nullopt;
+  ::setenv(kVariable, name.c_str(), 1);
+  const auto arithmetic = batch_arithmetic();
+  if (before) {
+    ::setenv(kVariable, before->c_str(), 1);
+  } else {
+    ::unsetenv(kVariable);
+  }
+  return arithmetic;
+}
+
+/// Returns all vector instruction sets of this processor.
 std::vector<BatchArithmetic> all_arithmetics() {
   std::vector<BatchArithmetic> all;
   for (const char* name : {"avx2", "avx512", "neon"}) {
-    ::setenv("AWMR_INSTRUCTIONS", name, 1);
-    if (const auto arithmetic = batch_arithmetic()) all.push_back(*arithmetic);
+    if (const auto arithmetic = arithmetic_named(name)) all.push_back(*arithmetic);
   }
-  ::unsetenv("AWMR_INSTRUCTIONS");
   return all;
 }
 
@@ -464,9 +478,7 @@ TEST_F(Batch, RowsAreThoseOfSimulateInEveryShippedScenario) {
 
 TEST(Instructions, RefusesUnsupportedOnesByName) {
   for (const std::string name : {"mmx", "sse2"}) {
-    ::setenv("AWMR_INSTRUCTIONS", name.c_str(), 1);
-    const auto arithmetic = batch_arithmetic();
-    ::unsetenv("AWMR_INSTRUCTIONS");
+    const auto arithmetic = arithmetic_named(name);
     ASSERT_FALSE(arithmetic) << name;
     EXPECT_NE(arithmetic.error().faults.front().message.find("unsupported instruction set '" +
                                                              name + "'"),
