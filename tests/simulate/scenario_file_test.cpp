@@ -40,24 +40,6 @@ TEST(ScenarioFile, ReadsHeadingStepsInRadians) {
   EXPECT_EQ(steps[1].psi_rad, radians(-30.0));
 }
 
-TEST(ScenarioFile, NamesEveryFaultByPointer) {
-  const std::pair<std::string, std::string> cases[] = {
-      {replaced(kHeading, "\"duration_s\": 4", "\"duration_s\": 0"), "/duration_s"},
-      {replaced(kHeading, "\"speed_mps\": 1", "\"speed_mps\": -1"), "/speed_mps"},
-      {replaced(kHeading, "speed_mps", "sped_mps"), "did you mean \"speed_mps\""},
-      {replaced(kHeading, "\"t_s\": 2", "\"t_s\": 0"), "/guidance/steps"},
-      {replaced(kHeading, "\"t_s\": 0", "\"t_s\": 1"), "first step must be at t_s = 0"},
-      {replaced(kHeading, "\"heading\"", "\"heding\""), "did you mean heading"},
-      {replaced(kHeading, "\"x_m\": 1, ", ""), "/initial/x_m"},
-  };
-  for (const auto& [text, words] : cases) {
-    const auto scenario = read(text);
-    ASSERT_FALSE(scenario) << words;
-    EXPECT_EQ(exit_code(scenario.error()), 2);
-    EXPECT_THAT(to_text(scenario.error()), HasSubstr(words));
-  }
-}
-
 TEST(ScenarioFile, EveryShippedScenarioReads) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(AWMR_SOURCE_DIR) +
@@ -176,33 +158,6 @@ TEST(ScenarioFile, ReadsTheWholeWorldInSiUnits) {
   EXPECT_FALSE(s->corner[1].high);
   EXPECT_EQ(s->seed, 7U);
   EXPECT_TRUE(s->random());
-}
-
-TEST(ScenarioFile, NamesTheFaultsOfTheWorldByPointer) {
-  const std::pair<std::string, std::string> cases[] = {
-      {replaced(kFull, "[[1, 2], [3, 4]]", "[[1, 2], [3]]"), "/guidance/points_m"},
-      {replaced(kFull, "[[1, 2], [3, 4]]", "[]"), "/guidance/points_m"},
-      {replaced(kFull, "\"points_m\": [[1, 2], [3, 4]], ", ""), "/guidance/points_m"},
-      {replaced(kFull, "\"radius_m\": 0.5", "\"radius_m\": 0"), "/obstacles/0/radius_m"},
-      {replaced(kFull, "\"mmd_base_m\": 6", "\"mmd_bse_m\": 6"), "did you mean \"mmd_base_m\""},
-      {replaced(kFull, "\"to_s\": 2}],\n                  \"sway",
-                "\"to_s\": 0.5}],\n                  \"sway"),
-       "/disturbance/surge/0/to_s"},
-      {replaced(kFull, "\"noise\", \"std\"", "\"nois\", \"std\""), "did you mean noise"},
-      {replaced(kFull, "\"left\"", "\"lefd\""), "/faults/0/wheel"},
-      {replaced(kFull, "\"share_end\": 0.5", "\"share_end\": 2"), "/battery/share_end"},
-      {replaced(kFull, "\"rate_hz\": 10", "\"rate_hz\": 0"), "/sensors/gps/rate_hz"},
-      {replaced(kFull, "\"mass_norm\": \"hi\"", "\"mass_nrm\": \"hi\""), "/corner/mass_nrm"},
-      {replaced(kFull, "\"obstacles\": [{\"x_m\": 5, \"y_m\": 6, \"radius_m\": 0.5}],", ""),
-       "no obstacles to avoid"},
-      {replaced(kHeading, "\"speed_mps\": 1,\n", "\"speed_mps\": 1, \"avoidance\": 3,\n"),
-       "/avoidance"},
-  };
-  for (const auto& [text, words] : cases) {
-    const auto scenario = read(text);
-    ASSERT_FALSE(scenario) << words;
-    EXPECT_THAT(to_text(scenario.error()), HasSubstr(words));
-  }
 }
 
 TEST(ScenarioFile, ReadsLinesAndTimedPaths) {

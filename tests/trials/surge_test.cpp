@@ -103,14 +103,6 @@ TEST(SurgeTrial, SetsRowsWithoutInformationAsideAndCountsThem) {
   EXPECT_THAT(read.findings[0].message, HasSubstr("4 of 5 rows are not used (lines 3, 4, 5, 7)"));
 }
 
-TEST(SurgeTrial, NeedsThrustAndSpeed) {
-  EXPECT_THAT(faults_of(read_surge, "speed_mps\n1\n"),
-              ElementsAre(::testing::AllOf(StartsWith("1:1: "), HasSubstr("wheel_force"))));
-  EXPECT_THAT(faults_of(read_surge, "tau_speed,distance_m\n1,10\n"),
-              ElementsAre(HasSubstr("elapsed_s")));
-  EXPECT_THAT(faults_of(read_surge, "distance_m,time\n1,10\n"), SizeIs(2));
-}
-
 TEST(SurgeTrial, RefusesNegativeAndImpossibleCellsAllAtOnce) {
   EXPECT_THAT(faults_of(read_surge,
                         "tau_speed,distance_m,elapsed_s,speed_mps\n-1,10,8,1.25\n1,-10,8,1.25\n"
@@ -119,20 +111,6 @@ TEST(SurgeTrial, RefusesNegativeAndImpossibleCellsAllAtOnce) {
                           StartsWith("5:8: "), StartsWith("6:6: ")));
   EXPECT_THAT(faults_of(read_surge, "tau_speed,distance_m,elapsed_s\n1,10,0\n"),
               ElementsAre(StartsWith("2:6: ")));
-}
-
-TEST(SurgeTrial, RefusesMalformedFiles) {
-  for (const char* text :
-       {"", "tau_speed,speed_mps\n", "tau_speed,speed_mps\n1\n", "tau_speed,speed_mps\n1,\n",
-        "tau_speed,speed_mps\n1,fast\n", "tau_speed,speed_mps\n1,nan\n",
-        "tau_speed,speed_mps\n1,inf\n", "tau_speed,speed_mps,speed_mps\n1,1,1\n",
-        "tau_speed,speed_mps\n1,\"1\n"}) {
-    const ScratchFile file("trial.csv", text);
-    std::vector<Finding> findings;
-    const auto set = read_surge(file.path(), {}, findings);
-    ASSERT_FALSE(set) << text;
-    EXPECT_EQ(exit_code(set.error()), 2) << text;
-  }
 }
 
 }  // namespace

@@ -93,15 +93,6 @@ TEST(TurningTrial, SetsRowsWithoutInformationAside) {
   EXPECT_THAT(codes_of(read.findings), ElementsAre("rows-set-aside@2"));
 }
 
-TEST(TurningTrial, NeedsItsColumns) {
-  EXPECT_THAT(faults_of(kReadTurning, "wheel_force,yaw_rate_radps\n1,1\n"),
-              ElementsAre(HasSubstr("steering_deg")));
-  EXPECT_THAT(faults_of(kReadTurning, "steering_deg,yaw_rate_radps\n1,1\n"),
-              ElementsAre(HasSubstr("wheel_force")));
-  EXPECT_THAT(faults_of(kReadTurning, "steering_deg,wheel_force,elapsed_s\n1,1,1\n"),
-              ElementsAre(HasSubstr("turns")));
-}
-
 TEST(TurningTrial, RefusesNegativeAndImpossibleCellsAllAtOnce) {
   EXPECT_THAT(
       faults_of(
