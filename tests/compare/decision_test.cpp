@@ -42,10 +42,11 @@ Comparison drawn(std::uint64_t number) {
   return comparison;
 }
 
+/// Modes of rank 1 that complete a run.
 std::vector<Contender> first_with(const ScenarioRows& rows, const Preferences& preferences) {
   std::vector<Contender> first;
   for (const RankedMode& mode : rank(rows, statistics_of(rows, preferences, 1), preferences)) {
-    if (mode.rank == 1) first.push_back(mode.contender);
+    if (mode.rank == 1 && mode.completed_share > 0.0) first.push_back(mode.contender);
   }
   return first;
 }

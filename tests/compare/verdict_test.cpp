@@ -72,6 +72,45 @@ TEST(Verdict, ReportsATie) {
   EXPECT_THAT(verdict(twenty(0.4, 0.1)), HasSubstr("are tied: equal within 5 %"));
 }
 
+TEST(Verdict, StatesThatScoresIncludeFailures) {
+  EXPECT_THAT(verdict(twenty(0.0, 0.0, 10)),
+              HasSubstr("scores include runs that were not completed"));
+  EXPECT_THAT(verdict(twenty(0.0, 0.0)), Not(HasSubstr("scores include")));
+}
+
+TEST(Verdict, RanksAModeThatNeverCompletesBehindOneThatRarelyDoes) {
+  // Differential completes 3 of 8 runs: McNemar's p is 0.25. Steering completes none, with shorter
+  // settling times.
+  Comparison c = twenty(-3.0, 0.1, 20);
+  std::erase_if(c.rows, [](const ComparisonRow& row) { return row.sample > 8; });
+  for (ComparisonRow& row : c.rows) {
+    row.metrics.completed = row.mode == YawMode::kDifferential && row.sample < 4;
+  }
+  const Evaluated few = evaluate(c);
+  EXPECT_EQ(few.scenario.ranking[0].contender.mode, YawMode::kDifferential);
+  EXPECT_EQ(few.scenario.ranking[1].rank, 2);
+  EXPECT_EQ(few.scenario.ranking[1].towards_leader, Conclusion::kRelevant);
+  EXPECT_EQ(few.scenario.decision->kind(), DecisionKind::kDecided);
+  for (const MetricTally& one : tally({few.scenario})) {
+    EXPECT_THAT(one.best_or_tied, ElementsAre(1, 0));
+  }
+  // If no mode completes a run, no mode is recommended.
+  for (ComparisonRow& row : c.rows) row.metrics.completed = false;
+  const Evaluated none = evaluate(c);
+  EXPECT_THAT(none.scenario.decision->first, ::testing::IsEmpty());
+  EXPECT_EQ(none.scenario.decision->kind(), DecisionKind::kUndecided);
+}
+
+TEST(Verdict, TableStatesTheRunsOfAMeanThatNotAllRunsHave) {
+  Comparison c = twenty(3.0, 0.1);
+  c.whole_samples = 21;
+  for (ComparisonRow& row : c.rows) {
+    if (row.mode == YawMode::kSteering && row.sample > 5) row.metrics.settling_time_s.reset();
+  }
+  EXPECT_THAT(comparison_table(c), HasSubstr("settle: mean of some runs: steering 5 of 20\n"));
+  EXPECT_THAT(comparison_table(c), Not(HasSubstr("IAE: mean of some runs")));
+}
+
 TEST(Verdict, GivesTheExactShareOfFailures) {
   // Steering completes 10 of 20 runs, differential 20: McNemar's p is 2/1024, and the 95 % interval
   // of 10 of 20 is [27, 73] %.

@@ -48,6 +48,24 @@ std::string wrapped(const std::string& text) {
   return out;
 }
 
+/// Notes on the means of metrics that not every run has: "  settle: mean of some runs: steering 3
+/// of 8".
+std::string partial_means(const ScenarioRows& scenario) {
+  std::string text;
+  for (const MetricColumn& metric : kMetricColumns) {
+    if (metric.head.empty()) continue;
+    std::string counts;
+    for (const ModeRows& rows : scenario.modes) {
+      const std::size_t count = summarise(rows, metric).count;
+      if (count == 0 || count == rows.counted().size()) continue;
+      counts += fmt::format("{}{} {} of {}", counts.empty() ? "" : ", ", rows.label(), count,
+                            rows.counted().size());
+    }
+    if (!counts.empty()) text += fmt::format("  {}: mean of some runs: {}\n", metric.head, counts);
+  }
+  return text;
+}
+
 /// Table of one scenario: a line for each mode, and a column for each metric that any mode has.
 std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking) {
   std::size_t width = 12;
@@ -73,7 +91,7 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
     text +=
         fmt::format("{} {:>4}\n", lines[mode], place_of(scenario.modes[mode].contender, ranking));
   }
-  return text;
+  return text + partial_means(scenario);
 }
 
 /// Text such as "decisions: 3 decided, 1 level, 2 undecided; survive a change of plant in 3 of 6,

@@ -19,10 +19,11 @@ bool has(const std::vector<Contender>& contenders, const Contender& one) {
   return std::find(contenders.begin(), contenders.end(), one) != contenders.end();
 }
 
+/// Returns the modes of rank 1. If no mode completes a run, there are none.
 std::vector<Contender> first_of(const std::vector<RankedMode>& ranking) {
   std::vector<Contender> first;
   for (const RankedMode& mode : ranking) {
-    if (mode.rank == 1) first.push_back(mode.contender);
+    if (mode.rank == 1 && mode.completed_share > 0.0) first.push_back(mode.contender);
   }
   return first;
 }

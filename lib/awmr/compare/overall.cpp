@@ -9,9 +9,11 @@ namespace awmr {
 namespace {
 
 /// True if `other` is better than `own` in the metric: relevantly (Conclusion::kRelevant) lower, or
-/// only `other` has a value.
+/// only `other` has a value. A mode that completes no run is not better than one that does.
 bool beats(const EvaluatedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
+  const bool own_completes = own.completed_count() > 0;
+  if (own_completes != (other.completed_count() > 0)) return !own_completes;
   const auto theirs = summarise(other, metric).mean;
   const auto mine = summarise(own, metric).mean;
   if (!theirs || !mine) return theirs.has_value() && !mine;

@@ -227,13 +227,14 @@ std::vector<RankedMode> rank(const ScenarioRows& scenario, const ScenarioStatist
       const RankingEntry& ahead = entries[leader];
       const Behind first = behind_entry(own, entries.front());
       const bool alike = complete_alike(*own.rows, *ahead.rows);
-      const bool equal = alike && equivalent_in_all(own.rows->contender, ahead.rows->contender,
-                                                    scoring, statistics.differences);
+      const bool equal = equivalent_in_all(own.rows->contender, ahead.rows->contender, scoring,
+                                           statistics.differences);
       ranked.behind_ci95 = first.ratio_ci95;
-      ranked.towards_leader = equal         ? Conclusion::kEquivalent
+      ranked.towards_leader = !alike        ? Conclusion::kRelevant
+                              : equal       ? Conclusion::kEquivalent
                               : leader == 0 ? first.conclusion
                                             : behind_entry(own, ahead).conclusion;
-      if (!alike || ranked.towards_leader == Conclusion::kRelevant) leader = i;
+      if (ranked.towards_leader == Conclusion::kRelevant) leader = i;
     }
     ranked.rank = static_cast<int>(leader) + 1;
     ranking.push_back(std::move(ranked));

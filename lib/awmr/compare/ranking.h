@@ -22,9 +22,10 @@ struct RankedMode {
   double completed_share = 0.0;  ///< share of completed runs, in [0, 1]
   /// 95 % interval of `score`; absent for the first mode, and below 2 samples.
   std::optional<Interval> behind_ci95;
-  /// Conclusion from comparing the score with that of a leader; kRelevant: this mode is worse. The
-  /// leader is the best mode of the same rank. For the best mode of a rank, it is the best mode of
-  /// the rank above. Absent for the first mode.
+  /// Conclusion from comparing the score with that of a leader; kRelevant: this mode is worse,
+  /// completes significantly less often, or never although the leader does. The leader is the best
+  /// mode of the same rank. For the best mode of a rank, it is the best mode of the rank above.
+  /// Absent for the first mode.
   std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the other modes of the same rank
   /// Share in [0, 1] of random weightings of the metrics with which this mode has the best score;
@@ -51,7 +52,8 @@ inline constexpr std::string_view kScoreFormula =
     "relevance. It is equivalent if the 90 % "
     "interval is within relevance of 1, or if every ranked metric is equivalent. Otherwise it is "
     "undecided and shares the rank of the leader. Modes that complete significantly less often "
-    "than the best (exact McNemar test) come after the others";
+    "than the best (exact McNemar test), or never although another mode does, come after the "
+    "others. The scores include runs that were not completed";
 
 inline constexpr std::string_view kNotRanked =
     "not ranked: the scenario has no heading, line, path or waypoints to follow, or no metric with "

@@ -34,7 +34,8 @@ bool complete_alike(const ModeRows& a, const ModeRows& b) {
   const std::size_t apart = a.completed_count() > b.completed_count()
                                 ? a.completed_count() - b.completed_count()
                                 : b.completed_count() - a.completed_count();
-  if (first.size() < 2 || apart == first.size()) return apart == 0;
+  if ((a.completed_count() == 0) != (b.completed_count() == 0)) return false;
+  if (first.size() < 2) return apart == 0;
   std::size_t only_first = 0;
   std::size_t only_second = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {

@@ -18,7 +18,7 @@ struct RankingEntry {
   std::vector<double> log_scores;
   std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
   /// False if the mode completes the scenario significantly less often than the mode that completes
-  /// it most often.
+  /// it most often, or never although another mode does.
   bool completes = true;
 
   double log_score() const { return mean(log_scores); }
@@ -29,8 +29,8 @@ struct RankingEntry {
 };
 
 /// True if two modes complete the scenario about equally often: the exact McNemar test finds no
-/// significant difference. With a single run, or if one mode completes all runs and the other none,
-/// the numbers must be equal.
+/// significant difference. False if only one of the two completes any run. With a single run, the
+/// numbers must be equal.
 bool complete_alike(const ModeRows& a, const ModeRows& b);
 
 /// Returns the modes of a scenario, best first: those that complete often enough

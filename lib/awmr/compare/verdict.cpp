@@ -72,7 +72,7 @@ std::string completion_text(const ScenarioRows& scenario) {
       text += fmt::format(" (95 %: {:.0f} to {:.0f} %)", 100.0 * share.lo, 100.0 * share.hi);
     }
   }
-  return text.empty() ? "all completed" : text;
+  return text.empty() ? "all completed" : text + "; scores include runs that were not completed";
 }
 
 /// Text of how far the score is behind that of the best mode: " by 31 % (95 %: 28 to 35 %)".
