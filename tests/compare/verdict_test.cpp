@@ -65,11 +65,24 @@ TEST(Verdict, GivesTheDifferenceOfTheOtherInEitherOrder) {
 TEST(Verdict, ReportsATie) {
   // The mean difference is 0.1 s with a standard error of 7/sqrt(20) = 1.6 s, that is, 16 % of 10
   // s, in one of four metrics.
-  EXPECT_THAT(verdict(twenty(0.1, 7.0)),
-              HasSubstr("are tied: these runs show no significant difference"));
+  EXPECT_THAT(verdict(twenty(0.1, 7.0)), HasSubstr("are tied: steering is undecided, behind by"));
   // The difference is 0.4 s with a standard error of 0.02 s: significant, but less than 5 % of 10
   // s.
-  EXPECT_THAT(verdict(twenty(0.4, 0.1)), HasSubstr("are tied: equal within 5 %"));
+  EXPECT_THAT(verdict(twenty(0.4, 0.1)),
+              HasSubstr("are tied: equivalent within 5 %; all completed"));
+}
+
+TEST(Verdict, NamesRelevantMetricsOfTiedModes) {
+  // Steering settles 1 s later, 10 % of 10 s: relevant in this metric. It is one of four ranked
+  // metrics, with an offset of 2 s, so that the score differs by ln(13/12)/4 = 2 %.
+  Comparison c = twenty(1.0, 0.1);
+  const Evaluated tied = evaluate(c);
+  EXPECT_EQ(tied.scenario.ranking[1].towards_leader, Conclusion::kEquivalent);
+  EXPECT_THAT(tied.scenario.verdict, HasSubstr("are tied: equivalent within 5 %"));
+  EXPECT_THAT(tied.scenario.verdict,
+              ::testing::ContainsRegex("relevant single metrics: steering [01][0-9.]* s more "
+                                       "settling_time_s than differential"));
+  EXPECT_THAT(verdict(twenty(0.4, 0.1)), Not(HasSubstr("relevant single metrics")));
 }
 
 TEST(Verdict, StatesThatScoresIncludeFailures) {

@@ -87,7 +87,27 @@ std::string share_text(const RankedMode& other) {
   return text;
 }
 
-/// Text of the modes of rank 1: "combined is best", "combined and steering are tied for best".
+/// Text of what a tie means: "combined is equivalent within 5 %, steering is undecided, behind by
+/// 3.4 % (95 %: 1 to 5.6 %)". If all tied modes are equivalent: "equivalent within 5 %".
+std::string tie_text(const std::vector<RankedMode>& ranking, const Preferences& preferences) {
+  const std::string within = fmt::format("equivalent within {:g} %", 100.0 * preferences.relevance);
+  std::vector<std::string> parts;
+  bool all_equivalent = true;
+  for (std::size_t i = 1; i < ranking.size() && ranking[i].rank == 1; ++i) {
+    const RankedMode& mode = ranking[i];
+    const bool is_equivalent = mode.towards_leader == Conclusion::kEquivalent;
+    all_equivalent = all_equivalent && is_equivalent;
+    const std::string behind = share_text(mode);
+    parts.push_back(fmt::format("{} is {}", mode.contender.label(),
+                                is_equivalent    ? within
+                                : behind.empty() ? "undecided"
+                                                 : "undecided, behind" + behind));
+  }
+  return all_equivalent ? within : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Text of the modes of rank 1: "combined is best", "combined and steering are tied for best:
+/// equivalent within 5 %".
 std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided,
                        const Preferences& preferences) {
   const RankedMode& best = ranking.front();
@@ -95,13 +115,32 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
   std::vector<std::string> first{best.contender.label()};
   first.insert(first.end(), best.tied_with.begin(), best.tied_with.end());
   if (first.size() == 1) return first.front() + (is_undecided ? " is ahead here" : " is best");
-  if (first.size() < ranking.size()) return joined(first) + " are tied for best";
-  const bool equal = std::all_of(ranking.begin() + 1, ranking.end(), [](const RankedMode& mode) {
-    return mode.towards_leader == Conclusion::kEquivalent;
-  });
-  if (!equal) return joined(first) + " are tied: these runs show no significant difference";
-  return fmt::format("{} are tied: equal within {:g} %", joined(first),
-                     100.0 * preferences.relevance);
+  return fmt::format("{} are tied{}: {}", joined(first),
+                     first.size() < ranking.size() ? " for best" : "",
+                     tie_text(ranking, preferences));
+}
+
+/// Text of the metrics in which modes that are tied for rank 1 differ relevantly: "; relevant
+/// single metrics: steering 0.43 m more cross_track_rms_m than combined". For each mode, only the
+/// metrics in which it is furthest behind and furthest ahead of the first mode are named.
+std::string tied_gaps_text(const std::vector<RankedMode>& ranking,
+                           const std::vector<PairedDifference>& differences,
+                           const Preferences& preferences) {
+  std::vector<std::string> gaps;
+  const Contender& best = ranking.front().contender;
+  const auto add = [&](const Contender& ahead, const Contender& behind) {
+    const PairedDifference* gap = widest_gap(differences, preferences, ahead, behind);
+    if (gap == nullptr) return;
+    const MetricColumn& metric = column_of(gap->metric);
+    gaps.push_back(fmt::format("{} {:.3g} {} more {} than {}", behind.label(), std::abs(*gap->mean),
+                               metric.unit, metric.name, ahead.label()));
+  };
+  for (std::size_t i = 1; i < ranking.size() && ranking[i].rank == 1; ++i) {
+    add(best, ranking[i].contender);
+    add(ranking[i].contender, best);
+  }
+  if (gaps.empty()) return {};
+  return fmt::format("; relevant single metrics: {}", fmt::join(gaps, ", "));
 }
 
 /// Text of the robustness of rank 1: "; combined is best for 83 % of all metric weightings and in
@@ -206,6 +245,7 @@ std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMod
     text += fmt::format("; {} is behind{}{}", other.contender.label(), share_text(other),
                         gap_text(gap, other.contender));
   }
+  text += tied_gaps_text(ranking, differences, preferences);
   text += "; " + completion_text(scenario);
   if (ranking.size() > 1) text += stability_text(best);
   if (decision) text += decision_text(*decision);
