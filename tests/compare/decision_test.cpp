@@ -213,6 +213,45 @@ TEST(Decision, AnUndecidedLeadIsNotCalledBest) {
   EXPECT_THAT(verdict(), ::testing::HasSubstr("undecided: steering first on the four-wheel plant"));
 }
 
+/// Comparison of differential and steering: one run each, with these settling times, s, and tyre
+/// works, m, of steering. Those of differential are 10 s and 0.2 m.
+Comparison by_two_metrics(double settling_time_s, double tyre_work) {
+  Comparison comparison;
+  for (const YawMode mode : {YawMode::kDifferential, YawMode::kSteering}) {
+    const bool steers = mode == YawMode::kSteering;
+    ComparisonRow row{.scenario = "s", .mode = mode, .metrics = {}};
+    row.metrics.completed = true;
+    row.metrics.settling_time_s = steers ? settling_time_s : 10.0;
+    row.metrics.heading_iae_degs = 50.0;
+    row.metrics.tyre_work = steers ? tyre_work : 0.2;
+    comparison.rows.push_back(row);
+  }
+  comparison.whole_samples = 1;
+  return comparison;
+}
+
+TEST(Decision, IsUndecidedIfOneMetricAloneLeadsNarrowly) {
+  // Four metrics are ranked: those above and the mechanical work, which is 0. With the offset 0.2
+  // of the tyre work, the score of steering is ((0.35 + 0.2)/(0.2 + 0.2))^(1/4) = 1.083. With half
+  // the weight of the tyre work, it is 1.375^(0.5/3.5) = 1.047: tied.
+  const Comparison narrow = by_two_metrics(10.0, 0.35);
+  const EvaluatedScenario one = evaluate_scenarios(narrow, {}, 1).front();
+  ASSERT_TRUE(one.decision->narrow_lead);
+  EXPECT_EQ(one.decision->narrow_lead->metric, MetricId::kTyreWork);
+  EXPECT_THAT(one.decision->narrow_lead->others, ElementsAre(kSteering));
+  EXPECT_EQ(one.decision->kind(), DecisionKind::kUndecided);
+  EXPECT_THAT(one.verdict, ::testing::StartsWith("differential is ahead here"));
+  EXPECT_THAT(one.verdict, ::testing::HasSubstr("differential leads steering in tyre_work alone"));
+  const Json json = Json::parse(comparison_text(narrow, {}, {"compare", {}, {}}));
+  EXPECT_EQ(json.at("scenarios").at(0).at("decision").at("narrow_lead").at("metric"), "tyre_work");
+  // A larger lead in the same metric, 3^(0.5/3.5) = 1.17 with half its weight, decides.
+  EXPECT_EQ(evaluate_scenarios(by_two_metrics(10.0, 1.0), {}, 1).front().decision->kind(),
+            DecisionKind::kDecided);
+  // So do two metrics. The settling time has the offset 2 s.
+  EXPECT_EQ(evaluate_scenarios(by_two_metrics(13.0, 0.35), {}, 1).front().decision->kind(),
+            DecisionKind::kDecided);
+}
+
 TEST(Decision, NamesTheModeThatCompletesNoRunOfAChange) {
   Comparison comparison = drawn(1);
   comparison.whole_samples = 1;

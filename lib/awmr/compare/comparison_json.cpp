@@ -99,6 +99,10 @@ Json decision_json(const std::string& scenario, const Decision& decision,
                {"never_behind", labels_json(decision.never_behind())},
                {"deciding_trials", decision.deciding_trials()},
                {"changes", Json::array()}};
+  if (decision.narrow_lead) {
+    json["narrow_lead"] = {{"metric", column_of(decision.narrow_lead->metric).name},
+                           {"over", labels_json(decision.narrow_lead->others)}};
+  }
   for (const Change& change : decision.changes) {
     Json& entry =
         json["changes"].emplace_back(Json{{"kind", name_in(kChangeKindNames, change.kind)},
@@ -248,8 +252,9 @@ Json ranking_json(const Preferences& preferences) {
       "the best score. Modes that are tied for best have the mean of their fractions";
   json["decision"] = fmt::format(
       "decided: one mode has rank 1 in the ranking and under every change of one assumption; "
-      "level: several modes have; undecided: no mode has. Changes: any weights within a factor "
-      "{:g}; with "
+      "level: several modes have; undecided: no mode has, or the lead is narrow (narrow_lead): by "
+      "one metric alone, and lost with half its weight. Modes that complete no run have no rank 1 "
+      "here. Changes: any weights within a factor {:g}; with "
       "option plant both, also the other plant and, for a single set of gains, the rates of "
       "heading and speed loop multiplied and divided by {:.3g}, each with up to {} samples",
       kWeightFactor, kGainsFactor, kBatchRuns - 1);

@@ -67,6 +67,11 @@ void describe_decision(JsonObject& scenario) {
   if (!decision) return;
   decision->choice("kind", kDecisionKindNames);
   for (const char* key : {"first", "never_behind", "deciding_trials"}) decision->strings(key);
+  if (auto lead = decision->optional_object("narrow_lead")) {
+    lead->string("metric");
+    lead->strings("over");
+    lead->reject_unknown_keys();
+  }
   for (JsonObject& change : decision->objects("changes")) {
     change.choice("kind", kChangeKindNames);
     change.string("setting");

@@ -28,6 +28,43 @@ std::vector<Contender> first_of(const std::vector<RankedMode>& ranking) {
   return first;
 }
 
+/// Returns the only ranked metric in which `other` is relevantly worse than `own`. Null if there is
+/// none, or more than one.
+const PairedDifference* only_gap(const std::vector<PairedDifference>& differences,
+                                 const Preferences& preferences, const Contender& own,
+                                 const Contender& other) {
+  const PairedDifference* only = nullptr;
+  for (const PairedDifference& d : differences) {
+    if (!d.is_between(own, other) || d.conclusion != Conclusion::kRelevant) continue;
+    if (!(weight_of(column_of(d.metric), preferences) > 0.0)) continue;
+    if ((*d.mean < 0.0) != (d.first == own)) continue;
+    if (only != nullptr) return nullptr;
+    only = &d;
+  }
+  return only;
+}
+
+std::optional<NarrowLead> narrow_lead_of(const ScenarioRows& scenario,
+                                         const ScenarioStatistics& statistics,
+                                         const std::vector<Contender>& first,
+                                         const Preferences& preferences, std::uint64_t seed) {
+  if (first.size() != 1) return std::nullopt;
+  std::optional<NarrowLead> lead;
+  for (const ModeRows& other : scenario.modes) {
+    if (other.contender == first.front()) continue;
+    const PairedDifference* gap =
+        only_gap(statistics.differences, preferences, first.front(), other.contender);
+    if (gap == nullptr || (lead && lead->metric != gap->metric)) continue;
+    const MetricColumn& metric = column_of(gap->metric);
+    Preferences halved = preferences;
+    halved.weights[std::string(metric.name)] = weight_of(metric, preferences) / kWeightFactor;
+    if (!has(first_of(rank(scenario, statistics, halved, seed)), other.contender)) continue;
+    if (!lead) lead = NarrowLead{gap->metric, {}};
+    lead->others.push_back(other.contender);
+  }
+  return lead;
+}
+
 /// Returns the weights with which `own` is furthest behind `other`. Each weight w_k is multiplied
 /// or divided by kWeightFactor. Let d_k be the mean loss (log_loss()) of own minus that of other in
 /// metric k, and m = ln(1 + relevance). Own is behind if
@@ -168,7 +205,7 @@ std::vector<Contender> Decision::never_behind() const {
 
 DecisionKind Decision::kind() const {
   const std::size_t count = never_behind().size();
-  if (count == 0) return DecisionKind::kUndecided;
+  if (count == 0 || narrow_lead) return DecisionKind::kUndecided;
   return count == 1 ? DecisionKind::kDecided : DecisionKind::kLevel;
 }
 
@@ -232,6 +269,7 @@ Decision decide(const ScenarioRows& scenario, const ScenarioStatistics& statisti
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed) {
   Decision decision{first_of(ranking), {}};
+  decision.narrow_lead = narrow_lead_of(scenario, statistics, decision.first, preferences, seed);
   decision.changes.push_back(change_of_weights(scenario, statistics, preferences, seed));
   std::copy_if(changes.begin(), changes.end(), std::back_inserter(decision.changes),
                [&](const Change& change) {

@@ -25,22 +25,31 @@ inline constexpr double kWeightFactor = 2.0;
 inline constexpr double kGainsFactor = 1.4142135623730951;
 
 enum class DecisionKind {
-  kDecided,    ///< one mode has rank 1 under all assumptions
+  kDecided,    ///< one mode has rank 1 under all assumptions, and no NarrowLead
   kLevel,      ///< several modes have rank 1 under all assumptions
-  kUndecided,  ///< no mode has rank 1 under all assumptions
+  kUndecided,  ///< no mode has rank 1 under all assumptions, or there is a NarrowLead
 };
 inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
     {{"decided", DecisionKind::kDecided},
      {"level", DecisionKind::kLevel},
      {"undecided", DecisionKind::kUndecided}}};
 
+/// A lead by one metric alone: the only mode of rank 1 is relevantly better than another mode in
+/// just one ranked metric, and with the weight of this metric divided by kWeightFactor, the other
+/// mode has rank 1, too.
+struct NarrowLead {
+  MetricId metric{};
+  std::vector<Contender> others;  ///< these other modes
+};
+
 /// Decision on a scenario: the modes of rank 1 in the ranking, and the modes of rank 1 if one
-/// assumption is changed.
+/// assumption is changed. Modes that complete no run are left out.
 struct Decision {
   std::vector<Contender> first;  ///< modes of rank 1 in the ranking
   /// Changed assumptions for which a ranking exists. The change of weights is always included,
   /// because it needs no runs.
   std::vector<Change> changes;
+  std::optional<NarrowLead> narrow_lead = {};
 
   /// Modes that have rank 1 in the ranking and under every change.
   std::vector<Contender> never_behind() const;

@@ -199,6 +199,14 @@ std::string trials_in_words(const std::vector<std::string_view>& trials) {
                      fmt::join(trials, " and "));
 }
 
+/// Text of a lead by one metric alone; empty without such a lead.
+std::string narrow_text(const Decision& decision) {
+  if (!decision.narrow_lead) return {};
+  return fmt::format("; undecided: {} leads {} in {} alone, and not with half its weight",
+                     listed(decision.first), listed(decision.narrow_lead->others),
+                     column_of(decision.narrow_lead->metric).name);
+}
+
 /// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...", then the modes
 /// that complete no run under a change, and the trials that would decide between the plants.
 std::string decision_text(const Decision& decision) {
@@ -214,7 +222,7 @@ std::string decision_text(const Decision& decision) {
   }
   const bool differ = decision.kind() != DecisionKind::kDecided;
   const std::string trials = differ ? trials_in_words(decision.deciding_trials()) : "";
-  const std::string incomplete = incomplete_in_words(decision.changes);
+  const std::string incomplete = incomplete_in_words(decision.changes) + narrow_text(decision);
   if (is_undecided) {
     return fmt::format("; undecided: {}{}{}", fmt::join(words, ", "), incomplete, trials);
   }

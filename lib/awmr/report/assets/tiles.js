@@ -87,9 +87,10 @@ function settlingTile(list, gains) {
 }
 
 /// The best modes of a scenario. If compare repeated the ranking with another plant, other weights
-/// and other gains: the modes that are never behind in any of these rankings.
-const firstOf = (scenario) => (scenario.decision ? scenario.decision.never_behind
-  : scenario.ranking.filter((r) => r.rank === 1).map((r) => r.mode));
+/// and other gains: the modes that are never behind in any of these rankings; none if undecided.
+const firstOf = (scenario) => (!scenario.decision
+  ? scenario.ranking.filter((r) => r.rank === 1).map((r) => r.mode)
+  : scenario.decision.kind === "undecided" ? [] : scenario.decision.never_behind);
 
 /// Tile of the best mode: the only mode that is best in every ranked scenario, or "undecided".
 function modeTile(list, comparison) {
