@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -362,13 +363,20 @@ Result<std::string> search_near(Problem& problem, int most_evaluations) {
 
 namespace {
 
-/// Local search on all drawn vehicles, from the best of `found` (the best gains on some of these
-/// vehicles) and `starts`. The result is never worse than a feasible start, although some vehicles
-/// can mislead, above all if noise decides the metrics.
-Result<std::string> finish(Problem& problem, const Gains<double>& found,
+/// Local search on all drawn vehicles, from the best of `found` (the best gains on the vehicles of
+/// `searched`) and `starts`. Some vehicles can mislead, above all if noise decides the metrics, so
+/// the starts are evaluated on all vehicles, too, except those that are much worse on some.
+Result<std::string> finish(Problem& problem, const Objective& searched, const Gains<double>& found,
                            std::span<const Gains<double>> starts, int most_evaluations) {
+  constexpr double kMuchWorse = 1.25;
   look_at_gains(problem, std::span(&found, 1));
-  look_at_gains(problem, starts);
+  const double most = problem.nearest.feasible() ? kMuchWorse * searched(found).objective
+                                                 : std::numeric_limits<double>::infinity();
+  std::vector<Gains<double>> good;
+  std::ranges::copy_if(starts, std::back_inserter(good), [&](const Gains<double>& start) {
+    return searched(start).objective <= most;
+  });
+  look_at_gains(problem, good);
   problem.simulate_all = true;
   const int budget = problem.nearest.feasible() ? std::min(kFinishEvaluations, most_evaluations)
                                                 : most_evaluations;
@@ -401,8 +409,9 @@ Result<SearchResult> search(const TuneOptions& options, const ConstraintContext&
   Problem on_all(quiet, context, all);
   const bool has_more = all.draws() > searched.draws();
   if (has_more) {
-    AWMR_ASSIGN_OR_RETURN(const std::string finished,
-                          finish(on_all, problem.nearest.gains, starts, options.local_evaluations));
+    AWMR_ASSIGN_OR_RETURN(
+        const std::string finished,
+        finish(on_all, searched, problem.nearest.gains, starts, options.local_evaluations));
     stop += finished;
   }
   Problem& last = has_more ? on_all : problem;

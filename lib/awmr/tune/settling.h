@@ -15,7 +15,7 @@ namespace awmr {
 /// Share of the runs of the setting that settle with these gains, [0, 1].
 double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
 
-/// True if at least `share` of the runs of the setting settle. Simulates a few vehicles first; if too
+/// True if at least `share` of the runs of the setting settle. Simulates a few vehicles first. If too
 /// many of their runs do not settle, the others are not simulated.
 bool enough_settle(const ObjectiveSetting& setting, const Gains<double>& gains, double share);
 

@@ -1,15 +1,30 @@
 #include "awmr/identify/logs/changes_between_rows.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
+#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/information.h"
+#include "awmr/identify/logs/model_choice.h"
 #include "awmr/identify/logs/score_test.h"
+#include "awmr/identify/logs/uncertain_changes.h"
+#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {
+
+/// The note `changes-between-rows`.
+Finding changes_between_rows_finding(const std::string& file) {
+  return {file, 0, Severity::kNote, "changes-between-rows",
+          "the commands change between the rows, and the log shows only samples of them; the fit "
+          "treats the time of each change as unknown within one row spacing. Log every command "
+          "when it is sent"};
+}
 
 /// Result of a Gauss-Newton step of all coordinates and initial states.
 struct Predicted {
@@ -107,11 +122,32 @@ bool are_times_between_rows(const std::vector<double>& times) {
   return squares / n < 1.0 + kErrors * std::sqrt(kVariance / n);
 }
 
-Finding changes_between_rows_finding(const std::string& file) {
-  return {file, 0, Severity::kNote, "changes-between-rows",
-          "the commands change between the rows, and the log shows only samples of them; the fit "
-          "treats the time of each change as unknown within one row spacing. Log every command "
-          "when it is sent"};
+FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                   const IdentifyOptions& options) {
+  constexpr std::int64_t kEffortShare = 3;  // a trial in vain may spend a third of the limit
+  LogFitOptions tests = power_law;
+  tests.tests_changes = std::ranges::none_of(logs, [](const DrivingLog& log) {
+    return log.has_interpolated_commands || log.has_held_set_points;
+  });
+  FamilyFit at_rows = fit_first_family(logs, tests, options);
+  at_rows.options.tests_changes = false;
+  if (!at_rows.fit.has_changes_between_rows) return {logs, std::move(at_rows), {}};
+  FirstFit between{with_changes_between_rows(logs), {}, {}};
+  LogFitOptions from = power_law;
+  from.initial_guess = fitted_values(at_rows.options, at_rows.fit);
+  from.guessed.clear();
+  from.effort = std::make_shared<Effort>(power_law.effort->left() / kEffortShare);
+  between.fit = fit_first_family(between.logs, from, options);
+  at_rows =
+      fit_family(logs, from_optimum(power_law, between.fit), between.fit.surge, between.fit.yaw);
+  between.fit.options.effort = power_law.effort;
+  if (!from.effort->is_over() && between.fit.fit.usable &&
+      are_times_between_rows(between.fit.fit.change_times) &&
+      aic_lead(between.fit.fit, at_rows.fit) > kFamilyAicThreshold) {
+    between.findings.push_back(changes_between_rows_finding(logs.front().file));
+    return between;
+  }
+  return {logs, fit_first_family(logs, power_law, options), {}};
 }
 
 }  // namespace awmr

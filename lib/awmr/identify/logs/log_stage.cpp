@@ -13,7 +13,6 @@
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/changes_between_rows.h"
 #include "awmr/identify/logs/command_findings.h"
-#include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/force_findings.h"
 #include "awmr/identify/logs/inertia_check.h"
 #include "awmr/identify/logs/interpolated_commands.h"
@@ -23,7 +22,6 @@
 #include "awmr/identify/logs/set_points.h"
 #include "awmr/identify/logs/slip_choice.h"
 #include "awmr/identify/logs/speed_control.h"
-#include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/trials/log_consistency.h"
 
@@ -246,45 +244,6 @@ std::optional<ReadAgain> read_again(const std::vector<DrivingLog>& logs,
     return ReadAgain{with_measured_steering(logs), measured_steering_finding(file)};
   }
   return std::nullopt;
-}
-
-/// First fit of the logs with the commands as they are used.
-struct FirstFit {
-  std::vector<DrivingLog> logs;
-  FamilyFit fit;
-  std::vector<Finding> findings;
-};
-
-/// Makes the first fit. If the commands probably change between the rows, first fits the logs with
-/// uncertain times of the changes. This fit is used if the times are between the rows
-/// (are_times_between_rows()) and its AIC is lower by more than kFamilyAicThreshold than that of a
-/// fit of the same terms with changes at the rows.
-FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
-                   const IdentifyOptions& options) {
-  constexpr std::int64_t kEffortShare = 3;  // a trial in vain may spend a third of the limit
-  LogFitOptions tests = power_law;
-  tests.tests_changes = std::ranges::none_of(logs, [](const DrivingLog& log) {
-    return log.has_interpolated_commands || log.has_held_set_points;
-  });
-  FamilyFit at_rows = fit_first_family(logs, tests, options);
-  at_rows.options.tests_changes = false;
-  if (!at_rows.fit.has_changes_between_rows) return {logs, std::move(at_rows), {}};
-  FirstFit between{with_changes_between_rows(logs), {}, {}};
-  LogFitOptions from = power_law;
-  from.initial_guess = fitted_values(at_rows.options, at_rows.fit);
-  from.guessed.clear();
-  from.effort = std::make_shared<Effort>(power_law.effort->left() / kEffortShare);
-  between.fit = fit_first_family(between.logs, from, options);
-  at_rows =
-      fit_family(logs, from_optimum(power_law, between.fit), between.fit.surge, between.fit.yaw);
-  between.fit.options.effort = power_law.effort;
-  if (!from.effort->is_over() && between.fit.fit.usable &&
-      are_times_between_rows(between.fit.fit.change_times) &&
-      aic_lead(between.fit.fit, at_rows.fit) > kFamilyAicThreshold) {
-    between.findings.push_back(changes_between_rows_finding(logs.front().file));
-    return between;
-  }
-  return {logs, fit_first_family(logs, power_law, options), {}};
 }
 
 }  // namespace
