@@ -245,9 +245,8 @@ TEST_P(FamiliesAtNoise, AreIdentifiedRightWithFrictionFromRest) {
     EXPECT_LT(std::abs(*model[id].value - truth), 4.0 * *model[id].std_error) << info(id).name;
   }
 }
-INSTANTIATE_TEST_SUITE_P(Short, FamiliesAtNoise, ::testing::Values(1e-5, 5e-2));
-/// Noise levels between the two of `Short`.
-INSTANTIATE_TEST_SUITE_P(Long, FamiliesAtNoise, ::testing::Values(5e-4, 1e-3, 5e-3, 2e-2));
+INSTANTIATE_TEST_SUITE_P(Short, FamiliesAtNoise, ::testing::Values(1e-5));
+INSTANTIATE_TEST_SUITE_P(Long, FamiliesAtNoise, ::testing::Values(5e-4, 1e-3, 5e-3, 2e-2, 5e-2));
 
 TEST(Families, DropTermsOfThePreviousFamily) {
   const std::vector<DrivingLog> logs = with_coulomb_friction(0.2);
@@ -294,7 +293,8 @@ TEST(Families, ReportALimitThatEndsTheLastSearch) {
 }
 
 TEST(Families, ComparesFamiliesAtTheirOwnOptima) {
-  const std::vector<DrivingLog> logs{drive(kTruths[0], 10)};
+  const std::vector<DrivingLog> logs{
+      drive(kTruths[0], 10, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors)};
   const LogFitOptions options = from_nothing(logs);
   FamilyFit unlucky{Family::kPower, Family::kPower, options, {}};
   const BestFamily found = best_family(logs, options, unlucky, {.lead = 20.0});

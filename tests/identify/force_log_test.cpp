@@ -27,9 +27,11 @@ std::vector<State<double>> motion_with(const DrivingLog& log, const Plant<double
 
 /// Log of a drive of the plant with sensor noise and the extra forces. `reverses`: after the first
 /// 5 s, the commanded wheel forces are reversed in every second interval of 3 s.
-DrivingLog drive_with(const Plant<double>& plant, ExtraForces extra, bool reverses = false) {
+DrivingLog drive_with(const Plant<double>& plant, ExtraForces extra, bool reverses = false,
+                      double rate_hz = 100.0, const SensorNoise& noise = {}) {
   Random random(8, 5);
-  DrivingLog log = simulate_log(plant, robot(), {.duration_s = 25.0, .drive = 8}, {}, random);
+  DrivingLog log = simulate_log(
+      plant, robot(), {.duration_s = 25.0, .rate_hz = rate_hz, .drive = 8}, noise, random);
   const std::vector<State<double>> before = motion_with(log, plant, {});
   for (std::size_t row = 0; reverses && row < log.rows(); ++row) {
     if (log.t_s[row] < 5.0 || static_cast<int>(log.t_s[row] / 3.0) % 2 == 0) continue;
@@ -106,7 +108,8 @@ class FoundForce : public ::testing::TestWithParam<ForceCase> {};
 TEST_P(FoundForce, IsEstimatedBesideTheParameters) {
   const auto& [name, truth, code, forces] = GetParam();
   const Truth& t = kTruths[1];
-  const Identification result = identified(drive_with(plant(t), forces, true), power_law());
+  const Identification result =
+      identified(drive_with(plant(t), forces, true, 50.0, kPreciseSensors), power_law());
   EXPECT_TRUE(has_finding(result, code));
   EXPECT_FALSE(has_finding(result, "model-inadequate"));
   expect_estimated(result, name, truth);

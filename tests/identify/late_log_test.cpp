@@ -25,11 +25,7 @@ DrivingLog precise_drive(const Truth& t) {
   return drive(t, 8, {.duration_s = 20.0}, kPreciseSensors);
 }
 
-/// Fits with the power law in instances `Short`, and with a choice of the families in `Long`.
-class LateLogs : public ::testing::TestWithParam<bool> {
- protected:
-  static IdentifyOptions options() { return GetParam() ? IdentifyOptions{} : power_law(); }
-};
+class LateLogs : public FitOfInstance {};
 INSTANTIATE_TEST_SUITE_P(Short, LateLogs, ::testing::Values(false));
 INSTANTIATE_TEST_SUITE_P(Long, LateLogs, ::testing::Values(true));
 
@@ -184,7 +180,7 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
   const Truth& t = kTruths[1];
   TrialData data;
   data.logs = {with_smoothed(precise_drive(t), LogChannel::kSpeed, kLag_s, GetParam())};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options_of_instance(), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "lag.speed_mps");
   ASSERT_TRUE(lag && lag->std_error);
@@ -192,7 +188,9 @@ TEST_P(SmoothedSpeed, IsAllowedFor) {
   EXPECT_TRUE(has_finding(*result, "sensor-lag"));
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
 }
-INSTANTIATE_TEST_SUITE_P(ByARecursiveFilter, SmoothedSpeed, ::testing::Bool());
+/// Test parameter: true for a recursive filter.
+INSTANTIATE_TEST_SUITE_P(Short, SmoothedSpeed, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Long, SmoothedSpeed, ::testing::Bool());
 
 /// Filters the speed by T^2 d2y/dt2 + 2 zeta T dy/dt + y = u. Integrates in steps of a fiftieth of
 /// a row. u is the speed, interpolated linearly between rows.
@@ -370,7 +368,7 @@ TEST_P(SlippingWheels, AreFoundInTheirReadings) {
   const Truth& t = kTruths[1];
   TrialData data;
   data.logs = {with_slip(precise_drive(t), kSlip_mps, GetParam())};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options_of_instance(), {});
   ASSERT_TRUE(result);
   const auto slip = estimated(*result, "slip.speed_mps");
   ASSERT_TRUE(slip && slip->std_error);
@@ -400,7 +398,9 @@ TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
   EXPECT_FALSE(result->model[ParameterId::kMassNorm].std_error);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfTheYawRateToo, SlippingWheels, ::testing::Bool());
+/// Test parameter: true for slip in the yaw rate too.
+INSTANTIATE_TEST_SUITE_P(Short, SlippingWheels, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Long, SlippingWheels, ::testing::Bool());
 
 /// The log without its first rows.
 DrivingLog cut(DrivingLog log, std::size_t rows) {
@@ -733,10 +733,10 @@ DrivingLog saturated(DrivingLog log, double loss, double n) {
   return log;
 }
 
-TEST(LateLog, FindsASmallSaturationOfTheForces) {
+TEST_P(LateLogs, FindsASmallSaturationOfTheForces) {
   constexpr double kLoss = 0.035;
   expect_found(saturated(precise_drive(kTruths[1]), kLoss, 4.0), kTruths[1], "motor.saturation",
-               kLoss, "force-saturation");
+               kLoss, "force-saturation", options());
 }
 
 class ForceSaturation : public ::testing::TestWithParam<double> {};

@@ -39,6 +39,12 @@ inline IdentifyOptions options_of_instance() {
   return suite.starts_with("Short/") ? power_law() : IdentifyOptions{};
 }
 
+/// Fits with the power law in instances `Short`, and with a choice of the families in `Long`.
+class FitOfInstance : public ::testing::TestWithParam<bool> {
+ protected:
+  static IdentifyOptions options() { return GetParam() ? IdentifyOptions{} : power_law(); }
+};
+
 /// Force of motors with the time constant T = lag_s, averaged from each row to the next. The
 /// command c is constant between rows: F'(t + h) = c + (F'(t) - c) exp(-h/T). `force`: F' at the
 /// first row.

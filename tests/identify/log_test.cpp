@@ -19,6 +19,10 @@
 namespace awmr::testing {
 namespace {
 
+class Logs : public FitOfInstance {};
+INSTANTIATE_TEST_SUITE_P(Short, Logs, ::testing::Values(false));
+INSTANTIATE_TEST_SUITE_P(Long, Logs, ::testing::Values(true));
+
 bool refused(const Identification& result, ParameterId id) {
   return std::find(result.refused.begin(), result.refused.end(), id) != result.refused.end();
 }
@@ -172,12 +176,12 @@ void move_commands(DrivingLog& log, int rows) {
   move(*log.steering_command_rad);
 }
 
-TEST(Log, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
+TEST_P(Logs, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
   for (const int rows : {-4, 5}) {
     TrialData data;
     data.logs = {drive(kTruths[1], 8, {.duration_s = 12.0})};
     move_commands(data.logs[0], rows);
-    const auto result = identify(robot(), data, {}, {});
+    const auto result = identify(robot(), data, options(), {});
     ASSERT_TRUE(result);
     const auto delay = estimated(*result, "input_delay_s");
     ASSERT_TRUE(delay && delay->std_error) << rows;
@@ -188,12 +192,12 @@ TEST(Log, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
   }
 }
 
-TEST(Log, FreesMotorLagAndDeadTimeTogether) {
+TEST_P(Logs, FreesMotorLagAndDeadTimeTogether) {
   constexpr double kLag_s = 0.08;
   TrialData data;
   data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0})};
   move_commands(data.logs[0], -4);
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "motor.time_constant_s");
   const auto delay = estimated(*result, "input_delay_s");
@@ -205,11 +209,11 @@ TEST(Log, FreesMotorLagAndDeadTimeTogether) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
 }
 
-TEST(Log, SeparatesMotorLagFromADeadTime) {
+TEST_P(Logs, SeparatesMotorLagFromADeadTime) {
   constexpr double kLag_s = 0.08;
   TrialData data;
   data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0})};
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "motor.time_constant_s");
   ASSERT_TRUE(lag && lag->std_error);
@@ -297,15 +301,15 @@ TEST(Log, CorrelatedErrorsAreFoundAndWidenTheIntervals) {
   expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
 }
 
-TEST(Log, FindsAndCompensatesALatencyOfTheSpeed) {
+TEST_P(Logs, FindsAndCompensatesALatencyOfTheSpeed) {
   const Truth& t = kTruths[0];
-  constexpr std::size_t kLate = 10;  // rows of 10 ms
+  constexpr std::size_t kLate = 5;  // rows of 20 ms
   TrialData data;
-  data.logs = {drive(t, 21)};
+  data.logs = {drive(t, 21, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors)};
   std::vector<double>& speed = data.logs[0][LogChannel::kSpeed]->value;
   std::rotate(speed.rbegin(), speed.rbegin() + kLate, speed.rend());
   std::fill(speed.begin(), speed.begin() + kLate, speed[kLate]);
-  const auto result = identify(robot(), data, {}, {});
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "sensor-delay", "speed_mps"));
   expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
@@ -328,10 +332,12 @@ DrivingLog commanded_early(DrivingLog log, std::size_t rows) {
   return log;
 }
 
-TEST(Log, ReportsTheActuatorsIfAllSensorsAreDelayed) {
+TEST_P(Logs, ReportsTheActuatorsIfAllSensorsAreDelayed) {
+  const DrivingLog log =
+      drive(kTruths[0], 22, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors);
   TrialData data;
-  data.logs = {commanded_early(drive(kTruths[0], 22), 6)};
-  const auto result = identify(robot(), data, {}, {});
+  data.logs = {commanded_early(log, 3)};
+  const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "actuator-lag"));
   const auto delay = estimated(*result, "input_delay_s");
@@ -342,8 +348,8 @@ TEST(Log, ReportsTheActuatorsIfAllSensorsAreDelayed) {
   const auto delayed = identify(robot(), data, with_delay, {});
   ASSERT_TRUE(delayed);
   EXPECT_TRUE(has_finding(*delayed, "actuator-lag", "s after its commands"));
-  data.logs = {drive(kTruths[0], 22)};
-  EXPECT_FALSE(has_finding(*identify(robot(), data, {}, {}), "actuator-lag", ""));
+  data.logs = {log};
+  EXPECT_FALSE(has_finding(*identify(robot(), data, options(), {}), "actuator-lag", ""));
 }
 
 TEST(Log, RefusesTheServoLagWithoutASteeringCommand) {
@@ -441,7 +447,8 @@ DrivingLog geared_drive(const Truth& t, std::uint64_t seed, double duration_s = 
   Plant<double> geared = plant(t);
   geared.back_emf_s_per_m = kBackEmf;
   Random random(seed, 5);
-  return simulate_log(geared, robot(), {.duration_s = duration_s, .drive = seed}, {}, random);
+  return simulate_log(geared, robot(), {.duration_s = duration_s, .rate_hz = 50.0, .drive = seed},
+                      kPreciseSensors, random);
 }
 
 class BackEmfOfSeeds : public ::testing::TestWithParam<int> {};
@@ -453,7 +460,7 @@ TEST_P(BackEmfOfSeeds, IsRecoveredFromDrivingAndCoastingAndReported) {
   for (int seed = 1; seed <= GetParam(); ++seed) {
     TrialData data;
     data.logs = {geared_drive(t, 100 + static_cast<std::uint64_t>(seed))};
-    const auto result = identify(robot(), data, {}, {});
+    const auto result = identify(robot(), data, options_of_instance(), {});
     ASSERT_TRUE(result);
     EXPECT_TRUE(has_finding(*result, "back-emf", "AIC")) << seed;
     // For three parameters and three seeds, 4.5 standard errors give a failure probability of 6e-5.
@@ -550,8 +557,10 @@ TEST(Log, ReportsAnotherMassOnTheSecondDayAndWidensTheInterval) {
 
 TEST(Log, LogsOfOneVehicleAgree) {
   TrialData data;
-  data.logs = {drive(kTruths[0], 25, {.duration_s = 20.0}),
-               drive(kTruths[0], 26, {.duration_s = 20.0})};
+  for (const std::uint64_t seed : {25U, 26U}) {
+    data.logs.push_back(
+        drive(kTruths[0], seed, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors));
+  }
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_FALSE(has_finding(*result, "logs-disagree", ""));
@@ -570,8 +579,9 @@ DrivingLog log_with_change(double factor, std::uint64_t seed) {
   constexpr double kPause_s = 2.0;
   Truth changed = kTruths[0];
   changed.a1 *= factor;
-  DrivingLog log = drive(kTruths[0], seed, {.duration_s = 48.0});
-  DrivingLog last = drive(changed, seed + 100, {.duration_s = 12.0});
+  DrivingLog log = drive(kTruths[0], seed, {.duration_s = 48.0, .rate_hz = 50.0}, kPreciseSensors);
+  DrivingLog last =
+      drive(changed, seed + 100, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors);
   for (double& t_s : last.t_s) t_s += log.t_s.back() + kPause_s;
   for (int& line : last.line) line += log.line.back();
   append(log.t_s, last.t_s);
@@ -593,7 +603,7 @@ DrivingLog log_with_change(double factor, std::uint64_t seed) {
 Identification identified_with_change(double factor, std::uint64_t seed) {
   TrialData data;
   data.logs = {log_with_change(factor, seed)};
-  return identify(robot(), data, {}, {}).value();
+  return identify(robot(), data, options_of_instance(), {}).value();
 }
 
 TEST(Log, WithdrawsTheIntervalsIfTheInertiaShowsAWrongUnitOfTheSpeed) {

@@ -34,7 +34,7 @@ inline DrivingLog drive(const Truth& t, std::uint64_t seed, DrivePlan plan = {.d
 }
 
 /// Sensors with 1/sqrt(2) of the default noise. A log of 20 s then shows as much as one of 40 s with
-/// the default noise, and is fitted in half the time.
+/// the default noise, and is fitted in half the time. So is a log with half the rows.
 inline constexpr SensorNoise kPreciseSensors{
     .speed_mps = 0.0141, .yaw_rate_radps = 0.00617, .heading_rad = 0.01234, .position_m = 0.0354};
 
