@@ -139,7 +139,7 @@ void read_heading_rate(JsonObject& json, Project& project) {
 
 void read_compare(JsonObject json, const FileNames& files, Project& project) {
   project.scenarios = files.all_at(json, "scenarios");
-  if (json.has("scenarios") && project.scenarios.empty()) {
+  if (json.size("scenarios") == 0) {
     json.fault(ErrorCode::kMissing, "scenarios", "no scenario is given; name at least one file");
   }
   project.compare.samples =

@@ -52,6 +52,16 @@ TEST_F(JsonObjectTest, ReadsEveryKindOfValue) {
   EXPECT_THAT(faults(), IsEmpty());
 }
 
+TEST_F(JsonObjectTest, CountsElementsWithFaults) {
+  JsonObject object = root(R"({"empty": [], "bad": [0, "x"], "object": {"a": 1}, "text": "abc"})");
+  EXPECT_EQ(object.size("empty"), 0U);
+  EXPECT_EQ(object.size("bad"), 2U);
+  EXPECT_THAT(object.numbers("bad"), ElementsAre(0.0));
+  EXPECT_EQ(object.size("object"), 1U);
+  EXPECT_FALSE(object.size("text"));
+  EXPECT_FALSE(object.size("missing"));
+}
+
 TEST_F(JsonObjectTest, OptionalKeysMayBeAbsent) {
   JsonObject object = root("{}");
   EXPECT_FALSE(object.has("a"));

@@ -40,6 +40,21 @@ TEST(ScenarioFile, ReadsHeadingStepsInRadians) {
   EXPECT_EQ(steps[1].psi_rad, radians(-30.0));
 }
 
+TEST(ScenarioFile, ReportsAnInvalidListOnce) {
+  for (const auto& steps : {"3", "[3]"}) {
+    const auto scenario = read(replaced(
+        kHeading, "[{\"t_s\": 0, \"psi_deg\": 30}, {\"t_s\": 2, \"psi_deg\": -30}]", steps));
+    ASSERT_FALSE(scenario);
+    for (const Fault& fault : scenario.error().faults) {
+      EXPECT_NE(fault.code, ErrorCode::kWrongOrder) << to_text(scenario.error());
+    }
+  }
+  const auto none = read(
+      replaced(kHeading, "[{\"t_s\": 0, \"psi_deg\": 30}, {\"t_s\": 2, \"psi_deg\": -30}]", "[]"));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().faults.front().code, ErrorCode::kWrongOrder);
+}
+
 TEST(ScenarioFile, EveryShippedScenarioReads) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(AWMR_SOURCE_DIR) +

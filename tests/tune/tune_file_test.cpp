@@ -225,6 +225,20 @@ TEST_F(TuneFile, ReportsEveryFaultAtOnce) {
   EXPECT_EQ(config.error().faults.size(), 4U) << to_text(config.error());
 }
 
+TEST_F(TuneFile, ReportsAnInvalidElementOfAListOnce) {
+  for (const char* text : {R"({"open": {"mass_factors": [0]}})", R"({"open": {"mass_factors": 3}})",
+                           R"({"open": {"wheel_forces": 3}})", R"({"scenarios": [3]})",
+                           R"({"goals": [{"at_most": {"overshoot_deg": 0}}]})",
+                           R"({"goals": [{"at_most": {"settling_s": 1}}]})"}) {
+    const auto config = read(text);
+    ASSERT_FALSE(config) << text;
+    EXPECT_EQ(config.error().faults.size(), 1U) << text << to_text(config.error());
+    EXPECT_NE(config.error().faults.front().code, ErrorCode::kMissing) << text;
+  }
+  EXPECT_EQ(read(R"({"open": {"mass_factors": []}})").error().faults.front().code,
+            ErrorCode::kMissing);
+}
+
 TEST_F(TuneFile, WritesGainsThatReadBackBitForBit) {
   Tuning tuning;
   tuning.gains = {{3.1, 50.0 / 3.0, 0.1 + 0.2}, {1.0 / 7.0, 1e-3}};

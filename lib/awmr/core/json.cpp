@@ -56,6 +56,13 @@ bool JsonObject::has(std::string_view key) {
   return shape_ != nullptr ? shape_->has(key) : find(key, false) != nullptr;
 }
 
+std::optional<std::size_t> JsonObject::size(std::string_view key) const {
+  if (value_ == nullptr) return std::nullopt;
+  const auto found = value_->find(std::string(key));
+  if (found == value_->end() || !found->is_structured()) return std::nullopt;
+  return found->size();
+}
+
 double JsonObject::number(std::string_view key, NumberRule rule) {
   if (shape_ != nullptr) shape_->type(key, schema_of(rule));
   const Json* value = find(key, true);

@@ -43,6 +43,9 @@ class JsonObject {
 
   /// True if the object has the key, even with the value null. Marks the key as known.
   bool has(std::string_view key);
+  /// Number of elements in the array or object under the key. Absent if the key is missing or has
+  /// another type. Elements with faults count, unlike in the result of numbers() or strings().
+  std::optional<std::size_t> size(std::string_view key) const;
   double number(std::string_view key, NumberRule rule = kAnyNumber);
   std::optional<double> optional_number(std::string_view key, NumberRule rule = kAnyNumber);
   /// `null` is allowed and gives nullopt; a missing key is a fault.

@@ -33,7 +33,7 @@ HeadingSteps read_heading_steps(JsonObject& json) {
         {step.number("t_s", kTime_s), radians(step.number("psi_deg", kAngle_deg))});
     step.reject_unknown_keys();
   }
-  if (heading.steps.empty() || heading.steps.front().t_s > 0.0) {
+  if (json.size("steps") == 0 || (!heading.steps.empty() && heading.steps.front().t_s > 0.0)) {
     json.fault(ErrorCode::kWrongOrder, "steps",
                fmt::format("the first step must be at t_s = 0, but {}; add a step at 0",
                            heading.steps.empty()
@@ -56,7 +56,9 @@ HeadingSteps read_heading_steps(JsonObject& json) {
 Position<double> read_point(JsonObject& json, const char* key) {
   const std::vector<double> xy = json.numbers(key, kCoordinate_m);
   if (xy.size() == 2) return {xy[0], xy[1]};
-  json.fault(ErrorCode::kWrongType, key, "expected a point [x, y] in m");
+  if (const auto size = json.size(key); size && *size != 2) {
+    json.fault(ErrorCode::kWrongType, key, "expected a point [x, y] in m");
+  }
   return {};
 }
 

@@ -39,7 +39,7 @@ double read_speed(JsonObject& json, bool holds_thrust) {
 /// Reports keys that have no effect in this scenario.
 void reject_idle_keys(JsonObject& json, const Scenario& scenario) {
   const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
-  if (scenario.avoidance && scenario.obstacles.empty()) {
+  if (scenario.avoidance && (!json.has("obstacles") || json.size("obstacles") == 0)) {
     json.fault(ErrorCode::kConflict, "avoidance",
                "the scenario has no obstacles to avoid; add obstacles, or remove this key");
   }

@@ -118,8 +118,7 @@ void read_goals(JsonObject& json, TuneOptions& options) {
 void read_scenarios(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
                     std::vector<Fault>& faults) {
   if (!json.has("scenarios")) return;
-  const std::vector<std::string> names = json.strings("scenarios");
-  for (const std::string& name : names) {
+  for (const std::string& name : json.strings("scenarios")) {
     const std::filesystem::path path = directory / name;
     Result<Scenario> scenario = read_scenario(path);
     if (!scenario) {
@@ -130,7 +129,7 @@ void read_scenarios(JsonObject& json, const std::filesystem::path& directory, Tu
     config.options.scenarios.push_back(std::move(*scenario));
     config.scenario_files.push_back(path);
   }
-  if (names.empty()) {
+  if (json.size("scenarios") == 0) {
     json.fault(ErrorCode::kMissing, "scenarios",
                "the list is empty; leave the key out for the default scenarios");
   }

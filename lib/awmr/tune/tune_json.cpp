@@ -72,7 +72,7 @@ TuningGoal read_goal(JsonObject json) {
     }
   }
   limits.reject_unknown_keys();
-  if (goal.at_most.empty()) {
+  if (json.size("at_most") == 0) {
     json.fault(ErrorCode::kMissing, "at_most",
                "this goal contains no metric; give at least one with its limit");
   }
@@ -87,7 +87,7 @@ UnmodelledVariation read_open(JsonObject json) {
   UnmodelledVariation open;
   if (json.has("mass_factors")) {
     open.mass_factors = json.numbers("mass_factors", kMassFactor);
-    if (open.mass_factors.empty()) {
+    if (json.size("mass_factors") == 0) {
       json.fault(ErrorCode::kMissing, "mass_factors", "an empty list; leave the key out");
     }
   }
@@ -95,7 +95,7 @@ UnmodelledVariation read_open(JsonObject json) {
     for (JsonObject& force : json.objects("wheel_forces")) {
       open.wheel_forces.push_back(wheel_force_from_json(std::move(force)));
     }
-    if (open.wheel_forces.empty()) {
+    if (json.size("wheel_forces") == 0) {
       json.fault(ErrorCode::kMissing, "wheel_forces", "an empty list; leave the key out");
     }
   }
