@@ -107,8 +107,8 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
-  /// true: tune a disturbance observer; false: tune none. If absent, the keys `observer` and
-  /// `no_observer` of tune.json decide.
+  /// true: tune a disturbance observer; false: tune none. Must not contradict tune.json. If absent,
+  /// the keys `observer` and `no_observer` of tune.json decide.
   std::optional<bool> observer = {};
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json

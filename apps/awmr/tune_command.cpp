@@ -39,6 +39,8 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
     AWMR_ASSIGN_OR_RETURN(config, read_tune_config(*command.config));
   }
   TuneOptions& options = config.options;
+  AWMR_RETURN_IF_ERROR(check_observer_choice(
+      command.observer, options, command.observer == false ? "--no-observer" : "--observer"));
   choose_observer(command.observer, options);
   if (options.scenarios.empty()) {
     AWMR_ASSIGN_OR_RETURN(options.scenarios,

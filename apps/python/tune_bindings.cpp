@@ -11,6 +11,9 @@ Tuning tuned(const Model& model, const std::optional<std::filesystem::path>& con
   TuneOptions options;
   if (config) options = value_or_raise(read_tune_config(*config)).options;
   options.nominal = options.nominal || nominal;
+  if (const Status status = check_observer_choice(observer, options, "observer"); !status) {
+    throw Raised(status.error());
+  }
   choose_observer(observer, options);
   if (draws && options.nominal) {
     throw Raised(Error{ErrorKind::kInput,

@@ -82,6 +82,18 @@ TEST_F(TunedGains, RefuseABaselineThatIsNoGainsFile) {
   EXPECT_THAT(bad.err, HasSubstr("bad.json:/heading/mu"));
 }
 
+TEST_F(TunedGains, RefuseAnObserverThatTheConfigurationForbids) {
+  for (const auto& [key, option] :
+       {std::pair("\"no_observer\": true", "--observer"), {"\"observer\": {}", "--no-observer"}}) {
+    write_all(path("observer.json"), std::string("{") + key + "}");
+    const ProcessResult run = awmr("tune --model " + path("model.json") + " --config " +
+                                   path("observer.json") + " -o " + path("x.json") + " " + option);
+    EXPECT_EQ(run.exit_code, 2) << option;
+    EXPECT_THAT(run.err, HasSubstr(std::string("error: ") + option));
+    EXPECT_THAT(run.err, HasSubstr("[conflict]"));
+  }
+}
+
 TEST_F(TunedGains, OfOneModeAreExaminedThereAndWarnElsewhere) {
   const ProcessResult run = tune("--mode differential");
   ASSERT_EQ(run.exit_code, 0) << run.err;

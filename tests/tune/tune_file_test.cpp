@@ -47,6 +47,15 @@ TEST_F(TuneFile, ReadsAnObserver) {
   EXPECT_FALSE(read(R"({"no_observer": true})")->options.adds_observer);
   EXPECT_EQ(read(R"({"observer": {}, "no_observer": true})").error().faults.front().code,
             ErrorCode::kConflict);
+  const auto code = [&](const char* text, bool observer) {
+    const Status status = check_observer_choice(observer, read(text)->options, "--observer");
+    return status ? std::nullopt : std::optional(status.error().faults.front().code);
+  };
+  EXPECT_EQ(code(R"({"no_observer": true})", true), ErrorCode::kConflict);
+  EXPECT_EQ(code(R"({"observer": {}})", false), ErrorCode::kConflict);
+  EXPECT_EQ(code(R"({"no_observer": true})", false), std::nullopt);
+  EXPECT_EQ(code(R"({"observer": {}})", true), std::nullopt);
+  EXPECT_EQ(code("{}", true), std::nullopt);
   const auto plain = read(R"({"observer": {}})");
   ASSERT_TRUE(plain) << to_text(plain.error());
   EXPECT_EQ(plain->options.observer->bandwidth_radps.lo, ObserverSearch{}.bandwidth_radps.lo);

@@ -178,6 +178,21 @@ Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name
   return Baseline{gains, name.string()};
 }
 
+Status check_observer_choice(std::optional<bool> observer, const TuneOptions& options,
+                             const std::string& place) {
+  if (observer == true && !options.adds_observer) {
+    return input_error(ErrorCode::kConflict, place,
+                       "requests an observer, but the configuration forbids it (no_observer); "
+                       "remove one of the two");
+  }
+  if (observer == false && options.observer) {
+    return input_error(ErrorCode::kConflict, place,
+                       "forbids an observer, but the configuration requests one (observer); remove "
+                       "one of the two");
+  }
+  return {};
+}
+
 Result<TuneConfig> read_tune_config(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;

@@ -43,6 +43,13 @@ Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name
 /// range.
 Result<TuneConfig> read_tune_config(const std::filesystem::path& path);
 
+/// Checks that the user's choice on observers (choose_observer()) does not contradict tune.json.
+/// `options`: as read from the file. `place`: place of the choice, for the error. Errors (input,
+/// `conflict`): the choice is an observer and the file has `no_observer`, or the choice is no
+/// observer and the file has `observer`.
+Status check_observer_choice(std::optional<bool> observer, const TuneOptions& options,
+                             const std::string& place);
+
 /// The JSON Schema of tune.json, generated from the code that reads tune.json.
 std::string tune_schema();
 
