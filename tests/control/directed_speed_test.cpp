@@ -40,8 +40,8 @@ class RollingVehicle : public PaperAutopilot {
     controller.surge.beta = 1.0F;
     controller.mass_norm = 1.0F;
     controller.gains.speed = {3.0F, 1.0F};
-    EXPECT_TRUE(
-        runs_away_unsigned(controller.surge, controller.mass_norm, controller.gains.speed, 0.5F));
+    EXPECT_GT(unsigned_push(controller.surge, controller.mass_norm, controller.gains.speed, 0.5F),
+              controller.surge(0.5F));
     block_.surge_alpha_beta[0] = 0.2F;
     block_.surge_alpha_beta[1] = 1.0F;
     block_.constants = prepared(controller).constants;
@@ -143,16 +143,16 @@ TEST(RunsAwayUnsigned, IsTheConditionOfTheLaw) {
   const Resistance<double> g1{.alpha = 1.3, .beta = 1.0};
   // The speed law accelerates a vehicle that rolls backward if m' mu_s/eps_s is above g1(u)/u =
   // 1.3.
-  EXPECT_FALSE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.2, 1.0}, 0.5));
-  EXPECT_TRUE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.4, 1.0}, 0.5));
+  EXPECT_LT(unsigned_push(g1, 1.0, SpeedGains<double>{1.2, 1.0}, 0.5), g1(0.5));
+  EXPECT_GT(unsigned_push(g1, 1.0, SpeedGains<double>{1.4, 1.0}, 0.5), g1(0.5));
 }
 
 TEST(RunsAwayUnsigned, CountsTheCoulombFrictionThatTheLawFeedsForward) {
   // With c = 0.1, g1(0.5) = 0.75 and the friction fed forward is g1(0.02) = 0.126: the vehicle is
   // accelerated if 0.5 m' mu_s/eps_s is above 0.624.
   const Resistance<double> g1{.alpha = 1.3, .beta = 1.0, .coulomb = 0.1};
-  EXPECT_FALSE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.24, 1.0}, 0.5));
-  EXPECT_TRUE(runs_away_unsigned(g1, 1.0, SpeedGains<double>{1.26, 1.0}, 0.5));
+  EXPECT_LT(unsigned_push(g1, 1.0, SpeedGains<double>{1.24, 1.0}, 0.5), g1(0.5));
+  EXPECT_GT(unsigned_push(g1, 1.0, SpeedGains<double>{1.26, 1.0}, 0.5), g1(0.5));
 }
 
 TEST(RunsAwayUnsigned, UsesTheForceOfTheSpeedLaw) {

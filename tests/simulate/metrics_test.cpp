@@ -355,6 +355,55 @@ TEST(Validity, WarnsOfASpeedLawThatDrivesBackwardWithAnUnsignedSpeed) {
   EXPECT_TRUE(unsigned_speed_finding(plant, paper_vehicle(), gains, ""));
 }
 
+/// Speed after 1 s of a vehicle that rolls backward at `speed_mps`, m/s, backward positive. The
+/// reference speed is 0, and the speed sensor has no sign.
+double backward_mps_after_1_s(const Plant<double>& plant, const Vehicle& vehicle,
+                              const Gains<double>& gains, double speed_mps) {
+  Scenario rolling{"rolling", 1.0, {}, 0.0, HeadingSteps{{{.t_s = 0.0, .psi_rad = 0.0}}}};
+  rolling.initial.u_mps = -speed_mps;
+  rolling.sensors.emplace().speed_signed = false;
+  const awmr::Run run = simulate(plant, make_controller(plant, vehicle, gains), rolling,
+                                 YawMode::kDifferential, {.sample_time_s = 0.01, .substeps = {}});
+  return -run.rows.back().state.u_mps;
+}
+
+TEST(Validity, LimitsTheBackwardDriveByTheForcesOfTheMotors) {
+  Plant<double> plant = paper_plant();
+  plant.mass_norm = 1.0;
+  plant.surge = {.alpha = 0.5, .beta = 1.0};
+  const Gains<double> gains{.heading = kPaperGains.heading, .speed = {100.0, 50.0}};
+  Vehicle vehicle = paper_vehicle();
+  vehicle.wheel_force = {-0.5, 1.0};
+  // The speed law requests 2 u. The resistance 0.5 u exceeds the largest force, 4 x 0.5, from 4 m/s.
+  auto finding = unsigned_speed_finding(plant, vehicle, gains, "");
+  ASSERT_TRUE(finding);
+  EXPECT_THAT(finding->message, ::testing::HasSubstr("at 3.96 m/s"));
+  EXPECT_GT(backward_mps_after_1_s(plant, vehicle, gains, 3.9), 3.9);
+  EXPECT_LT(backward_mps_after_1_s(plant, vehicle, gains, 4.1), 4.1);
+  // A dead zone of 0.1 leaves the force 4 x 0.4: 3.2 m/s.
+  plant.wheel_dead_zone = 0.1;
+  finding = unsigned_speed_finding(plant, vehicle, gains, "");
+  ASSERT_TRUE(finding);
+  EXPECT_THAT(finding->message, ::testing::HasSubstr("at 3.17 m/s"));
+  // Back-EMF reduces it by 4 x 0.1 u: 1.6 = (0.5 + 0.4) u at 1.78 m/s. The controller compensates
+  // back-EMF for the wrong direction, which removes 0.8 u from the 2 u that it requests.
+  plant.back_emf_s_per_m = 0.1;
+  finding = unsigned_speed_finding(plant, vehicle, gains, "");
+  ASSERT_TRUE(finding);
+  EXPECT_THAT(finding->message, ::testing::HasSubstr("at 1.76 m/s"));
+  EXPECT_GT(backward_mps_after_1_s(plant, vehicle, gains, 1.7), 1.7);
+  EXPECT_LT(backward_mps_after_1_s(plant, vehicle, gains, 1.85), 1.85);
+  // With k_e = 0.2, 1.6 u is removed. The remaining 0.4 u is below the resistance.
+  plant.back_emf_s_per_m = 0.2;
+  EXPECT_FALSE(unsigned_speed_finding(plant, vehicle, gains, ""));
+  EXPECT_LT(backward_mps_after_1_s(plant, vehicle, gains, 0.5), 0.5);
+  // Motors without backward force cannot drive the vehicle backward.
+  plant.back_emf_s_per_m = 0.0;
+  vehicle.wheel_force.lo = 0.0;
+  EXPECT_FALSE(unsigned_speed_finding(plant, vehicle, gains, ""));
+  EXPECT_LT(backward_mps_after_1_s(plant, vehicle, gains, 0.5), 0.5);
+}
+
 TEST(Validity, WarnsOfTyresThatContradictTheTurningTrials) {
   Model model = fitted_paper_model();
   Scenario on_tyres = kSteps;

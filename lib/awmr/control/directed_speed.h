@@ -1,7 +1,7 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
 /// The speed law needs a signed speed: with |u| as its input, it can accelerate a vehicle that
-/// rolls backward (runs_away_unsigned()). Here, the sign is that of a predicted speed u. The
+/// rolls backward (unsigned_push()). Here, the sign is that of a predicted speed u. The
 /// prediction uses the identified model (mass m', resistance g1) and the commanded force tau_speed:
 ///   m' u_dot = tau_speed - g1(u)
 /// Readings of the sensor correct the magnitude of the prediction. The displacement along the
@@ -142,7 +142,8 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
 }
 
 /// Force, divided by F_max, with which the speed law pushes a vehicle backward that rolls backward
-/// at the speed u = speed_mps > 0, if the law receives |u|. For the reference speed 0, the law
+/// at the speed u = speed_mps > 0, if the law receives |u|. The vehicle runs away if the force
+/// exceeds the resistance g1(u). Limits of the motors are not included. For the reference speed 0, the law
 /// commands
 ///   tau_speed = -(m' mu_s sat(u/eps_s) + f)
 /// m' is `mass_norm`; mu_s, eps_s are `gains`; f is the Coulomb friction that the law feeds
@@ -153,15 +154,6 @@ T unsigned_push(const Resistance<T>& surge, const T& mass_norm, const SpeedGains
                 const T& speed_mps) {
   const T correction = math::saturate(T(gains.mu / gains.epsilon * speed_mps), gains.mu);
   return mass_norm * correction - fed_forward(feed_forward(surge), T(0.0), T(-speed_mps));
-}
-
-/// True if the speed law, with |u| as its input, would accelerate a vehicle that rolls backward at
-/// the speed u = speed_mps. This happens if its force, unsigned_push(), exceeds the resistance
-/// g1(u).
-template <class T>
-bool runs_away_unsigned(const Resistance<T>& surge, const T& mass_norm, const SpeedGains<T>& gains,
-                        const T& speed_mps) {
-  return unsigned_push(surge, mass_norm, gains, speed_mps) > surge(speed_mps);
 }
 
 }  // namespace awmr

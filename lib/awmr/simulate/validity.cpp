@@ -244,23 +244,44 @@ void note_extrapolation(const Model& model, double fastest_degps, const std::str
   }
 }
 
+namespace {
+
+/// Force over F_max with which the motors push a vehicle backward that rolls backward at the speed
+/// u = speed_mps, if the controller gets |u|. The speed law requests the force F' = -unsigned_push()
+/// / n of each of n driven wheels. The motor drive e, limited by the largest backward force, and the
+/// force at the wheel, which rolls at -u, are
+///   e = max(F' + k_e u, F'min),   F = e + k_e u
+/// A drive e >= 0 does not push backward. F'min includes the dead zone.
+double backward_push(const Plant<double>& plant, double force_min, const SpeedGains<double>& gains,
+                     double speed_mps) {
+  const double wheels = driven_wheels(plant);
+  const double lost = plant.back_emf_s_per_m * speed_mps;
+  const double wanted = unsigned_push(plant.surge, plant.mass_norm, gains, speed_mps) / wheels;
+  const double drive = std::max(lost - wanted, force_min);
+  return drive < 0.0 ? wheels * (-drive - lost) : 0.0;
+}
+
+}  // namespace
+
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
                                               const Gains<double>& gains, const std::string& file) {
-  const double tau_speed_max = vehicle.driven_wheels() * vehicle.wheel_force.hi;
-  const double top_mps = steady_rate(plant.surge, tau_speed_max).value_or(0.0);
+  const double force_min = std::min(vehicle.wheel_force.lo + plant.wheel_dead_zone, 0.0);
+  const double wheels = driven_wheels(plant);
+  const double top_mps =
+      steady_rate(plant.surge, -wheels * force_min, wheels * plant.back_emf_s_per_m).value_or(0.0);
   constexpr int kSpeeds = 100;
   for (int i = kSpeeds; i >= 0; --i) {
     const double u_mps = i > 0 ? top_mps * i / kSpeeds : feed_forward_rest_speed<double>();
     if (!(u_mps <= top_mps)) continue;
-    if (!runs_away_unsigned(plant.surge, plant.mass_norm, gains.speed, u_mps)) continue;
+    const double push = backward_push(plant, force_min, gains.speed, u_mps);
+    if (!(push > plant.surge(u_mps))) continue;
     return Finding{
         file, 0, Severity::kWarning, "unsigned-speed-runs-away",
         fmt::format("with a speed sensor without a sign (GPS), the vehicle can drive backward by "
                     "itself: at {:.3g} m/s the speed law pushes it backward with {:.3g} F_max, "
                     "more than the resistance g1(u) = {:.3g}. Set speed_unsigned in the sketch, as "
                     "the examples do",
-                    u_mps, unsigned_push(plant.surge, plant.mass_norm, gains.speed, u_mps),
-                    plant.surge(u_mps))};
+                    u_mps, push, plant.surge(u_mps))};
   }
   return {};
 }

@@ -31,9 +31,10 @@ std::optional<Finding> missing_intervals(const Model& model);
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
 /// Warning `unsigned-speed-runs-away`, for a speed sensor without a sign, such as a GPS: the speed
-/// law would accelerate a vehicle that rolls backward (runs_away_unsigned()). The message has the
-/// highest speed at which this happens. Absent if it happens at no speed that the vehicle can
-/// reach. `file`: the file of the gains.
+/// law would accelerate a vehicle that rolls backward. The force is limited by the largest backward
+/// force of the wheels, their dead zone and back-EMF; without backward force, the vehicle cannot
+/// run away. The message has the highest speed at which this happens. Absent if it happens at no
+/// speed that the vehicle can reach backward. `file`: the file of the gains.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
                                               const Gains<double>& gains, const std::string& file);
 
