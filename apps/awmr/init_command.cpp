@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "awmr/core/file.h"
+#include "awmr/model/vehicle_file.h"
 #include "commands.h"
 #include "embedded_files.h"
 #include "option_values.h"
@@ -139,6 +140,9 @@ void add_init(CLI::App& app, Session& session) {
       *sub, "--drive", command->drive, kDriveNames,
       "four_wheel (default): four driven wheels, steered in front; "
       "differential: without steering; front_wheel: only the front wheels are driven, and steered");
+  drive->transform(CLI::Validator(
+      [](const std::string& name) { return name == kRearWheelDrive ? kNoRearWheelDrive : ""; },
+      ""));
   sub->add_flag("--example", command->example,
                 "Instead of a project, write the files that the examples in the help of the "
                 "commands use: the paper's vehicle, its tables, scenarios, synthetic drives")

@@ -156,6 +156,16 @@ void name_units(const Json& document, const std::string& file, std::vector<Fault
   }
 }
 
+/// Replaces the message of a fault about the drive `rear_wheel`, whose nearest name would mislead.
+void name_rear_wheel_drive(const Json& document, const std::string& file,
+                           std::vector<Fault>& faults) {
+  const Json::json_pointer pointer{"/drive"};
+  if (!document.contains(pointer) || document.at(pointer) != kRearWheelDrive) return;
+  for (Fault& fault : faults) {
+    if (fault.place == fmt::format("{}:/drive", file)) fault.message = kNoRearWheelDrive;
+  }
+}
+
 }  // namespace
 
 Vehicle vehicle_from_json(JsonObject& json) {
@@ -240,6 +250,7 @@ Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
   JsonObject root(json, path.string(), "", faults);
   Vehicle vehicle = vehicle_from_json(root);
   name_units(json, path.string(), faults);
+  name_rear_wheel_drive(json, path.string(), faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return vehicle;
 }

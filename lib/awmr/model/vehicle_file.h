@@ -9,6 +9,13 @@
 
 namespace awmr {
 
+/// Name of a drive that is not supported (VEHICLES.md), and the message that states why.
+inline constexpr const char* kRearWheelDrive = "rear_wheel";
+inline constexpr const char* kNoRearWheelDrive =
+    "rear_wheel is not supported: the model has no lateral tyre forces, so that steered front "
+    "wheels turn the vehicle only if they are driven. For driven rear wheels and a castor use "
+    "differential";
+
 /// Reads vehicle.json. Errors: those of read_json_file(); unknown or missing keys; values out of
 /// range (ranges.h).
 Result<Vehicle> read_vehicle(const std::filesystem::path& path);
