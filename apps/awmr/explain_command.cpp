@@ -11,6 +11,7 @@
 #include "awmr/core/text.h"
 #include "commands.h"
 #include "embedded_files.h"
+#include "style.h"
 
 namespace awmr::cli {
 namespace {
@@ -70,26 +71,6 @@ std::vector<Explanation> explanations() {
     }
   }
   return all;
-}
-
-/// Breaks a text into lines of at most `width` bytes. Each line but the first is indented by
-/// `indent` spaces.
-std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
-  std::string result;
-  std::size_t column = indent;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (column > indent && column + 1 + word.size() > width) {
-      result += "\n" + std::string(indent, ' ');
-      column = indent;
-    } else if (column > indent) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += word.size();
-  }
-  return result;
 }
 
 constexpr std::size_t kWidth = 100;

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <string_view>
 
+#include "awmr/tune/relaxation.h"
+#include "style.h"
+
 namespace awmr::cli {
 namespace {
 
@@ -17,21 +20,45 @@ std::string gains_line(const char* name, const Gains<double>& gains, double obje
       gains.heading.reaching_time_constant_s(), objective);
 }
 
-/// Describes the active constraints, that is, those whose limits keep the search from a better
-/// objective. Also gives the ranges of the gains mu and mu_s in which the objective is practically
-/// the same.
+/// Returns the name of an active constraint, the key of tune.json that sets its limit, and what is
+/// limited: "heading damping (limits/damping of tune.json): smallest damping ratio of ...".
+std::string described(const std::string& name, const std::vector<ConstraintReport>& constraints) {
+  const auto report = std::ranges::find(constraints, name, &ConstraintReport::name);
+  if (report == constraints.end()) {  // a limit of the runs
+    return name + (name.starts_with("activity, ") ? " (activity_max of tune.json)"
+                                                  : " (goals of tune.json)");
+  }
+  const std::string pointer = pointer_to(name);
+  const bool is_fixed = pointer == "/bounds";
+  return fmt::format("{} ({}): {}", name,
+                     is_fixed ? "fixed limit" : pointer.substr(1) + " of tune.json",
+                     report->meaning);
+}
+
+/// Smallest relative improvement of the objective, by a limit that is 10 % wider, that is printed.
+constexpr double kLeastGain = 0.001;
+
+/// Describes the active constraints whose limits keep the search from a better objective: how much
+/// a wider limit would improve the objective, the key that sets the limit, and what is limited.
+/// Constraints with less effect than kLeastGain are omitted (gains.json has them). Also gives the
+/// ranges of the gains mu and mu_s in which the objective is practically the same.
 std::string active_text(const Tuning& tuning) {
+  constexpr std::size_t kIndent = 12;
+  constexpr std::size_t kWidth = 98;
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
-    held += fmt::format("{}{} (a limit 10 % wider would lower the objective by {:.1f} %)",
-                        held.empty() ? "" : "; ", one.name, 100.0 * one.wider_gains);
+    if (one.wider_gains < kLeastGain) continue;
+    const std::string text = described(one.name, tuning.constraints);
+    held +=
+        fmt::format("  {:>6.1f} %  {}\n", 100.0 * one.wider_gains, wrapped(text, kIndent, kWidth));
   }
   return fmt::format(
-      "  active limits  {}\n"
+      "  active limits  {}\n{}"
       "  equally good   mu {:.4g} to {:.4g} at the same mu/epsilon, mu_s {:.4g} to {:.4g} at the "
       "same mu_s/eps_s (the smallest are used)\n",
-      held.empty() ? "none" : held, tuning.mu_as_good.lo, tuning.mu_as_good.hi,
-      tuning.speed_mu_as_good.lo, tuning.speed_mu_as_good.hi);
+      held.empty() ? "none" : "10 % wider, each would lower the objective by", held,
+      tuning.mu_as_good.lo, tuning.mu_as_good.hi, tuning.speed_mu_as_good.lo,
+      tuning.speed_mu_as_good.hi);
 }
 
 /// Describes the variation of mass and wheel forces for which the gains were tuned in addition to

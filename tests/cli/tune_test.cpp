@@ -94,6 +94,24 @@ TEST_F(TunedGains, RefuseAnObserverThatTheConfigurationForbids) {
   }
 }
 
+TEST_F(TunedGains, ExplainEachActiveLimit) {
+  const ProcessResult run = tune("--mode differential");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::size_t shown = 0;
+  for (const Json& one : gains().at("search").at("active")) {
+    const double percent = 100.0 * one.at("wider_gains").get<double>();
+    const std::string name = one.at("name");
+    if (percent < 0.1) {
+      EXPECT_THAT(run.out, Not(HasSubstr(" %  " + name))) << run.out;
+      continue;
+    }
+    EXPECT_THAT(run.out, HasSubstr(" %  " + name + " (")) << run.out;
+    ++shown;
+  }
+  EXPECT_EQ(run.out.find("active limits  none") != std::string::npos, shown == 0) << run.out;
+  EXPECT_THAT(run.out, Not(HasSubstr("by 0.0 %")));
+}
+
 TEST_F(TunedGains, OfOneModeAreExaminedThereAndWarnElsewhere) {
   const ProcessResult run = tune("--mode differential");
   ASSERT_EQ(run.exit_code, 0) << run.err;

@@ -1,5 +1,5 @@
 /// Finds changes of the limits and bounds in tune.json that make the constraints feasible. Private
-/// to tune/.
+/// to tune/ and apps/.
 #pragma once
 
 #include <string>
