@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -13,6 +14,7 @@
 #include "awmr/simulate/validity.h"
 #include "simulate/paper_model_ci.h"
 #include "simulate/symmetry.h"
+#include "support/uncertain_model.h"
 
 namespace awmr::testing {
 namespace {
@@ -215,6 +217,25 @@ TEST(MissingIntervals, NamesFittedParametersWithoutOneAndWhatWithdrewThem) {
   model[ParameterId::kMassNorm].source = Source::kGiven;  // a given value needs no interval
   model[ParameterId::kYawAlpha].source = Source::kGiven;
   EXPECT_FALSE(missing_intervals(model));
+}
+
+TEST(ImpreciseParameters, NamesTheParameterAndItsTrial) {
+  Model model = uncertain_model();
+  EXPECT_THAT(imprecise_parameters(model), ::testing::IsEmpty());
+  const auto& ids = model.covariance.parameters;
+  const auto i =
+      static_cast<std::size_t>(std::ranges::find(ids, ParameterId::kSurgeAlpha) - ids.begin());
+  ASSERT_LT(i, ids.size());
+  const double value = *model[ParameterId::kSurgeAlpha].value;
+  // Relative standard errors of 0.4 and 3, below and above the limit of 0.5.
+  model.covariance.matrix[i][i] = 0.16 * value * value;
+  EXPECT_THAT(imprecise_parameters(model), ::testing::IsEmpty());
+  model.covariance.matrix[i][i] = 9.0 * value * value;
+  const auto findings = imprecise_parameters(model);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].code, "imprecise-parameter");
+  EXPECT_THAT(findings[0].message, HasSubstr("standard error of 3 times"));
+  EXPECT_THAT(findings[0].message, HasSubstr("surge trial"));
 }
 
 }  // namespace

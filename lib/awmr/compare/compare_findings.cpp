@@ -57,6 +57,9 @@ std::vector<Finding> compare_findings(const Model& model, const std::vector<Scen
     if (auto finding = tyres_differ(scenario, model)) findings.push_back(*std::move(finding));
   }
   if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
+  if (options.samples > 0) {
+    std::ranges::move(imprecise_parameters(model), std::back_inserter(findings));
+  }
   note_samples(options, comparison, findings);
   if (auto finding = heading_rate_not_limited(rate, model)) findings.push_back(*std::move(finding));
   note_scrub(model, findings);

@@ -17,6 +17,7 @@
 #include "awmr/model/fitted_law.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/model/steady.h"
+#include "awmr/model/transform.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -101,6 +102,25 @@ std::optional<Finding> missing_intervals(const Model& model) {
                   "and identify again before driving with this model",
                   fmt::join(missing, ", "), missing.size() == 1 ? "has" : "have",
                   causes.empty() ? "" : fmt::format(" (identify: {})", fmt::join(causes, ", ")))};
+}
+
+std::vector<Finding> imprecise_parameters(const Model& model) {
+  std::vector<Finding> findings;
+  const Covariance& covariance = model.covariance;
+  for (std::size_t i = 0; i < covariance.parameters.size(); ++i) {
+    const ParameterInfo& parameter = info(covariance.parameters[i]);
+    const std::optional<double>& value = model[parameter.id].value;
+    if (!value || scale_of(parameter.id) != Scale::kLogarithmic) continue;
+    const double sigma = std::sqrt(covariance.matrix[i][i]) / *value;
+    if (!(sigma > kImprecise)) continue;
+    findings.push_back(
+        {model.file, 0, Severity::kWarning, "imprecise-parameter",
+         fmt::format("{} is {:.3g} {} with a standard error of {:.3g} times this value: vehicles "
+                     "drawn from the model differ from each other by large factors, and results "
+                     "over these draws depend mainly on this error. Record {}, and identify again",
+                     parameter.symbol, *value, parameter.unit, sigma, parameter.trial)});
+  }
+  return findings;
 }
 
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model) {

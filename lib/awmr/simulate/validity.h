@@ -25,6 +25,13 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
 /// the plants drawn from the model do not vary them. Absent if there are no such parameters.
 std::optional<Finding> missing_intervals(const Model& model);
 
+/// Warning `imprecise-parameter` for each positive parameter that random plants vary, if its
+/// standard error is above kImprecise of its value. The draws are log-normal, so that in 5 % of
+/// them the parameter is off by more than a factor of exp(2 sigma), sigma: relative standard error.
+/// The message names the trial that would identify the parameter.
+std::vector<Finding> imprecise_parameters(const Model& model);
+inline constexpr double kImprecise = 0.5;
+
 /// Warnings about requests that cannot be met: a heading step after the end of the scenario
 /// (`late-step`); a waypoint within an obstacle (`blocked-waypoint`); a speed that needs more force
 /// than the motors make (`unreachable-speed`).
