@@ -10,6 +10,7 @@
 #include "awmr/model/model_file.h"
 #include "awmr/simulate/validity.h"
 #include "awmr/tune/option_table.h"
+#include "awmr/tune/steering_rate.h"
 #include "awmr/tune/tune_file.h"
 #include "awmr/tune/tune_findings.h"
 #include "commands.h"
@@ -136,6 +137,9 @@ Result<Outcome> execute(const TuneCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, inputs));
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
   std::vector<Finding> findings = tune_findings(model, config.options, tuning);
+  if (auto finding = noise_beyond_servo(model.vehicle, *model.plant(), tuning)) {
+    findings.push_back(*std::move(finding));
+  }
   if (tuning.robust) {
     std::ranges::move(imprecise_parameters(model), std::back_inserter(findings));
   }

@@ -301,6 +301,26 @@ TEST(SteeringRate, WithCoulombFrictionOfCorrelatedReadingsIsThatOfDrawnPairs) {
   EXPECT_NEAR(steering_rate_rms_degps(gains, context), drawn, 0.03 * drawn);
 }
 
+TEST(SteeringRate, AboveThatOfTheServoIsReported) {
+  Vehicle vehicle = paper_vehicle();
+  Plant<double> plant = paper_context(ReachingForm::kStrict, 0.8).plant;
+  plant.steering_max_rad = radians(20.0);
+  plant.steering_time_constant_s = 0.1;
+  vehicle.steering_max_rate_degps = 150.0;
+  EXPECT_EQ(servo_rate_degps(vehicle, plant), 150.0);
+  Tuning tuning;
+  EXPECT_FALSE(noise_beyond_servo(vehicle, plant, tuning));  // no limit, as with --nominal
+  tuning.constraints = {{.name = kSteeringRate, .value = 149.0}};
+  EXPECT_FALSE(noise_beyond_servo(vehicle, plant, tuning));
+  tuning.constraints.front().value = 151.0;
+  const auto finding = noise_beyond_servo(vehicle, plant, tuning);
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->code, "noise-beyond-servo");
+  // A first-order servo with T = 0.1 s turns at no more than 2 x 20 deg/0.1 s.
+  vehicle.steering_max_rate_degps = 900.0;
+  EXPECT_NEAR(servo_rate_degps(vehicle, plant), 400.0, 1e-9);
+}
+
 TEST(FrictionWidth, IsTheNarrowestThatKeepsTheSteeringRate) {
   ConstraintContext context = coulomb_context(true);
   const Gains<double> gains{{1.0, 2.6, 2.0}, {5.0, 1.2}};

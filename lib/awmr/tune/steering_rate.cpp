@@ -1,5 +1,7 @@
 #include "awmr/tune/steering_rate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -193,6 +195,26 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
       std::max(heading.friction_width_radps, heading.combined_friction_width_radps) <= kNarrowest;
   if (is_default) heading.combined_friction_width_radps = 0.0;
   return gains;
+}
+
+double servo_rate_degps(const Vehicle& vehicle, const Plant<double>& plant) {
+  return std::min(vehicle.steering_max_rate_degps,
+                  2.0 * degrees(plant.steering_max_rad) / plant.steering_time_constant_s);
+}
+
+std::optional<Finding> noise_beyond_servo(const Vehicle& vehicle, const Plant<double>& plant,
+                                          const Tuning& tuning) {
+  if (!vehicle.has_steering()) return std::nullopt;
+  const auto rate = std::ranges::find(tuning.constraints, kSteeringRate, &ConstraintReport::name);
+  const double servo_degps = servo_rate_degps(vehicle, plant);
+  if (rate == tuning.constraints.end() || !(rate->value > servo_degps)) return std::nullopt;
+  return Finding{
+      "", 0, Severity::kWarning, "noise-beyond-servo",
+      fmt::format("while a heading is held, sensor noise requests a steering rate of {:.3g} deg/s "
+                  "RMS, but the servo turns at {:.3g} deg/s at most: it cannot follow, and wears. "
+                  "Enter the measured `noise` and `noise_correlation_s` of the sensors in "
+                  "vehicle.json, or use a gyroscope with less noise",
+                  rate->value, servo_degps)};
 }
 
 }  // namespace awmr

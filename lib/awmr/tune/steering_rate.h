@@ -1,5 +1,5 @@
 /// Rate of the steering command due to sensor noise, and the friction width that limits it. Private
-/// to tune/.
+/// to tune/ and apps/.
 #pragma once
 
 #include "awmr/tune/constraints.h"
@@ -29,5 +29,16 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 /// rad/s. With an observer, all modes have the width of the mode with the most noise.
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
+
+/// Largest rate of the steering, deg/s: that of the servo, but at most 2 d_max/T, with the largest
+/// steering angle d_max and the servo's time constant T.
+double servo_rate_degps(const Vehicle& vehicle, const Plant<double>& plant);
+
+/// Warning `noise-beyond-servo`: with the tuned gains, sensor noise alone requests a higher RMS rate
+/// of the steering than the servo has. The default limit of this rate permits that if feeding
+/// forward the yaw resistance already needs it. Absent for vehicles without steering, and for
+/// tunings without this limit (`--nominal`).
+std::optional<Finding> noise_beyond_servo(const Vehicle& vehicle, const Plant<double>& plant,
+                                          const Tuning& tuning);
 
 }  // namespace awmr

@@ -48,9 +48,7 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
                             .limits = options.limits,
                             .wheel_force = vehicle.wheel_force};
   if (context.has_steering) {
-    context.servo_rate_degps =
-        std::min(vehicle.steering_max_rate_degps,
-                 2.0 * degrees(plant.steering_max_rad) / plant.steering_time_constant_s);
+    context.servo_rate_degps = servo_rate_degps(vehicle, plant);
   }
   for (const Scenario& s : scenarios) {
     context.speed_mps = std::max(context.speed_mps, s.speed_mps);
