@@ -46,12 +46,15 @@ const PairedDifference* only_gap(const std::vector<PairedDifference>& difference
 
 std::optional<NarrowLead> narrow_lead_of(const ScenarioRows& scenario,
                                          const ScenarioStatistics& statistics,
-                                         const std::vector<Contender>& first,
+                                         const std::vector<RankedMode>& ranking,
                                          const Preferences& preferences, std::uint64_t seed) {
+  const std::vector<Contender> first = first_of(ranking);
   if (first.size() != 1) return std::nullopt;
   std::optional<NarrowLead> lead;
-  for (const ModeRows& other : scenario.modes) {
+  for (const RankedMode& other : ranking) {
     if (other.contender == first.front()) continue;
+    const std::vector<std::string>& better = other.dominated_by;
+    if (std::ranges::find(better, first.front().label()) != better.end()) continue;
     const PairedDifference* gap =
         only_gap(statistics.differences, preferences, first.front(), other.contender);
     if (gap == nullptr || (lead && lead->metric != gap->metric)) continue;
@@ -269,7 +272,7 @@ Decision decide(const ScenarioRows& scenario, const ScenarioStatistics& statisti
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed) {
   Decision decision{first_of(ranking), {}};
-  decision.narrow_lead = narrow_lead_of(scenario, statistics, decision.first, preferences, seed);
+  decision.narrow_lead = narrow_lead_of(scenario, statistics, ranking, preferences, seed);
   decision.changes.push_back(change_of_weights(scenario, statistics, preferences, seed));
   std::copy_if(changes.begin(), changes.end(), std::back_inserter(decision.changes),
                [&](const Change& change) {

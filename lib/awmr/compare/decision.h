@@ -35,8 +35,8 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
      {"undecided", DecisionKind::kUndecided}}};
 
 /// A lead by one metric alone: the only mode of rank 1 is relevantly better than another mode in
-/// just one ranked metric, and with the weight of this metric divided by kWeightFactor, the other
-/// mode has rank 1, too.
+/// just one ranked metric, and relevantly worse in some. With the weight of the one metric divided
+/// by kWeightFactor, the other mode has rank 1, too.
 struct NarrowLead {
   MetricId metric{};
   std::vector<Contender> others;  ///< these other modes

@@ -205,7 +205,8 @@ double servo_rate_degps(const Vehicle& vehicle, const Plant<double>& plant) {
 std::optional<Finding> noise_beyond_servo(const Vehicle& vehicle, const Plant<double>& plant,
                                           const Tuning& tuning) {
   if (!vehicle.has_steering()) return std::nullopt;
-  const auto rate = std::ranges::find(tuning.constraints, kSteeringRate, &ConstraintReport::name);
+  const auto rate = std::find_if(tuning.constraints.begin(), tuning.constraints.end(),
+                                 [](const ConstraintReport& c) { return c.name == kSteeringRate; });
   const double servo_degps = servo_rate_degps(vehicle, plant);
   if (rate == tuning.constraints.end() || !(rate->value > servo_degps)) return std::nullopt;
   return Finding{
