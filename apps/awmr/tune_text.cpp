@@ -43,14 +43,14 @@ constexpr double kLeastGain = 0.001;
 /// Constraints with less effect than kLeastGain are omitted (gains.json has them). Also gives the
 /// ranges of the gains mu and mu_s in which the objective is practically the same.
 std::string active_text(const Tuning& tuning) {
-  constexpr std::size_t kIndent = 12;
-  constexpr std::size_t kWidth = 98;
+  constexpr std::size_t kTextIndent = 12;
+  constexpr std::size_t kTextWidth = 98;
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
     if (one.wider_gains < kLeastGain) continue;
     const std::string text = described(one.name, tuning.constraints);
-    held +=
-        fmt::format("  {:>6.1f} %  {}\n", 100.0 * one.wider_gains, wrapped(text, kIndent, kWidth));
+    held += fmt::format("  {:>6.1f} %  {}\n", 100.0 * one.wider_gains,
+                        wrapped(text, kTextIndent, kTextWidth));
   }
   return fmt::format(
       "  active limits  {}\n{}"
