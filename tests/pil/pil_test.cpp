@@ -147,12 +147,12 @@ class PilScenario : public Pil,
 TEST_P(PilScenario, RunsBitForBitAsOnTheHostAndWithinItsBudgets) {
   const auto [scenario, mode] = GetParam();
   // Bounds are the largest measured value of the nine runs plus 1 %.
-  const int cycles_max = 10360;
+  const int cycles_max = 10473;
   const ProcessResult run = pil(scenario, mode, "--cycles-max " + std::to_string(cycles_max));
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const Json json = result();
   EXPECT_EQ(largest(json["difference"]), 0.0);
-  EXPECT_LE(json["difference_double"]["heading_deg"].get<double>(), 0.0071);
+  EXPECT_LE(json["difference_double"]["heading_deg"].get<double>(), 0.0079);
   // Optional parts that are not compiled in must not cost flash or RAM.
   EXPECT_LE(json["flash_bytes"].get<int>(), 12050);
   EXPECT_LE(json["ram_bytes"].get<int>(), 416);
