@@ -11,7 +11,6 @@
 #include "awmr/core/text.h"
 #include "commands.h"
 #include "embedded_files.h"
-#include "style.h"
 
 namespace awmr::cli {
 namespace {

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <sstream>
 
 namespace awmr::cli {
 
@@ -18,24 +17,6 @@ Style::Style(std::FILE* stream) {
 
 std::string Style::in(std::string_view code, std::string_view text) const {
   return on_ ? fmt::format("\033[{}m{}\033[0m", code, text) : std::string(text);
-}
-
-std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
-  std::string result;
-  std::size_t column = indent;
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (column > indent && column + 1 + word.size() > width) {
-      result += "\n" + std::string(indent, ' ');
-      column = indent;
-    } else if (column > indent) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += word.size();
-  }
-  return result;
 }
 
 }  // namespace awmr::cli

@@ -1,4 +1,4 @@
-/// Colours and line breaks for text on a terminal.
+/// Colours for text on a terminal.
 #pragma once
 
 #include <cstdio>
@@ -24,9 +24,5 @@ class Style {
   std::string in(std::string_view code, std::string_view text) const;
   bool on_ = false;
 };
-
-/// Breaks a text into lines of at most `width` bytes. Each line but the first is indented by
-/// `indent` spaces.
-std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
 
 }  // namespace awmr::cli

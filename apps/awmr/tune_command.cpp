@@ -1,16 +1,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <iterator>
 #include <memory>
 
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
-#include "awmr/simulate/validity.h"
 #include "awmr/tune/option_table.h"
-#include "awmr/tune/steering_rate.h"
 #include "awmr/tune/tune_file.h"
 #include "awmr/tune/tune_findings.h"
 #include "commands.h"
@@ -137,12 +133,6 @@ Result<Outcome> execute(const TuneCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, inputs));
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
   std::vector<Finding> findings = tune_findings(model, config.options, tuning);
-  if (auto finding = noise_beyond_servo(model.vehicle, *model.plant(), tuning)) {
-    findings.push_back(*std::move(finding));
-  }
-  if (tuning.robust) {
-    std::ranges::move(imprecise_parameters(model), std::back_inserter(findings));
-  }
   if (config.baseline_file) {
     AWMR_RETURN_IF_ERROR(
         note_other_model(*config.baseline_file, command.model, findings, config.options.mode));

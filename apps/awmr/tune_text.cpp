@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "awmr/core/text.h"
 #include "awmr/tune/relaxation.h"
-#include "style.h"
 
 namespace awmr::cli {
 namespace {

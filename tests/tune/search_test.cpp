@@ -683,12 +683,12 @@ TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
   weak.heading.lambda *= 0.25;
   weak.heading.epsilon *= 4.0;
   ASSERT_LE(std::ranges::max(residuals(constraints_of(weak, context))), 0.0);
-  const auto changes = changes_that_settle(setting, context, weak, 1.0);
+  const auto changes = SettlingSearch(context).changes(setting, weak, 1.0);
   const auto observer = std::ranges::find(changes, "/observer", &SettlingChange::pointer);
   ASSERT_NE(observer, changes.end());
   EXPECT_THAT(observer->text, ::testing::HasSubstr("rad/s"));
   weak.observer = {1e-3, 0.1, 0.1};  // an observer that is on, but too slow to let runs settle
-  const auto others = changes_that_settle(setting, context, weak, 1.0);
+  const auto others = SettlingSearch(context).changes(setting, weak, 1.0);
   EXPECT_EQ(std::ranges::find(others, "/observer", &SettlingChange::pointer), others.end());
 }
 

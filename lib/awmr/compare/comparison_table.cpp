@@ -7,6 +7,7 @@
 #include "awmr/compare/overall.h"
 #include "awmr/compare/ranking.h"
 #include "awmr/compare/statistics.h"
+#include "awmr/core/text.h"
 
 namespace awmr {
 namespace {
@@ -28,24 +29,9 @@ std::string place_of(const Contender& contender, const std::vector<RankedMode>& 
 
 /// Wraps text to lines of 100 characters, indented by two spaces.
 std::string wrapped(const std::string& text) {
+  constexpr std::size_t kIndent = 2;
   constexpr std::size_t kWidth = 100;
-  std::string out;
-  std::string line(1, ' ');
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find(' ', start), text.size());
-    const std::string word = text.substr(start, end - start);
-    if (line.size() + 1 + word.size() > kWidth) {
-      out += line;
-      out += '\n';
-      line.assign(1, ' ');
-    }
-    line += ' ';
-    line += word;
-    start = end + 1;
-  }
-  out += line;
-  out += '\n';
-  return out;
+  return std::string(kIndent, ' ') + awmr::wrapped(text, kIndent, kWidth) + '\n';
 }
 
 /// Notes on the means of metrics that not every run has: "  settle: mean of some runs: steering 3

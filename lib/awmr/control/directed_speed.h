@@ -143,8 +143,8 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
 
 /// Force, divided by F_max, with which the speed law pushes a vehicle backward that rolls backward
 /// at the speed u = speed_mps > 0, if the law receives |u|. The vehicle runs away if the force
-/// exceeds the resistance g1(u). Limits of the motors are not included. For the reference speed 0, the law
-/// commands
+/// exceeds the resistance g1(u). Limits of the motors are not included. For the reference speed 0,
+/// the law commands
 ///   tau_speed = -(m' mu_s sat(u/eps_s) + f)
 /// m' is `mass_norm`; mu_s, eps_s are `gains`; f is the Coulomb friction that the law feeds
 /// forward. If the surge resistance g1 = `surge` jumps at rest, f = g1(w0) sat(u/w0) with w0 =

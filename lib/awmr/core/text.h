@@ -1,5 +1,5 @@
-/// Prepares text from users' files for messages: escapes control characters, shortens long text,
-/// checks UTF-8.
+/// Prepares text for messages and terminals: escapes control characters, shortens long text, breaks
+/// it into lines, checks UTF-8.
 #pragma once
 
 #include <cstddef>
@@ -27,6 +27,10 @@ std::string printable(std::string_view text);
 
 /// As printable(), but keeps line breaks.
 std::string printable_lines(std::string_view text);
+
+/// Breaks a text between words into lines of at most `width` bytes. Each line but the first is
+/// indented by `indent` spaces, for which the first line leaves room.
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
 
 /// Default length limit of shortened(), bytes.
 inline constexpr std::size_t kLongestShown = 1000;

@@ -1,6 +1,7 @@
 /// Vehicle data that are known before any trial; read from vehicle.json by vehicle_file.h.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -91,5 +92,11 @@ struct Vehicle {
   ///   Iz = m (a^2 + b^2)/12                                                           [paper (65)]
   double inertia_kgm2() const;
 };
+
+/// Range of the force with which one wheel pushes, divided by F_max: the range of the commands,
+/// reduced at both ends by the motors' dead zone.
+inline Interval forces_beyond_dead_zone(const Interval& wheel_force, double dead_zone) {
+  return {std::min(wheel_force.lo + dead_zone, 0.0), std::max(wheel_force.hi - dead_zone, 0.0)};
+}
 
 }  // namespace awmr

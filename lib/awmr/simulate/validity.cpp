@@ -267,9 +267,9 @@ void note_extrapolation(const Model& model, double fastest_degps, const std::str
 namespace {
 
 /// Force over F_max with which the motors push a vehicle backward that rolls backward at the speed
-/// u = speed_mps, if the controller gets |u|. The speed law requests the force F' = -unsigned_push()
-/// / n of each of n driven wheels. The motor drive e, limited by the largest backward force, and the
-/// force at the wheel, which rolls at -u, are
+/// u = speed_mps, if the controller gets |u|. The speed law requests the force F' =
+/// -unsigned_push() / n of each of n driven wheels. The motor drive e, limited by the largest
+/// backward force, and the force at the wheel, which rolls at -u, are
 ///   e = max(F' + k_e u, F'min),   F = e + k_e u
 /// A drive e >= 0 does not push backward. F'min includes the dead zone.
 double backward_push(const Plant<double>& plant, double force_min, const SpeedGains<double>& gains,
@@ -285,7 +285,7 @@ double backward_push(const Plant<double>& plant, double force_min, const SpeedGa
 
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
                                               const Gains<double>& gains, const std::string& file) {
-  const double force_min = std::min(vehicle.wheel_force.lo + plant.wheel_dead_zone, 0.0);
+  const double force_min = forces_beyond_dead_zone(vehicle.wheel_force, plant.wheel_dead_zone).lo;
   const double wheels = driven_wheels(plant);
   const double top_mps =
       steady_rate(plant.surge, -wheels * force_min, wheels * plant.back_emf_s_per_m).value_or(0.0);

@@ -195,9 +195,7 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
 }  // namespace
 
 Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle) {
-  const double zone = vehicle.plant.wheel_dead_zone;
-  return {std::min(vehicle.wheel_force.lo + zone, 0.0),
-          std::max(vehicle.wheel_force.hi - zone, 0.0)};
+  return forces_beyond_dead_zone(vehicle.wheel_force, vehicle.plant.wheel_dead_zone);
 }
 
 double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps) {

@@ -67,8 +67,7 @@ struct ConstraintContext {
   bool steers() const { return has_steering && mode != YawMode::kDifferential; }
 };
 
-/// Range of the force with which one wheel pushes, divided by F_max: the range of the commands,
-/// reduced at both ends by the motors' dead zone.
+/// forces_beyond_dead_zone() of the drawn vehicle (model/vehicle.h).
 Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle);
 
 /// Factor k in the yaw moment of the steering, which is proportional to tan(k d_r), d_r the

@@ -40,7 +40,7 @@ std::string unsettled_text(const Objective& objective, const ConstraintContext& 
   const double share = settled_share(setting, gains);
   if (share >= kSettledShare) return {};
   const std::vector<SettlingChange> changes =
-      changes_that_settle(setting, context, gains, kSettledShare);
+      SettlingSearch(context).changes(setting, gains, kSettledShare);
   return fmt::format(
       " {:.0f} % of the runs settle with these gains. {}.", 100.0 * share,
       changes.empty() ? no_change_settles("the runs") : describe(changes, "the runs"));

@@ -153,10 +153,11 @@ std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& c
         if (limit.relaxed_by_less ? number < strict : number > strict) add(number);
       }
       // T2 < T1 is always required, so its margin is not relaxed beyond the default.
+      const bool may_exceed_default = !sets(limit, "T2 < T1 (strict)");
       for (const double factor : kBeyond) {
-        if (&limit == limit_of("T2 < T1 (strict)")) break;
-        add(in_two_digits(limit, limit.relaxed_by_less ? std::min(strict, loose) / factor
-                                                       : std::max(strict, loose) * factor));
+        const double number = limit.relaxed_by_less ? std::min(strict, loose) / factor
+                                                    : std::max(strict, loose) * factor;
+        if (may_exceed_default) add(in_two_digits(limit, number));
       }
     }
     if (!numbers.empty()) all.push_back(std::move(numbers));

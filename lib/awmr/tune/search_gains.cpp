@@ -82,7 +82,7 @@ constexpr double kWorthIt = 0.05;
 /// the limits, those nearest to the limits. The result is empty
 ///   - if no observer may be added (TuneOptions::adds_observer);
 ///   - if enough runs settle, or would settle without sensor noise;
-///   - if simulations do not show that an observer lets more runs settle (observer_settles_more());
+///   - if simulations do not show that an observer lets more runs settle (SettlingSearch);
 ///   - if the share of settled runs increases by less than kWorthIt.
 std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
                                            const ConstraintContext& context,
@@ -95,7 +95,7 @@ std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSe
   if (has_observer || !requested.adds_observer) return std::nullopt;
   const double share = settled_share(setting, gains);
   if (share >= kSettledShare || settled_share_without_noise(setting, gains) >= kSettledShare ||
-      !observer_settles_more(setting, context, gains)) {
+      !SettlingSearch(context).observer_helps(setting, gains)) {
     return std::nullopt;
   }
   TuneOptions options = requested;
@@ -132,8 +132,13 @@ struct Searched {
   const SettledGains& settled;
 };
 
-/// Error (refused) if no run settles with these gains, also not without sensor noise.
-Status check_settling(const Searched& s) {
+/// Error (refused) if no run settles with these gains, also not without sensor noise. `scores`:
+/// those of the nominal vehicle, one of which is mostly enough.
+Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
+  const auto settles = [](const ModeScore& one) {
+    return one.metrics.completed && !one.has_failed;
+  };
+  if (std::ranges::any_of(scores, settles)) return {};
   const Gains<double>& gains = s.settled.gains;
   if (settled_share(s.setting, gains) > 0.0 ||
       settled_share_without_noise(s.setting, gains) > 0.0) {
@@ -144,7 +149,7 @@ Status check_settling(const Searched& s) {
   constexpr double kAny = 1e-9;
   const std::size_t runs =
       s.setting.vehicles.size() * s.setting.modes().size() * s.setting.scenarios.size();
-  return never_settles(gains, runs, changes_that_settle(few, s.context, gains, kAny), s.options);
+  return never_settles(gains, runs, SettlingSearch(s.context).changes(few, gains, kAny), s.options);
 }
 
 /// Evaluates the tuned gains in a scenario that the search did not use.
@@ -189,7 +194,7 @@ Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
                         active_constraints(options, context, some, *found.best));
   const Evaluation tuned = all(settled.gains);
-  AWMR_RETURN_IF_ERROR(check_settling(s));
+  AWMR_RETURN_IF_ERROR(check_settling(s, tuned.scores));
   AWMR_ASSIGN_OR_RETURN(Certificate certificate,
                         certify(model, context, options.open, settled.gains));
   const Evaluation evaluated = evaluated_in(s, held_out);

@@ -58,109 +58,11 @@ bool meets_constraints(const Gains<double>& gains, const ConstraintContext& cont
   return std::ranges::max(residuals(constraints_of(gains, context))) <= 0.0;
 }
 
-/// Gains by pole placement that meet the constraints.
-std::vector<Gains<double>> feasible_poles(const ConstraintContext& context,
-                                          const ObserverGains<double>& observer = {}) {
-  std::vector<Gains<double>> feasible;
-  for (const Gains<double>& gains : starting_poles(context, observer)) {
-    if (meets_constraints(gains, context)) feasible.push_back(gains);
-  }
-  return feasible;
-}
-
 /// True if at least `share` of the runs settle with one of the sets of gains.
 bool any_settles(const ObjectiveSetting& setting, const std::vector<Gains<double>>& gains,
                  double share) {
   return std::ranges::any_of(
       gains, [&](const Gains<double>& one) { return enough_settle(setting, one, share); });
-}
-
-/// Gains by pole placement with an observer: for each bandwidth, in increasing order, the gains that
-/// meet the constraints. Empty if the vehicle has no force left to compensate a disturbance.
-std::vector<std::vector<Gains<double>>> observed_poles(const ConstraintContext& context) {
-  const Plant<double>& plant = context.plant;
-  const double authority_m = turning_authority_m(context.own(), context.speed_mps);
-  const double thrust = driven_wheels(plant) * forces_beyond_dead_zone(context.own()).hi -
-                        plant.surge(context.speed_mps);
-  std::vector<std::vector<Gains<double>>> poles;
-  if (!(thrust > 0.0)) return poles;
-  for (const double bandwidth_radps : {0.5, 1.0, 2.0, 4.0}) {
-    if (bandwidth_radps * context.sample_time_s >= 1.0) break;
-    poles.push_back(feasible_poles(
-        context, {bandwidth_radps, kObserverShare * authority_m, kObserverShare * thrust}));
-  }
-  return poles;
-}
-
-/// Returns a bandwidth, rad/s, of an observer that lets at least `share` of the runs settle,
-/// together with gains by pole placement. Empty if there is none.
-std::optional<double> settling_bandwidth_radps(
-    const ObjectiveSetting& setting, const std::vector<std::vector<Gains<double>>>& observed,
-    double share) {
-  for (const std::vector<Gains<double>>& gains : observed) {
-    if (any_settles(setting, gains, share)) return gains.front().observer.bandwidth_radps;
-  }
-  return std::nullopt;
-}
-
-/// Returns the change "tune with an observer", if an observer lets the runs settle. If it does not
-/// suffice, the limit of the steering rate is also relaxed.
-std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
-                                          const ConstraintContext& context,
-                                          const Gains<double>& gains, double share) {
-  const auto change = [](double bandwidth_radps, const std::string& more) {
-    return SettlingChange{"/observer",
-                          fmt::format("{}{} (confirmed with a bandwidth of {:g} rad/s)",
-                                      option_text("observer"), more, bandwidth_radps)};
-  };
-  if (gains.observer.is_on()) return std::nullopt;
-  if (const auto bandwidth = settling_bandwidth_radps(setting, observed_poles(context), share)) {
-    return change(*bandwidth, "");
-  }
-  for (const std::vector<RelaxedLimit>& numbers : relaxed_limits(context)) {
-    for (const RelaxedLimit& limit : numbers) {
-      if (!limit.is_steering_rate) continue;
-      const auto observed = observed_poles(limit.context);
-      if (const auto bandwidth = settling_bandwidth_radps(setting, observed, share)) {
-        return change(*bandwidth, fmt::format(" together with `{}` {:g}", limit.key, limit.number));
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<SettlingChange> one_mode(const ObjectiveSetting& setting,
-                                       const ConstraintContext& context, double share) {
-  if (context.mode || !context.has_steering) return std::nullopt;
-  for (const YawMode mode : setting.modes()) {
-    ConstraintContext alone = context;
-    alone.mode = mode;
-    ObjectiveSetting runs = setting;
-    runs.mode = mode;
-    if (!any_settles(runs, feasible_poles(alone), share)) continue;
-    return SettlingChange{"/mode", fmt::format("{}, gains for this mode only",
-                                               option_text("mode " + std::string(name_of(mode))))};
-  }
-  return std::nullopt;
-}
-
-/// For each limit that can be relaxed (relaxed_limits()), returns the strictest of the tried values
-/// with which the runs settle.
-std::vector<SettlingChange> relaxed(const ObjectiveSetting& setting,
-                                    const ConstraintContext& context, const Gains<double>& gains,
-                                    double share) {
-  std::vector<SettlingChange> changes;
-  for (const std::vector<RelaxedLimit>& numbers : relaxed_limits(context)) {
-    const auto settles = std::ranges::find_if(numbers, [&](const RelaxedLimit& limit) {
-      const Gains<double> same = with_friction_width(gains, limit.context);
-      return (meets_constraints(same, limit.context) && enough_settle(setting, same, share)) ||
-             any_settles(setting, feasible_poles(limit.context), share);
-    });
-    if (settles == numbers.end()) continue;
-    changes.push_back({fmt::format("/{}", settles->key),
-                       fmt::format("`{}` {:g}", settles->key, settles->number)});
-  }
-  return changes;
 }
 
 }  // namespace
@@ -212,30 +114,112 @@ ObjectiveSetting on_few_vehicles(ObjectiveSetting setting) {
   return setting;
 }
 
-bool observer_settles_more(const ObjectiveSetting& setting, const ConstraintContext& context,
-                           const Gains<double>& gains) {
+const std::vector<Gains<double>>& SettlingSearch::poles(const std::string& change,
+                                                        const ConstraintContext& changed,
+                                                        const ObserverGains<double>& observer) {
+  const auto [known, is_new] = poles_.try_emplace({change, observer.bandwidth_radps});
+  if (is_new) {
+    for (const Gains<double>& gains : starting_poles(changed, observer)) {
+      if (meets_constraints(gains, changed)) known->second.push_back(gains);
+    }
+  }
+  return known->second;
+}
+
+std::optional<double> SettlingSearch::settling_bandwidth_radps(const ObjectiveSetting& setting,
+                                                               const std::string& change,
+                                                               const ConstraintContext& changed,
+                                                               double share) {
+  const double authority_m = turning_authority_m(changed.own(), changed.speed_mps);
+  const double thrust = driven_wheels(changed.plant) * forces_beyond_dead_zone(changed.own()).hi -
+                        changed.plant.surge(changed.speed_mps);
+  if (!(thrust > 0.0)) return std::nullopt;
+  for (const double bandwidth_radps : {0.5, 1.0, 2.0, 4.0}) {
+    if (bandwidth_radps * changed.sample_time_s >= 1.0) break;
+    const ObserverGains<double> observer{bandwidth_radps, kObserverShare * authority_m,
+                                         kObserverShare * thrust};
+    if (any_settles(setting, poles(change, changed, observer), share)) return bandwidth_radps;
+  }
+  return std::nullopt;
+}
+
+std::optional<SettlingChange> SettlingSearch::an_observer(const ObjectiveSetting& setting,
+                                                          const Gains<double>& gains,
+                                                          double share) {
+  if (gains.observer.is_on()) return std::nullopt;
+  const auto change = [](double bandwidth_radps, const std::string& more) {
+    return SettlingChange{"/observer",
+                          fmt::format("{}{} (confirmed with a bandwidth of {:g} rad/s)",
+                                      option_text("observer"), more, bandwidth_radps)};
+  };
+  if (const auto bandwidth = settling_bandwidth_radps(setting, {}, context_, share)) {
+    return change(*bandwidth, "");
+  }
+  for (const std::vector<RelaxedLimit>& numbers : relaxed_limits(context_)) {
+    for (const RelaxedLimit& limit : numbers) {
+      if (!limit.is_steering_rate) continue;
+      const std::string text = fmt::format("`{}` {:g}", limit.key, limit.number);
+      if (const auto bandwidth = settling_bandwidth_radps(setting, text, limit.context, share)) {
+        return change(*bandwidth, " together with " + text);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<SettlingChange> SettlingSearch::one_mode(const ObjectiveSetting& setting,
+                                                       double share) {
+  if (context_.mode || !context_.has_steering) return std::nullopt;
+  for (const YawMode mode : setting.modes()) {
+    ConstraintContext alone = context_;
+    alone.mode = mode;
+    ObjectiveSetting runs = setting;
+    runs.mode = mode;
+    const std::string option = option_text("mode " + std::string(name_of(mode)));
+    if (!any_settles(runs, poles(option, alone), share)) continue;
+    return SettlingChange{"/mode", option + ", gains for this mode only"};
+  }
+  return std::nullopt;
+}
+
+std::vector<SettlingChange> SettlingSearch::relaxed(const ObjectiveSetting& setting,
+                                                    const Gains<double>& gains, double share) {
+  std::vector<SettlingChange> changes;
+  for (const std::vector<RelaxedLimit>& numbers : relaxed_limits(context_)) {
+    for (const RelaxedLimit& limit : numbers) {
+      const std::string text = fmt::format("`{}` {:g}", limit.key, limit.number);
+      const Gains<double> same = with_friction_width(gains, limit.context);
+      const bool settles =
+          (meets_constraints(same, limit.context) && enough_settle(setting, same, share)) ||
+          any_settles(setting, poles(text, limit.context), share);
+      if (!settles) continue;
+      changes.push_back({fmt::format("/{}", limit.key), text});
+      break;
+    }
+  }
+  return changes;
+}
+
+bool SettlingSearch::observer_helps(const ObjectiveSetting& setting, const Gains<double>& gains) {
   if (gains.observer.is_on()) return false;
-  const std::vector<std::vector<Gains<double>>> observed = observed_poles(context);
   for (const Scenario& scenario : setting.scenarios) {
     for (const YawMode mode : setting.modes()) {
       const ObjectiveSetting runs = runs_in(setting, scenario.name, mode);
       if (settled_share(runs, gains) >= kSettledShare) continue;
-      if (settling_bandwidth_radps(on_few_vehicles(runs), observed, kSettledShare)) return true;
+      if (settling_bandwidth_radps(on_few_vehicles(runs), {}, context_, kSettledShare)) return true;
     }
   }
   return false;
 }
 
-std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
-                                                const ConstraintContext& context,
-                                                const Gains<double>& gains, double share) {
+std::vector<SettlingChange> SettlingSearch::changes(const ObjectiveSetting& setting,
+                                                    const Gains<double>& gains, double share) {
   std::vector<SettlingChange> changes;
-  for (auto& change :
-       {more_time(setting, gains, share), no_rate_limit(setting, gains, share),
-        an_observer(setting, context, gains, share), one_mode(setting, context, share)}) {
+  for (auto& change : {more_time(setting, gains, share), no_rate_limit(setting, gains, share),
+                       an_observer(setting, gains, share), one_mode(setting, share)}) {
     if (change) changes.push_back(*change);
   }
-  std::ranges::copy(relaxed(setting, context, gains, share), std::back_inserter(changes));
+  std::ranges::copy(relaxed(setting, gains, share), std::back_inserter(changes));
   return changes;
 }
 

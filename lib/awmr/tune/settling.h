@@ -2,8 +2,11 @@
 /// change is confirmed by simulation. Private to tune/.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "awmr/tune/constraints.h"
@@ -15,8 +18,8 @@ namespace awmr {
 /// Share of the runs of the setting that settle with these gains, [0, 1].
 double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
 
-/// True if at least `share` of the runs of the setting settle. Simulates a few vehicles first. If too
-/// many of their runs do not settle, the others are not simulated.
+/// True if at least `share` of the runs of the setting settle. Simulates a few vehicles first. If
+/// too many of their runs do not settle, the others are not simulated.
 bool enough_settle(const ObjectiveSetting& setting, const Gains<double>& gains, double share);
 
 /// As settled_share(), but with sensors without noise: a share that is larger shows that the noise
@@ -30,23 +33,50 @@ ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, 
 /// Returns the setting with only the nominal vehicle and the first drawn vehicles.
 ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);
 
-/// True if there are a scenario and a mode whose runs need an observer: fewer than kSettledShare of
-/// the runs settle with the given gains, but at least kSettledShare with an observer and gains by
-/// pole placement. To save time, the runs with the observer use only a few vehicles
-/// (on_few_vehicles()).
-bool observer_settles_more(const ObjectiveSetting& setting, const ConstraintContext& context,
-                           const Gains<double>& gains);
+/// Searches changes that let more runs settle. Each set of poles is placed once, because this takes
+/// up to some seconds, and one tuning asks for the same changes in several scenarios and modes.
+class SettlingSearch {
+ public:
+  explicit SettlingSearch(const ConstraintContext& context) : context_(context) {}
 
-/// Tries one change at a time. Returns the changes with which at least `share` of the runs settle:
-///   - 2 or 4 times the duration of the scenarios, and the time for each heading
-///   - no heading-rate limit, if there is one
-///   - an observer, if the gains have none, with gains by pole placement; if it does not suffice,
-///     together with a relaxed limit of the steering rate
-///   - gains for one mode only, by pole placement, if several modes are tuned
-///   - a relaxed limit (relaxed_limits()), with the given gains or with gains by pole placement
-std::vector<SettlingChange> changes_that_settle(const ObjectiveSetting& setting,
-                                                const ConstraintContext& context,
-                                                const Gains<double>& gains, double share);
+  /// True if there are a scenario and a mode whose runs need an observer: fewer than kSettledShare
+  /// of the runs settle with the given gains, but at least kSettledShare with an observer and gains
+  /// by pole placement. To save time, the runs with the observer use only a few vehicles
+  /// (on_few_vehicles()).
+  bool observer_helps(const ObjectiveSetting& setting, const Gains<double>& gains);
+
+  /// Tries one change at a time. Returns the changes with which at least `share` of the runs settle:
+  ///   - 2 or 4 times the duration of the scenarios, and the time for each heading
+  ///   - no heading-rate limit, if there is one
+  ///   - an observer, if the gains have none, with gains by pole placement; if it does not suffice,
+  ///     together with a relaxed limit of the steering rate
+  ///   - gains for one mode only, by pole placement, if several modes are tuned
+  ///   - a relaxed limit (relaxed_limits()), with the given gains or with gains by pole placement;
+  ///     of each limit the strictest of the tried values
+  std::vector<SettlingChange> changes(const ObjectiveSetting& setting, const Gains<double>& gains,
+                                      double share);
+
+ private:
+  /// Gains by pole placement that meet the constraints of `changed`, the context with the change
+  /// that `change` names.
+  const std::vector<Gains<double>>& poles(const std::string& change,
+                                          const ConstraintContext& changed,
+                                          const ObserverGains<double>& observer = {});
+  /// Bandwidth, rad/s, of an observer that lets at least `share` of the runs settle, together with
+  /// gains by pole placement. Empty if there is none, or if the vehicle has no force left.
+  std::optional<double> settling_bandwidth_radps(const ObjectiveSetting& setting,
+                                                 const std::string& change,
+                                                 const ConstraintContext& changed, double share);
+  std::optional<SettlingChange> an_observer(const ObjectiveSetting& setting,
+                                            const Gains<double>& gains, double share);
+  std::optional<SettlingChange> one_mode(const ObjectiveSetting& setting, double share);
+  std::vector<SettlingChange> relaxed(const ObjectiveSetting& setting, const Gains<double>& gains,
+                                      double share);
+
+  const ConstraintContext& context_;
+  /// By the name of the change and the bandwidth of the observer.
+  std::map<std::pair<std::string, double>, std::vector<Gains<double>>> poles_;
+};
 
 /// Text for messages about `changes`: "Each of these changes lets runs settle (...): ...". `runs`:
 /// the noun for the runs, such as "runs". Precondition: `changes` is not empty.

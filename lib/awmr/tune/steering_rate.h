@@ -1,5 +1,5 @@
 /// Rate of the steering command due to sensor noise, and the friction width that limits it. Private
-/// to tune/ and apps/.
+/// to tune/.
 #pragma once
 
 #include "awmr/tune/constraints.h"
@@ -34,8 +34,8 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
 /// steering angle d_max and the servo's time constant T.
 double servo_rate_degps(const Vehicle& vehicle, const Plant<double>& plant);
 
-/// Warning `noise-beyond-servo`: with the tuned gains, sensor noise alone requests a higher RMS rate
-/// of the steering than the servo has. The default limit of this rate permits that if feeding
+/// Warning `noise-beyond-servo`: with the tuned gains, sensor noise alone requests a higher RMS
+/// rate of the steering than the servo has. The default limit of this rate permits that if feeding
 /// forward the yaw resistance already needs it. Absent for vehicles without steering, and for
 /// tunings without this limit (`--nominal`).
 std::optional<Finding> noise_beyond_servo(const Vehicle& vehicle, const Plant<double>& plant,

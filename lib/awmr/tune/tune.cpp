@@ -32,6 +32,7 @@ namespace {
 std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
                                           const ConstraintContext& context) {
   std::vector<UnsettledRuns> all;
+  SettlingSearch search(context);
   const auto look_at = [&](const std::string& scenario, YawMode mode, double settled_share) {
     if (settled_share >= kSettledShare) return;
     const ObjectiveSetting runs = on_few_vehicles(runs_in(setting, scenario, mode));
@@ -41,7 +42,7 @@ std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveS
     if (turns) {
       unsettled.share_without_noise = settled_share_without_noise(runs, tuning.gains);
       if (unsettled.is_noise_the_cause()) return all.push_back(std::move(unsettled));
-      unsettled.changes = changes_that_settle(runs, context, tuning.gains, kSettledShare);
+      unsettled.changes = search.changes(runs, tuning.gains, kSettledShare);
     } else {
       unsettled.why = turns.error().faults.front().message;
     }

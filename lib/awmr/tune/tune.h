@@ -210,7 +210,7 @@ struct TuneOptions {
   /// of ObserverSearch. Dry friction in yaw is the usual cause. The search is repeated if fewer
   /// than 95 % of the runs settle with the tuned gains (or the gains nearest to the limits, if none
   /// meet them), and if an observer lets the runs of a scenario and mode settle
-  /// (observer_settles_more() in settling.h). The result with the observer is kept if it increases
+  /// (SettlingSearch::observer_helps() in settling.h). The result with the observer is kept if it increases
   /// the share of settled runs by at least 0.05. false: no observer is tuned. Not used if
   /// `observer` is present.
   bool adds_observer = true;
@@ -414,7 +414,7 @@ struct UnsettledRuns {
   /// Share of the runs that settle if the sensors have no noise, on the nominal vehicle and the
   /// first drawn vehicles, [0, 1].
   double share_without_noise = 0.0;
-  /// Changes with which the runs settle, by changes_that_settle() (settling.h). Empty if the noise
+  /// Changes with which the runs settle, by SettlingSearch::changes() (settling.h). Empty if the noise
   /// alone keeps runs from settling.
   std::vector<SettlingChange> changes = {};
 

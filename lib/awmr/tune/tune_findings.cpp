@@ -14,6 +14,7 @@
 #include "awmr/simulate/meter.h"
 #include "awmr/simulate/validity.h"
 #include "awmr/tune/settling.h"
+#include "awmr/tune/steering_rate.h"
 
 namespace awmr {
 namespace {
@@ -210,6 +211,13 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   };
   std::ranges::move(extrapolation_in(model, tuning.scores, name, commands),
                     std::back_inserter(findings));
+  if (const auto plant = model.plant()) {
+    auto finding = noise_beyond_servo(model.vehicle, *plant, tuning);
+    if (finding) findings.push_back(*std::move(finding));
+  }
+  if (tuning.robust) {
+    std::ranges::move(imprecise_parameters(model), std::back_inserter(findings));
+  }
   return findings;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "awmr/core/text.h"
 #include "awmr/validate/text.h"
 #include "awmr/validate/validate.h"
 
@@ -17,25 +18,7 @@ std::string number_or_dash(const std::optional<double>& value, const char* forma
 }  // namespace
 
 std::string wrapped(const std::string& text, std::size_t indent) {
-  std::string out(indent, ' ');
-  std::size_t used = indent;
-  std::size_t start = 0;
-  while (start < text.size()) {
-    const std::size_t end = std::min(text.find(' ', start), text.size());
-    const std::string word = text.substr(start, end - start);
-    if (used > indent && used + 1 + word.size() > kWidth) {
-      out += '\n' + std::string(indent, ' ');
-      used = indent;
-    }
-    if (used > indent) {
-      out += ' ';
-      ++used;
-    }
-    out += word;
-    used += word.size();
-    start = end + 1;
-  }
-  return out + '\n';
+  return std::string(indent, ' ') + wrapped(text, indent, kWidth) + '\n';
 }
 
 namespace {

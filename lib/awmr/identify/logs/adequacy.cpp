@@ -103,7 +103,8 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     const bool withdraws = is_models || has_only_positions(chosen.fit.noise);
     adequacy.withdraws_intervals |= withdraws;
     adequacy.withdraws_sway |= channel == LogChannel::kSway;
-    adequacy.withdraws_servo |= channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
+    const bool is_of_turns = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
+    adequacy.withdraws_servo |= is_of_turns;
     adequacy.findings.push_back(
         {logs.front().file, 0, Severity::kWarning, "model-inadequate",
          fmt::format("the model has an error of {1:.3g} {2} in {0} that persists for {3}, compared "
@@ -114,7 +115,7 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
                      noise.sensor_std, advice,
                      withdraws                      ? "The intervals are withdrawn"
                      : channel == LogChannel::kSway ? "The interval of sway.alpha is withdrawn"
-                     : channel == LogChannel::kHeading || channel == LogChannel::kYawRate
+                     : is_of_turns
                          ? "The interval of steering.time_constant_s is withdrawn; the others do "
                            "not include this model error"
                          : "The intervals do not include this model error")});

@@ -12,8 +12,8 @@
 namespace awmr {
 
 /// True if the commands probably change between rows. Compares -2 ln L of the marginal likelihood
-/// with an uncertain time for every change (changes_before_rows()) and with changes at the rows: the
-/// first has to be lower by more than 20 plus 2 per change. The likeliest times also have to be
+/// with an uncertain time for every change (changes_before_rows()) and with changes at the rows:
+/// the first has to be lower by more than 20 plus 2 per change. The likeliest times also have to be
 /// between the rows (are_times_between_rows()). All quantities of the fit and all terms of
 /// further_terms() are free, so that delays and lags do not count. `point`: solution of `problem`.
 /// `candidate_terms`: further free parameters (LogFitOptions::candidate_terms).

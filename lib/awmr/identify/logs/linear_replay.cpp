@@ -8,8 +8,8 @@ namespace awmr {
 namespace {
 
 /// Updates the derivatives with respect to the time at which other rows of the log begin to act, if
-/// it is uncertain: `before` are the rows that acted until then, `after` the new ones. The forces of
-/// motors with lag are left out, because they do not jump (DelayedCommand::change_column).
+/// it is uncertain: `before` are the rows that acted until then, `after` the new ones. The forces
+/// of motors with lag are left out, because they do not jump (DelayedCommand::change_column).
 void change_time_of_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                          const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   if (stepper.columns() == 0 || path.changes.empty()) return;
