@@ -666,15 +666,82 @@ TEST(PolePlacement, LeavesRoomForAnObserver) {
   EXPECT_GT(std::ranges::max(residuals(constraints_of(too_fast, context))), 0.0);
 }
 
-TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
+/// Runs of the paper's vehicle in differential mode.
+ObjectiveSetting paper_runs() {
   const Model model = paper_model();
-  const Plant<double> plant = model.plant().value();
-  ObjectiveSetting setting{.vehicles = {{plant, model.vehicle.wheel_force}},
-                           .vehicle = model.vehicle,
-                           .weights = {},
-                           .scenarios = short_options().scenarios,
-                           .arithmetic = batch_arithmetic().value(),
-                           .mode = YawMode::kDifferential};
+  return {.vehicles = {{paper_plant(), model.vehicle.wheel_force}},
+          .vehicle = model.vehicle,
+          .weights = {},
+          .scenarios = short_options().scenarios,
+          .arithmetic = batch_arithmetic().value(),
+          .mode = YawMode::kDifferential};
+}
+
+/// Gains that meet the constraints on the nominal vehicle, but not on some drawn ones, are moved
+/// until they meet those of all.
+TEST(Search, FindsAStartThatMeetsTheConstraintsOfAllDrawnVehicles) {
+  ConstraintContext context{.plant = paper_plant(), .latency_s = 0.05};
+  TuneOptions options;
+  const auto poles = starting_poles(context);
+  bound_around(poles, options.bounds);
+  for (const double factor : {0.9, 0.6, 0.4, 1.5, 0.5}) {
+    DrawnVehicle drawn = context.own();
+    drawn.plant.inertia_norm *= factor;
+    context.draws.push_back(drawn);
+  }
+  ASSERT_GT(std::ranges::max(residuals(constraints_of(poles[0], context))), 0.0);
+  const Candidate start = feasible_start(options, context, poles[0]);
+  EXPECT_LE(start.violation, 0.0);
+  EXPECT_EQ(start.violation, std::ranges::max(residuals(constraints_of(start.gains, context))));
+  EXPECT_LE(feasible_near(options, context, start.gains).violation, 0.0);
+}
+
+/// Drawn vehicles stop short of the commanded heading because of their own yaw friction, and differ
+/// in their mass, too, which matters little.
+TEST(Settling, NamesTheQuantityWhoseErrorKeepsRunsFromSettling) {
+  ObjectiveSetting setting = paper_runs();
+  const Gains<double> gains = kPaperGains;
+  DrawnVehicle drawn = setting.vehicles.front();
+  drawn.plant.mass_norm *= 1.1;
+  setting.vehicles.resize(4, drawn);
+  ASSERT_EQ(settled_share(setting, gains), 1.0);
+  EXPECT_FALSE(unsettling_error(setting, gains));
+  for (std::size_t i = 1; i < 4; ++i) setting.vehicles[i].plant.yaw.coulomb = 0.05;
+  ASSERT_EQ(settled_share(setting, gains), 0.25);
+  const std::optional<UnsettlingError> error = unsettling_error(setting, gains);
+  ASSERT_TRUE(error);
+  EXPECT_THAT(error->quantity, ::testing::HasSubstr("g3"));
+  EXPECT_EQ(error->settled_share, 1.0);
+  EXPECT_EQ(error->share_of_identified, 1.0);
+  setting.vehicles[0] = setting.vehicles[1];  // the identified vehicle does not settle either
+  EXPECT_FALSE(unsettling_error(setting, gains));
+}
+
+/// Slow gains do not settle in the duration of the scenario, also without noise, and with noise not
+/// in a longer one either.
+TEST(Settling, FindsThatNoiseAndSlowGainsTogetherKeepRunsFromSettling) {
+  ObjectiveSetting setting = paper_runs();
+  Gains<double> slow = starting_poles({.plant = paper_plant()})[0];
+  slow.heading.lambda *= 0.1;
+  slow.heading.epsilon *= 10.0;
+  ASSERT_EQ(settled_share(setting, slow), 0.0);
+  EXPECT_FALSE(noise_effect(setting, slow));  // only slow
+  Sensors& sensors = setting.scenarios[0].sensors.emplace();
+  sensors.heading.noise = radians(7.0);
+  sensors.heading.correlation_s = 2.0;
+  const std::optional<NoiseEffect> effect = noise_effect(setting, slow);
+  ASSERT_TRUE(effect);
+  EXPECT_EQ(effect->share_without, 1.0);
+  EXPECT_EQ(effect->time_factor, 4.0);
+  const std::optional<NoiseEffect> fast =
+      noise_effect(setting, starting_poles({.plant = paper_plant()})[0]);
+  ASSERT_TRUE(fast);
+  EXPECT_EQ(fast->time_factor, 1.0);
+}
+
+TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
+  ObjectiveSetting setting = paper_runs();
+  const Plant<double> plant = paper_plant();
   DisturbanceTerm push;
   push.value = 0.03;  // m, less than an observer may compensate
   setting.scenarios[0].disturbance.yaw = {push};

@@ -259,20 +259,9 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
 namespace {
 
 /// Searches from start_point() 0, 1, ... until `problem.best` meets the constraints that are not in
-/// `relaxed`, at most from `starts` starts. The drawn vehicles are examined only if gains for the
-/// nominal vehicle are found, because with a long latency this takes almost a second for each
-/// point.
-void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
-                     int starts) {
-  if (!problem.context.draws.empty()) {
-    ConstraintContext own = problem.context;
-    own.draws.clear();
-    Feasibility alone{.space = problem.space, .context = own, .relaxed = problem.relaxed};
-    search_feasible(alone, seed, baseline, starts);
-    problem.best = alone.best;
-    if (alone.best.violation > 0.0) return;
-    problem.best.violation = std::numeric_limits<double>::infinity();
-  }
+/// `relaxed`, at most from `starts` starts.
+void search_from_starts(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
+                        int starts) {
   for (int i = 0; i < starts && problem.best.violation > 0.0; ++i) {
     Point x = start_point(i, problem.space, seed, baseline);
     Optimizer opt = optimizer(NLOPT_LN_COBYLA, problem.space, kStartEvaluations);
@@ -285,12 +274,60 @@ void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<doubl
   }
 }
 
+/// Returns the drawn vehicle whose constraints, except those in `relaxed`, the gains violate most.
+/// Precondition: the context has drawn vehicles.
+const DrawnVehicle& most_violated(const Feasibility& problem, const Gains<double>& gains) {
+  ConstraintContext one = problem.context;
+  const DrawnVehicle* most = nullptr;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const DrawnVehicle& drawn : problem.context.draws) {
+    one.draws.assign(1, drawn);
+    Feasibility alone{.space = problem.space, .context = one, .relaxed = problem.relaxed};
+    const double violation = alone.look_at(problem.space.point_of(gains)).first;
+    if (most && !(violation > largest)) continue;
+    most = &drawn;
+    largest = violation;
+  }
+  return *most;
+}
+
+/// As search_from_starts(), but examines few of the drawn vehicles at most points, because all of
+/// them take almost a second for each point with a long latency. It begins with none of the drawn
+/// vehicles. As long as the gains it finds violate constraints of all drawn vehicles, it adds the
+/// one with the largest violation and searches again from these gains.
+void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
+                     int starts) {
+  ConstraintContext some = problem.context;
+  some.draws.clear();
+  Gains<double> from = baseline;
+  while (some.draws.size() < problem.context.draws.size()) {
+    Feasibility few{.space = problem.space, .context = some, .relaxed = problem.relaxed};
+    search_from_starts(few, seed, from, starts);
+    if (few.best.violation > 0.0) {
+      problem.best = few.best;
+      return;
+    }
+    from = few.best.gains;
+    problem.look_at(problem.space.point_of(from));
+    if (problem.best.violation <= 0.0) return;
+    some.draws.push_back(most_violated(problem, from));
+  }
+  search_from_starts(problem, seed, from, starts);
+}
+
 }  // namespace
 
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline) {
   Feasibility problem{.space = SearchSpace(options), .context = context};
   search_feasible(problem, options.seed, baseline, 2 + kRandomStarts);
+  return problem.best;
+}
+
+Candidate feasible_near(const TuneOptions& options, const ConstraintContext& context,
+                        const Gains<double>& gains) {
+  Feasibility problem{.space = SearchSpace(options), .context = context};
+  search_feasible(problem, options.seed, gains, 1);
   return problem.best;
 }
 

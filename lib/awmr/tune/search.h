@@ -50,6 +50,10 @@ Result<std::string> search_near(Problem& problem, int most_evaluations);
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
 
+/// As feasible_start(), but searches only from `gains`.
+Candidate feasible_near(const TuneOptions& options, const ConstraintContext& context,
+                        const Gains<double>& gains);
+
 /// Returns gains within the bounds that violate the constraints named in `relaxed` as little as
 /// possible, and meet all other constraints that need no simulation. Empty if none are found.
 /// Searches from `baseline`, then from other points.

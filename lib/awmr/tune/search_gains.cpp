@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "awmr/core/index.h"
+#include "awmr/core/parallel.h"
 #include "awmr/tune/baseline_limits.h"
 #include "awmr/tune/certificate.h"
 #include "awmr/tune/pole_placement.h"
@@ -53,25 +56,31 @@ constexpr double kStartBandwidths[] = {0.5, 1.0, 2.0};
 ///   - if an observer is searched, gains by pole placement with each of kStartBandwidths;
 ///   - the baseline, if it is given.
 /// Gains that violate a constraint are replaced by gains near them that meet the constraints
-/// (feasible_start()), or left out if there are none.
+/// (feasible_near()), or left out if there are none.
 std::vector<Gains<double>> starts_of(const TuneOptions& options, const ConstraintContext& context,
                                      const Gains<double>& first,
                                      std::span<const Gains<double>> poles) {
-  std::vector<Gains<double>> starts{first};
-  const auto add = [&](const Gains<double>& gains) {
-    const Candidate other = feasible_start(options, context, gains);
-    if (!(other.violation > 0.0)) starts.push_back(other.gains);
-  };
-  for (const Gains<double>& other : poles.subspan(1)) add(other);
-  for (const double share : kSlowerStarts) add(slowed(poles.front(), share));
-  if (const auto& observer = options.observer) {
-    for (const double bandwidth_radps : kStartBandwidths) {
-      if (!observer->bandwidth_radps.contains(bandwidth_radps)) continue;
-      add(starting_poles(context,
-                         {bandwidth_radps, *observer->yaw_max_m, *observer->surge_max})[0]);
-    }
+  std::vector<std::function<Gains<double>()>> proposed;
+  for (const Gains<double>& other : poles.subspan(1)) proposed.push_back([other] { return other; });
+  for (const double share : kSlowerStarts) {
+    proposed.push_back([&, share] { return slowed(poles.front(), share); });
   }
-  if (options.baseline) add(options.baseline->gains);
+  const auto& observer = options.observer;
+  for (const double bandwidth_radps : kStartBandwidths) {
+    if (!observer || !observer->bandwidth_radps.contains(bandwidth_radps)) continue;
+    proposed.push_back([&, bandwidth_radps] {
+      return starting_poles(context,
+                            {bandwidth_radps, *observer->yaw_max_m, *observer->surge_max})[0];
+    });
+  }
+  if (options.baseline) proposed.push_back([&] { return options.baseline->gains; });
+  std::vector<Candidate> near(proposed.size());
+  parallel_for(proposed.size(), 0,
+               [&](std::size_t i) { near[i] = feasible_near(options, context, proposed[i]()); });
+  std::vector<Gains<double>> starts{first};
+  for (const Candidate& one : near) {
+    if (!(one.violation > 0.0)) starts.push_back(one.gains);
+  }
   return starts;
 }
 
@@ -81,7 +90,7 @@ constexpr double kWorthIt = 0.05;
 /// Repeats the search with an observer. `gains`: the result without observer or, if no gains meet
 /// the limits, those nearest to the limits. The result is empty
 ///   - if no observer may be added (TuneOptions::adds_observer);
-///   - if enough runs settle, or would settle without sensor noise;
+///   - if enough runs settle, or sensor noise keeps them from settling (noise_effect());
 ///   - if simulations do not show that an observer lets more runs settle (SettlingSearch);
 ///   - if the share of settled runs increases by less than kWorthIt.
 std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSetting& setting,
@@ -94,7 +103,7 @@ std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSe
       });
   if (has_observer || !requested.adds_observer) return std::nullopt;
   const double share = settled_share(setting, gains);
-  if (share >= kSettledShare || settled_share_without_noise(setting, gains) >= kSettledShare ||
+  if (share >= kSettledShare || noise_effect(setting, gains) ||
       !SettlingSearch(context).observer_helps(setting, gains)) {
     return std::nullopt;
   }
@@ -147,9 +156,12 @@ Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
   ObjectiveSetting few = on_few_vehicles(s.setting);
   few.goals.clear();
   constexpr double kAny = 1e-9;
+  std::vector<SettlingChange> changes = scenario_changes(few, gains, kAny);
+  std::ranges::move(SettlingSearch(s.context).changes(few, gains, kAny),
+                    std::back_inserter(changes));
   const std::size_t runs =
       s.setting.vehicles.size() * s.setting.modes().size() * s.setting.scenarios.size();
-  return never_settles(gains, runs, SettlingSearch(s.context).changes(few, gains, kAny), s.options);
+  return never_settles(gains, runs, changes, s.options);
 }
 
 /// Evaluates the tuned gains in a scenario that the search did not use.

@@ -22,9 +22,21 @@ double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains
 /// too many of their runs do not settle, the others are not simulated.
 bool enough_settle(const ObjectiveSetting& setting, const Gains<double>& gains, double share);
 
-/// As settled_share(), but with sensors without noise: a share that is larger shows that the noise
-/// keeps runs from settling.
+/// As settled_share(), but with sensors without noise.
 double settled_share_without_noise(ObjectiveSetting setting, const Gains<double>& gains);
+
+/// Tells whether noise keeps the runs from settling: without noise, at least kSettledShare of them
+/// settle, in the duration of the scenarios or in four times this duration, but not with noise.
+/// (Gains that are slow because of limits on noise need more time.) Empty if not.
+/// Precondition: fewer than kSettledShare of the runs settle.
+std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
+                                        const Gains<double>& gains);
+
+/// Returns the error of the model that most keeps runs from settling, by simulation: one quantity
+/// of all drawn vehicles at a time gets its identified value. Empty if at least half of the
+/// unsettled runs do not settle with the identified values of all quantities either.
+std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
+                                                const Gains<double>& gains);
 
 /// Returns the setting with only one mode and one scenario (all scenarios if `scenario` is empty),
 /// and without goals.
@@ -32,6 +44,12 @@ ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, 
 
 /// Returns the setting with only the nominal vehicle and the first drawn vehicles.
 ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);
+
+/// Tries changes of the scenarios. Returns those with which at least `share` of the runs settle:
+///   - 2 or 4 times the duration of the scenarios, and the time for each heading
+///   - no heading-rate limit, if there is one
+std::vector<SettlingChange> scenario_changes(const ObjectiveSetting& setting,
+                                             const Gains<double>& gains, double share);
 
 /// Searches changes that let more runs settle. Each set of poles is placed once, because this takes
 /// up to some seconds, and one tuning asks for the same changes in several scenarios and modes.
@@ -45,9 +63,8 @@ class SettlingSearch {
   /// (on_few_vehicles()).
   bool observer_helps(const ObjectiveSetting& setting, const Gains<double>& gains);
 
-  /// Tries one change at a time. Returns the changes with which at least `share` of the runs settle:
-  ///   - 2 or 4 times the duration of the scenarios, and the time for each heading
-  ///   - no heading-rate limit, if there is one
+  /// Tries one change of gains or limits at a time. Returns the changes with which at least `share`
+  /// of the runs settle:
   ///   - an observer, if the gains have none, with gains by pole placement; if it does not suffice,
   ///     together with a relaxed limit of the steering rate
   ///   - gains for one mode only, by pole placement, if several modes are tuned

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -26,27 +27,41 @@
 namespace awmr {
 namespace {
 
-/// Returns each scenario and mode in which fewer than 95 % of the runs settle, with the changes
-/// that let them settle. To save time, the changes are tried on the nominal vehicle and the first
-/// drawn vehicles only.
+/// Returns the cause of runs that do not settle in one scenario and mode, and the changes that let
+/// them settle. To save time, causes and changes of the gains are tried on the nominal vehicle and
+/// the first drawn vehicles only. `is_varied`: the drawn vehicles have unmodelled variation.
+UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintContext& context,
+                           const Gains<double>& gains, bool is_varied, SettlingSearch& search) {
+  const YawMode mode = *setting.mode;
+  UnsettledRuns unsettled{.scenario = {}, .mode = mode};
+  const Status turns =
+      check_turning(context.own(), std::span(&mode, 1), setting.scenarios, std::string());
+  if (!turns) {
+    unsettled.why = turns.error().faults.front().message;
+    return unsettled;
+  }
+  const ObjectiveSetting few = on_few_vehicles(setting);
+  unsettled.noise = noise_effect(few, gains);
+  if (unsettled.noise) return unsettled;
+  if (few.vehicles.size() > 1 && !is_varied) unsettled.error = unsettling_error(few, gains);
+  unsettled.changes = scenario_changes(setting, gains, kSettledShare);
+  if (!unsettled.error || unsettled.error->share_of_identified < kSettledShare) {
+    std::ranges::move(search.changes(few, gains, kSettledShare),
+                      std::back_inserter(unsettled.changes));
+  }
+  return unsettled;
+}
+
+/// Returns unsettled_in() for each scenario and mode in which fewer than 95 % of the runs settle.
 std::vector<UnsettledRuns> unsettled_runs(const Tuning& tuning, const ObjectiveSetting& setting,
-                                          const ConstraintContext& context) {
+                                          const ConstraintContext& context, bool is_varied) {
   std::vector<UnsettledRuns> all;
   SettlingSearch search(context);
   const auto look_at = [&](const std::string& scenario, YawMode mode, double settled_share) {
     if (settled_share >= kSettledShare) return;
-    const ObjectiveSetting runs = on_few_vehicles(runs_in(setting, scenario, mode));
-    const Status turns =
-        check_turning(context.own(), std::span(&mode, 1), runs.scenarios, std::string());
-    UnsettledRuns unsettled{.scenario = scenario, .mode = mode};
-    if (turns) {
-      unsettled.share_without_noise = settled_share_without_noise(runs, tuning.gains);
-      if (unsettled.is_noise_the_cause()) return all.push_back(std::move(unsettled));
-      unsettled.changes = search.changes(runs, tuning.gains, kSettledShare);
-    } else {
-      unsettled.why = turns.error().faults.front().message;
-    }
-    all.push_back(std::move(unsettled));
+    all.push_back(
+        unsettled_in(runs_in(setting, scenario, mode), context, tuning.gains, is_varied, search));
+    all.back().scenario = scenario;
   };
   if (tuning.robust && !tuning.robust->evaluated.empty()) {
     const RobustTuning& robust = *tuning.robust;
@@ -138,7 +153,7 @@ Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
   AWMR_RETURN_IF_ERROR(evaluate_candidates(model, setting, options, candidates_of(tuning), robust));
   tuning.robust = std::move(robust);
-  tuning.unsettled = unsettled_runs(tuning, setting, context);
+  tuning.unsettled = unsettled_runs(tuning, setting, context, options.open.combinations() > 1);
   return tuning;
 }
 
@@ -239,7 +254,7 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   AWMR_RETURN_IF_ERROR(limit_observer(context, options.observer));
   if (options.nominal) {
     AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
-    tuning.unsettled = unsettled_runs(tuning, setting, context);
+    tuning.unsettled = unsettled_runs(tuning, setting, context, false);
     return tuning;
   }
   return tune_robustly(model, std::move(setting), std::move(context), options, held_out);

@@ -405,20 +405,33 @@ struct SettlingChange {
   std::string pointer;  ///< JSON pointer in tune.json, such as "/observer"
   std::string text;     ///< the change, with its number
 };
+/// Sensor noise as the cause of runs that do not settle.
+struct NoiseEffect {
+  double share_without = 0.0;  ///< share of the runs that settle without noise, [0, 1]
+  double time_factor = 1.0;    ///< these runs last so many times the duration of the scenarios
+};
+/// The error of an identified quantity, as the cause of runs that do not settle.
+struct UnsettlingError {
+  std::string quantity;              ///< for messages, such as "the yaw resistance g3"
+  std::string trial;                 ///< trial that identifies the quantity, for messages
+  double settled_share = 0.0;        ///< share of the runs that settle without this error, [0, 1]
+  double share_of_identified = 0.0;  ///< and without any error: of the identified vehicle
+};
 /// Scenario and mode in which fewer than 95 % of the runs settle with the tuned gains.
 struct UnsettledRuns {
   std::string scenario;  ///< name of the scenario; empty if there is only one
   YawMode mode{};
   /// Why the mode cannot turn the vehicle (turning.h); empty if it can.
   std::string why = {};
-  /// Share of the runs that settle if the sensors have no noise, on the nominal vehicle and the
-  /// first drawn vehicles, [0, 1].
-  double share_without_noise = 0.0;
-  /// Changes with which the runs settle, by SettlingSearch::changes() (settling.h). Empty if the noise
-  /// alone keeps runs from settling.
+  /// Effect of sensors without noise; absent if the noise is not the cause.
+  std::optional<NoiseEffect> noise = {};
+  /// The error of the model that most keeps runs from settling. Absent if most of these runs do not
+  /// settle with the identified vehicle either.
+  std::optional<UnsettlingError> error = {};
+  /// Changes with which the runs settle, by SettlingSearch (settling.h). Empty if the noise
+  /// keeps runs from settling. If all runs of the identified
+  /// vehicle settle, only changes of the scenario.
   std::vector<SettlingChange> changes = {};
-
-  bool is_noise_the_cause() const { return share_without_noise >= kSettledShare; }
 };
 
 /// A mode in which gains for this mode alone settle much faster than the tuned gains, with a lower

@@ -43,15 +43,30 @@ std::string advice_for(const std::string& scenario, YawMode mode,
     return runs.scenario == scenario && runs.mode == mode;
   });
   if (!found->why.empty()) return ": " + found->why;
-  if (found->is_noise_the_cause()) {
+  if (found->noise) {
     return fmt::format(
-        ". With sensors without noise, {:.0f} % settle: the noise moves the heading by more than "
+        ". With sensors without noise, {:.0f} % settle{}: the noise moves the heading by more than "
         "{:g} deg and {:g} % of the step, the limits of the error of a settled run. Use or filter "
         "sensors so that the noise is smaller (keys noise and noise_correlation_s of vehicle.json)",
-        100.0 * found->share_without_noise, meter::kSettledLeastDeg, 100.0 * meter::kSettledShare);
+        100.0 * found->noise->share_without,
+        found->noise->time_factor > 1.0
+            ? fmt::format(" in {:g} times the duration (limits on noise make the gains slow)",
+                          found->noise->time_factor)
+            : std::string(),
+        meter::kSettledLeastDeg, 100.0 * meter::kSettledShare);
+  }
+  std::string advice;
+  if (const auto& error = found->error) {
+    advice = fmt::format(
+        ". With the identified values of all parameters, {:.0f} % settle: errors of the model keep "
+        "runs from settling, most of all that of {} (with its identified value, {:.0f} % settle). "
+        "Record {}, and identify again",
+        100.0 * error->share_of_identified, error->quantity, 100.0 * error->settled_share,
+        error->trial);
+    if (found->changes.empty()) return advice;
   }
   const std::string share = fmt::format("{:g} %", 100.0 * kSettledShare);
-  return ". " +
+  return advice + ". " +
          (found->changes.empty() ? no_change_settles(share) : describe(found->changes, share));
 }
 
