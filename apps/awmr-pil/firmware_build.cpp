@@ -69,8 +69,8 @@ Status check_no_link(const fs::path& kept, const fs::path& file) {
     std::error_code ignored;
     if (fs::is_symlink(fs::symlink_status(place, ignored))) {
       return input_error(ErrorCode::kWouldOverwrite, place.string(),
-                         "is a symbolic link in the folder of --build-dir, and what it points to "
-                         "would be overwritten: remove it, or give another folder");
+                         "is a symbolic link in the folder of --build-dir, and its target would be "
+                         "overwritten: remove the link, or give another folder");
     }
   }
   return {};

@@ -39,7 +39,8 @@ fs::path& folder = *new fs::path;
 
 /// True: the thread that handles signals was started.
 bool can_end = false;
-/// The signal thread posts this semaphore in answer to question(), if no other signal is pending.
+/// The signal thread posts this semaphore when it receives the signal question() and no signal that
+/// ends the program is pending.
 sem_t not_ending;
 
 /// True for `awmr-pil-NUMBER-XXXXXX`, where NUMBER is a process ID.
@@ -141,7 +142,7 @@ void* end_at_signal(void*) {
 }  // namespace
 
 Result<std::unique_ptr<WorkFolder>> WorkFolder::make() {
-  const char* given = ::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): nothing sets it
+  const char* given = ::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): never set here
   const fs::path directory = given != nullptr && *given != '\0' ? given : "/tmp";
   const auto failed = [&](const std::string& why) {
     return input_error(ErrorCode::kCannotWrite, "TMPDIR",

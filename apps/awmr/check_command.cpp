@@ -77,8 +77,8 @@ bool has_rows(const fs::path& path, Check& check) {
          std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
 }
 
-/// Returns one of the parameters that this kind of trial identifies. For this parameter, trial_of()
-/// returns the description of the trial that messages need.
+/// Returns one of the parameters that this kind of trial identifies. Messages describe the trial by
+/// trial_of() of this parameter.
 ParameterId shown_by(TrialKind kind) {
   switch (kind) {
     case TrialKind::kTurning:
@@ -185,8 +185,8 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
-  // A column mapping that no file uses is usually a fault. It is none while some files have no
-  // rows: these files are not read, and the mapping may belong to one of them.
+  // A column mapping that no file uses is usually a fault. It is accepted as long as some files
+  // have no rows, because the mapping may be for one of these files, which are not read.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;

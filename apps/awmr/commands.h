@@ -167,8 +167,7 @@ struct CompareCommand {
   AllocationChoice allocation = {};
   HeadingRateChoice heading_rate_limit = {};
   PlantChoice plant = {.checks_other = true};
-  /// Part of the runs that this call computes (`--shard`), a copy of that in `compare`; empty: all
-  /// runs.
+  /// Part of the runs that this call computes (`--shard`), as in compare.shard; empty: all runs.
   ShardChoice shard = {};
   InputNames names = {};
 };

@@ -269,9 +269,9 @@ void add_compare(CLI::App& app, Session& session) {
   add_samples(*sub, command->compare);
   add_preferences(*sub, *texts);
   sub->add_flag("--break-even", command->compare.break_even,
-                "Also compute the break-even tyre scrub. Scrub is a constant yaw moment against "
-                "differential turns; at the break-even value, a mode with smaller differences "
-                "between left and right force becomes as good as the best one");
+                "Also compute the break-even tyre scrub, at which a better mode is no longer ahead "
+                "of a mode with smaller differences between left and right force; scrub is a "
+                "constant yaw moment against differential turns");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit, "measured, if the model has that rate");

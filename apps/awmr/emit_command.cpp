@@ -85,9 +85,9 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
            name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
 }
 
-/// Warns of gains that are too weak to hold a heading. The test case are motors whose forces differ
-/// by 16 %. The warning is given if their steady heading error is above kMaxOnCourse_rad/2, half of
-/// the error at which the sketches report a failure (fault 17).
+/// Warns of gains that are too weak to hold a heading. The criterion is the steady heading error of
+/// a vehicle whose left and right motors differ by 16 %. The limit is kMaxOnCourse_rad/2, half of
+/// the largest error that the sketches accept without fault 17.
 void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
                       Outcome& outcome) {
   if (2.0 * parameters.steady_error_rad <= kMaxOnCourse_rad) return;
@@ -100,9 +100,9 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
            degrees(parameters.steady_error_rad))});
 }
 
-/// Warns if the sample time is shorter than the chip's longest step with the parts that are
-/// compiled in, longer than the permitted time between two steps, or longer than half of the
-/// heading timeout.
+/// Warns of a sample time that the firmware cannot use. It is shorter than the chip's longest step
+/// with the parts that are compiled in, longer than the permitted time between two steps, or longer
+/// than half of the heading timeout.
 std::vector<Finding> sample_time(double sample_time_s, const Gains<double>& gains,
                                  const EmitCommand& command) {
   const double longest_step_s =

@@ -40,7 +40,7 @@ namespace {
 
 std::vector<ColumnMapping> columns_from_json(JsonObject& json) {
   json.schema(kColumnsSchema);
-  // Ignores the keys by which `awmr map` informs the user.
+  // Ignores the keys that `awmr map` writes only as information for the user.
   for (const char* key : {"guesses", "open", "names", "command", "version", "options", "inputs"}) {
     json.ignore(key);
   }

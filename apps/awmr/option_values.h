@@ -88,7 +88,8 @@ inline CLI::Validator not_standard_output() {
       "");
 }
 
-/// `path` is a path, an optional path or a list of paths.
+/// Adds an option whose value is the path of a file. `path`: variable for the value, a path, an
+/// optional path or a list of paths.
 template <class Path>
 CLI::Option* add_file(CLI::App& command, const std::string& option, Path& path,
                       const std::string& meaning) {

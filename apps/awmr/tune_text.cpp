@@ -35,7 +35,8 @@ std::string described(const std::string& name, const std::vector<ConstraintRepor
                      report->meaning);
 }
 
-/// Smallest relative improvement of the objective, by a limit that is 10 % wider, that is printed.
+/// An active limit is printed only if widening it by 10 % would improve the objective by at least
+/// this fraction.
 constexpr double kLeastGain = 0.001;
 
 /// Describes the active constraints whose limits keep the search from a better objective: how much

@@ -12,7 +12,7 @@ extern "C" {
 awmr_input pil_input;
 awmr_output pil_output;
 awmr_point pil_points[kPilPoints];
-int16_t pil_point_count;  // above 0: number of points to follow from the next step on
+int16_t pil_point_count;  // number of new points to follow from the next step on; 0: none
 float pil_acceptance_m;
 uint8_t pil_init_fault;
 volatile uint8_t pil_steps;  // steps executed, modulo 256

@@ -161,7 +161,7 @@ struct AutopilotParameters {
   float off_course_mrad = 0.0F;           ///< AWMR_OFF_COURSE_MRAD, m rad
   PositionFilter<float> position{};       ///< filter of the GPS fixes
   std::uint32_t position_latency_ms = 0;  ///< latency of the GPS, ms
-  std::set<FirmwarePart> parts;           ///< EmitOptions::parts, and kObserver for such gains
+  std::set<FirmwarePart> parts;           ///< result of parts_with() for the gains
   std::size_t line_law = 0;               ///< as in EmitOptions
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
   std::uint32_t crc = 0;  ///< check sum over block, tables, rest and observer

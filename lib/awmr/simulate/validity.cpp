@@ -219,7 +219,7 @@ namespace {
 /// Remedy for turns at `fastest_degps` that are faster than those of the trials.
 std::string remedy_for_turns(const TurnCommands& commands, double measured_degps,
                              double fastest_degps) {
-  constexpr double kRounding = 1e-9;  // of a limit that is converted to rad/s and back
+  constexpr double kRounding = 1e-9;  // relative error of a limit converted to rad/s and back
   const std::string record =
       fmt::format("Record turning trials at up to {:.3g} deg/s", fastest_degps);
   if (!commands.are_headings) return record + ", or give a smaller tau_turn";

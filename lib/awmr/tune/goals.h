@@ -23,7 +23,7 @@ namespace awmr {
 
 /// Number of metrics of a run that goals can limit. run_figure_names() has their names in
 /// tune.json.
-inline constexpr std::size_t kRunFigures = 6;  ///< number of names in run_figure_names()
+inline constexpr std::size_t kRunFigures = 6;
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 

@@ -76,8 +76,8 @@ class Problem {
  public:
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective);
 
-  /// Names of the residuals: of the required constraints, then for each mode of the limit of its
-  /// control variation (`activity_max`), then of the goals that are not soft.
+  /// Names of the residuals. First come the required constraints, then the limit of the control
+  /// variation (`activity_max`) of each mode, then the goals that are not soft.
   const std::vector<std::string>& names() const { return names_; }
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
@@ -117,7 +117,7 @@ class Problem {
   std::vector<std::string> names_;
   /// Index in names_ of the limit of the steering rate.
   std::optional<std::size_t> steering_rate_;
-  std::size_t before_runs_ = 0;  ///< number of constraints without simulation
+  std::size_t before_runs_ = 0;  ///< number of residuals that need no simulation
   /// Indices in Evaluation::goal_quantile of the goals that are not soft.
   std::vector<std::size_t> hard_goals_;
 };

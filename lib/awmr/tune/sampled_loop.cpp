@@ -185,8 +185,9 @@ class CompensatedLoop {
     const double t_s = loop_.sample_time_s;
     const std::complex<double> z = std::polar(1.0, omega_radps * t_s);
     const Eigen::Vector4cd by = plant_.gamma0 + plant_.gamma1 * std::conj(z);  // |z| = 1
-    // Solves (z I - Phi) x = by from the last row up. This is possible because servo and motor do
-    // not affect each other.
+    // Solves (z I - Phi) x = by for the states x = (psi, r, servo, motor), the last state first.
+    // This is possible because a state depends only on those after it, and servo and motor not on
+    // each other.
     const Eigen::Matrix4d& phi = plant_.phi;
     const std::complex<double> motor = by(3) / (z - phi(3, 3));
     const std::complex<double> servo = by(2) / (z - phi(2, 2));

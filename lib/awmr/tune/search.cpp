@@ -400,9 +400,10 @@ Result<std::string> search_near(Problem& problem, int most_evaluations) {
 
 namespace {
 
-/// Local search on all drawn vehicles, from the best of `found` (the best gains on the vehicles of
-/// `searched`) and `starts`. Some vehicles can mislead, above all if noise decides the metrics, so
-/// the starts are evaluated on all vehicles, too, except those that are much worse on some.
+/// Local search on all drawn vehicles. It starts from the best of `found`, the best gains on the
+/// few vehicles of `searched`, and of `starts`. The order on few vehicles can be misleading, above
+/// all if noise dominates the metrics, so `starts` are evaluated on all vehicles, too. Starts that
+/// are much worse than `found` on the few vehicles are left out.
 Result<std::string> finish(Problem& problem, const Objective& searched, const Gains<double>& found,
                            std::span<const Gains<double>> starts, int most_evaluations) {
   constexpr double kMuchWorse = 1.25;

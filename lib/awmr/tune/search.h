@@ -65,7 +65,7 @@ std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
 /// Searches the logarithms of the gains with NLopt. `searched` is the objective on the nominal
 /// vehicle and some of the drawn vehicles, `all` on the nominal vehicle and all drawn vehicles.
 ///   1. GN_ISRES on `searched` from the first of `starts`;
-///   2. search_near() on `searched` the best point so far, including the other starts;
+///   2. search_near() on `searched` from the best point so far, including the other starts;
 ///   3. if there are no feasible gains yet, LN_COBYLA on `searched` from each start;
 ///   4. if `all` has more vehicles, LN_COBYLA on `all` from the best point, including the starts.
 /// Precondition: at least one start; all starts meet the constraints that need no simulation.

@@ -141,8 +141,9 @@ struct Searched {
   const SettledGains& settled;
 };
 
-/// Error (refused) if no run settles with these gains, also not without sensor noise. `scores`:
-/// those of the nominal vehicle, one of which is mostly enough.
+/// Error (refused) if no run settles with the tuned gains, not even without sensor noise. `scores`:
+/// the results of the nominal vehicle. Usually one of them settles, and nothing needs to be
+/// simulated.
 Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
   const auto settles = [](const ModeScore& one) {
     return one.metrics.completed && !one.has_failed;

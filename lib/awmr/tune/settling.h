@@ -22,7 +22,7 @@ double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains
 /// too many of their runs do not settle, the others are not simulated.
 bool enough_settle(const ObjectiveSetting& setting, const Gains<double>& gains, double share);
 
-/// As settled_share(), but with sensors without noise.
+/// Share of the runs that settle with noise-free sensors, [0, 1].
 double settled_share_without_noise(ObjectiveSetting setting, const Gains<double>& gains);
 
 /// Tells whether noise keeps the runs from settling: without noise, at least kSettledShare of them
@@ -52,7 +52,7 @@ std::vector<SettlingChange> scenario_changes(const ObjectiveSetting& setting,
                                              const Gains<double>& gains, double share);
 
 /// Searches changes that let more runs settle. Each set of poles is placed once, because this takes
-/// up to some seconds, and one tuning asks for the same changes in several scenarios and modes.
+/// up to some seconds, and one tuning tries the same changes in several scenarios and modes.
 class SettlingSearch {
  public:
   explicit SettlingSearch(const ConstraintContext& context) : context_(context) {}
@@ -91,7 +91,7 @@ class SettlingSearch {
                                       double share);
 
   const ConstraintContext& context_;
-  /// By the name of the change and the bandwidth of the observer.
+  /// Gains from poles(), by the name of the change and the bandwidth of the observer.
   std::map<std::pair<std::string, double>, std::vector<Gains<double>>> poles_;
 };
 

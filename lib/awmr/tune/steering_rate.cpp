@@ -128,16 +128,17 @@ double steering_rate_at(double share, const Gains<double>& gains,
                  context.sample_time_s);
 }
 
-/// Returns for each mode that steers the share of the yaw moment that the steering makes.
+/// Returns the share of the yaw moment that the steering makes, one value for each mode that
+/// steers.
 std::vector<double> steering_shares(const ConstraintContext& context) {
   if (!context.steers()) return {};
   if (context.mode) return {steering_share<double>(*context.mode)};
   return {steering_share<double>(YawMode::kSteering), steering_share<double>(YawMode::kCombined)};
 }
 
-/// Sets one friction width of the gains, `width`, to the smallest value in `widths` with which the
-/// RMS steering rate is at most `limit_degps`. If there is none, sets it to the largest value. The
-/// width is that of the mode in which the steering makes the fraction `share` of the yaw moment.
+/// Sets `width`, the friction width of one mode, to the smallest value in `widths` with which the
+/// RMS steering rate is at most `limit_degps`. If there is none, sets it to the largest value.
+/// `share`: fraction of the yaw moment that the steering makes in this mode.
 Gains<double> with_smallest_width(Gains<double> gains, double HeadingGains<double>::*width,
                                   Interval widths, double limit_degps, double share,
                                   const ConstraintContext& context) {

@@ -164,8 +164,8 @@ constexpr double kMaxSearchSteps = 1e11;
 constexpr double kLongSearch_s = 10.0;
 /// Time of an RK4 step on two cores, s.
 constexpr double kTimeOfStep_s = 2.5e-8;
-/// Numbers of evaluations from which the duration is estimated: on all drawn vehicles in the last
-/// part of the search, and on new drawn vehicles after it.
+/// Typical numbers of evaluations, to estimate the duration: kOnAllDraws on all drawn vehicles in
+/// the last part of the search, kOnNewDraws on newly drawn vehicles after it.
 constexpr double kOnAllDraws = 12.0;
 constexpr double kOnNewDraws = 3.0;
 

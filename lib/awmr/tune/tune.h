@@ -207,12 +207,12 @@ struct TuneOptions {
   /// search of an observer; absent: see adds_observer
   std::optional<ObserverSearch> observer = {};
   /// true: if runs need an observer to settle, the search is repeated with one, with the defaults
-  /// of ObserverSearch. Dry friction in yaw is the usual cause. The search is repeated if fewer
-  /// than 95 % of the runs settle with the tuned gains (or the gains nearest to the limits, if none
-  /// meet them), and if an observer lets the runs of a scenario and mode settle
-  /// (SettlingSearch::observer_helps() in settling.h). The result with the observer is kept if it increases
-  /// the share of settled runs by at least 0.05. false: no observer is tuned. Not used if
-  /// `observer` is present.
+  /// of ObserverSearch. Dry friction in yaw is the usual cause. The search is repeated under two
+  /// conditions. Fewer than 95 % of the runs settle with the tuned gains (if no gains meet the
+  /// limits: with the gains nearest to them). And an observer lets the runs of a scenario and mode
+  /// settle (SettlingSearch::observer_helps() in settling.h). The result with the observer is kept
+  /// if it increases the share of settled runs by at least 0.05. false: no observer is tuned. Not
+  /// used if `observer` is present.
   bool adds_observer = true;
   std::vector<TuningGoal> goals = {};  ///< robust search only
   /// Called with the number of evaluated sets of gains and with the budget, which is
@@ -361,9 +361,10 @@ struct TradeOff {
   /// Pareto front of the feasible gains that the search evaluated, sorted by settling time.
   std::vector<TradeOffPoint> front;
   /// Points of named gains in the same runs, without gains with which a run breaks off. "lqi" is
-  /// the LQI law (control/heading_lqi.h) with weights by Bryson's rule. With s the largest heading
-  /// step, the acceptable values are: heading error s/6, yaw rate s/(1.5 s), integral of the error
-  /// (s/6)(4 s), and moment a quarter of the weaker mode's largest.
+  /// the LQI law (control/heading_lqi.h) with weights by Bryson's rule. With p the largest heading
+  /// step, the acceptable values are: p/6 for the heading error, p/1.5 per second for the yaw rate,
+  /// p/6 times 4 seconds for the integral of the error, and a quarter of the largest moment of the
+  /// weaker mode for the yaw moment.
   std::vector<NamedTradeOff> named;
 };
 

@@ -22,7 +22,8 @@ struct ScenarioRuns {
   Json scenario;
 };
 
-/// For each scenario the runs with the tuned gains or, if there are none, with the paper's gains.
+/// Returns for each scenario the runs with the tuned gains or, if there are none, those with the
+/// paper's gains.
 std::vector<ScenarioRuns> runs_by_scenario(const Json& data) {
   std::map<std::string, std::map<std::string, std::vector<const Json*>>> by_gains;
   for (const Json& run : data["runs"]) {
