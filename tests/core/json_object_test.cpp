@@ -93,6 +93,26 @@ TEST_F(JsonObjectTest, MissingKeysAreAllNamed) {
   EXPECT_EQ(faults()[0], "a.json:/a: this key is missing; add it");
 }
 
+TEST_F(JsonObjectTest, AFileOfAnotherKindIsOneFault) {
+  JsonObject object = root(R"({"schema": "awmr.gains/1", "heading": 1, "speed": 2})");
+  object.schema("awmr.model/1");
+  EXPECT_TRUE(std::isnan(object.number("mass")));
+  EXPECT_TRUE(std::isnan(object.object("surge").number("alpha")));
+  object.fault(ErrorCode::kMissing, "vehicle", "is empty");
+  object.reject_unknown_keys();
+  ASSERT_EQ(faults_.size(), 1U);
+  EXPECT_EQ(faults_.front().code, ErrorCode::kWrongFile);
+  EXPECT_EQ(faults_.front().place, "a.json:/schema");
+}
+
+TEST_F(JsonObjectTest, TheKnownKeysAreListedOnce) {
+  JsonObject object = root(R"({"first": 1, "zzzzz": 2, "qqqqq": 3})");
+  (void)object.number("first");
+  object.reject_unknown_keys();
+  EXPECT_THAT(faults(), ElementsAre("a.json:/zzzzz: unknown key; the keys here are first",
+                                    "a.json:/qqqqq: unknown key"));
+}
+
 TEST_F(JsonObjectTest, AMissingObjectIsOneFaultAndItsReadsAreSilent) {
   JsonObject object = root("{}");
   JsonObject absent = object.object("o");

@@ -27,6 +27,11 @@ TEST(GainsFile, ReadsTheGains) {
   EXPECT_EQ(gains->speed.epsilon, 1.2);
 }
 
+TEST(GainsFile, OfAnotherKindIsOneFault) {
+  EXPECT_THAT(faults_of(read_gains, R"({"schema": "awmr.model/1", "vehicle": {}, "surge": {}})"),
+              ::testing::ElementsAre(::testing::StartsWith("/schema: ")));
+}
+
 TEST(GainsFile, WritesWhatItReads) {
   const ScratchFile file("gains.json", "");
   const Gains<double> gains{{2.5, 40.0, 8.0}, {4.0, 1.5}};

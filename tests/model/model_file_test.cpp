@@ -20,6 +20,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
@@ -82,6 +83,29 @@ Result<Model> reread(const std::string& text) {
 
 std::vector<std::string> faults_after(const Edit& edit) {
   return faults_of(read_model, edited(model_text(some_model()), edit));
+}
+
+TEST(ModelFile, ExplainsFaultsOfItsVehicleAsInVehicleJson) {
+  EXPECT_THAT(faults_after({"/vehicle/drive", "rear_wheel"}),
+              ElementsAre(AllOf(StartsWith("/vehicle/drive: rear_wheel is not supported"),
+                                HasSubstr("use differential"), Not(HasSubstr("four_wheel")))));
+  EXPECT_THAT(faults_after({"/vehicle/length_m", 1320.0}),
+              ElementsAre(AllOf(StartsWith("/vehicle/length_m: "), HasSubstr("looks like mm"))));
+}
+
+TEST(ModelFile, OfAnotherKindIsOneFault) {
+  EXPECT_THAT(faults_after({"/schema", "awmr.gains/1"}), ElementsAre(StartsWith("/schema: ")));
+}
+
+TEST(ModelFile, AStandardErrorOfZeroMeansAKnownValueWithoutVariance) {
+  Model model = some_model();
+  // Without an entry in the covariance, drawn plants do not vary the parameter.
+  model[ParameterId::kMassNorm].std_error = 0.0;
+  EXPECT_THAT(faults_of(read_model, model_text(model)), IsEmpty());
+  model[ParameterId::kSurgeAlpha].std_error = 0.0;
+  EXPECT_THAT(faults_of(read_model, model_text(model)), ElementsAre(StartsWith("/covariance: ")));
+  model.covariance.matrix = {{0.0, 0.0}, {0.0, 2.5e-4}};
+  EXPECT_THAT(faults_of(read_model, model_text(model)), IsEmpty());
 }
 
 TEST(ModelFile, GivesTheSameBytesWhenWrittenAgain) {

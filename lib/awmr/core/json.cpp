@@ -32,6 +32,7 @@ std::string JsonObject::pointer(std::string_view key) const {
 }
 
 void JsonObject::fault(ErrorCode code, std::string_view key, std::string message) {
+  if (value_ == nullptr) return;
   add_fault(code, *faults_, file_, pointer(key), std::move(message));
 }
 
@@ -226,6 +227,7 @@ void JsonObject::schema(std::string_view expected) {
     fault(ErrorCode::kWrongFile, "schema",
           fmt::format("expected \"{}\", found \"{}\": this is another kind of file", expected,
                       *found));
+    value_ = nullptr;  // the keys of another kind of file are no further faults
   }
 }
 
@@ -240,11 +242,12 @@ std::vector<std::string> JsonObject::keys() const {
 void JsonObject::reject_unknown_keys() {
   if (shape_ != nullptr) return shape_->close();
   const std::vector<std::string> known(known_.begin(), known_.end());
+  std::string known_keys = fmt::format("; the keys here are {}", fmt::join(known, ", "));
   for (const std::string& key : keys()) {
     if (known_.count(key) != 0 || faults_->size() >= kMaxFaults) continue;
     const std::string near = nearest(key, known);
     fault(ErrorCode::kUnknownName, key,
-          near.empty() ? fmt::format("unknown key; the keys here are {}", fmt::join(known, ", "))
+          near.empty() ? "unknown key" + std::exchange(known_keys, {})
                        : fmt::format("unknown key; did you mean \"{}\"?", near));
   }
 }

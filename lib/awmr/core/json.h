@@ -90,7 +90,8 @@ class JsonObject {
   std::vector<JsonObject> values();
   /// Marks a key as known without reading its value; the key may be missing.
   void ignore(std::string_view key);
-  /// Reads the optional key `schema`; any other value than `expected` is a fault.
+  /// Reads the optional key `schema`, before all others. Any other value than `expected` is a
+  /// fault; the view then reports no further faults, because the file is of another kind.
   void schema(std::string_view expected);
   /// All keys of the object, in the order of the file; for objects with arbitrary keys.
   std::vector<std::string> keys() const;
@@ -99,7 +100,8 @@ class JsonObject {
   void fault(ErrorCode code, std::string_view key, std::string message);
   /// Adds a fault at the key's place, with the code and the message of the first fault of `cause`.
   void fault(std::string_view key, const Error& cause);
-  /// Adds a fault for each key of the object that was not read.
+  /// Adds a fault for each key of the object that was not read. Only the first of them lists the
+  /// known keys.
   void reject_unknown_keys();
   const std::string& file() const { return file_; }
   /// JSON pointer of a key of this object.
@@ -107,7 +109,7 @@ class JsonObject {
 
  private:
   const Json* find(std::string_view key, bool required);
-  const Json* value_ = nullptr;  ///< null: a missing object, which reports no faults
+  const Json* value_ = nullptr;  ///< null: an object that reports no faults
   std::string file_;
   std::string pointer_;
   std::vector<Fault>* faults_;

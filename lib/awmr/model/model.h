@@ -49,7 +49,8 @@ using Quantiles = std::array<double, kQuantileCount>;
 struct Estimate {
   /// In the parameter's unit. Absent if the data do not determine it.
   std::optional<double> value;
-  /// In the parameter's unit, > 0. Absent for a given value, or if there are too few data.
+  /// In the parameter's unit, >= 0; 0: the value is known exactly. Absent for a given value, or if
+  /// there are too few data.
   std::optional<double> std_error;
   std::optional<Interval> ci95;  ///< 95 % confidence interval; absent if `std_error` is absent
   Source source = Source::kGiven;

@@ -343,6 +343,9 @@ Result<Model> parse_model(std::string_view text, const std::string& file, bool a
   JsonObject root(json, file, "", faults);
   Model model = model_from_json(root);
   model.file = file;
+  if (!faults.empty() && json.is_object() && json.contains("vehicle")) {
+    explain_vehicle_faults(json.at("vehicle"), file + ":/vehicle", faults);
+  }
   if (faults.empty()) faults = self_contradictions(model);
   if (!faults.empty()) return input_errors(std::move(faults));
   if (!as_is && !accepts_implausible(model)) {

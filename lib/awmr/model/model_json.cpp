@@ -181,7 +181,7 @@ Json finding_to_json(const Finding& finding) {
   json["line"] = finding.line;
   json["severity"] = name_in(kSeverityNames, finding.severity);
   json["code"] = finding.code;
-  json["message"] = plain_text(finding.message);
+  json["message"] = spell_options(finding.message, "--");
   return json;
 }
 

@@ -142,10 +142,10 @@ constexpr SmallerUnit kSmallerUnits[] = {{"/length_m", kSize_m, 1e-3, "mm"},
 
 /// Adds to the message of each number above its range the smaller unit in which it was probably
 /// given, and the converted number.
-void name_units(const Json& document, const std::string& file, std::vector<Fault>& faults) {
+void name_units(const Json& document, const std::string& place, std::vector<Fault>& faults) {
   for (Fault& fault : faults) {
     for (const SmallerUnit& unit : kSmallerUnits) {
-      if (fault.place != fmt::format("{}:{}", file, unit.pointer)) continue;
+      if (fault.place != place + std::string(unit.pointer)) continue;
       const Json::json_pointer pointer{std::string(unit.pointer)};
       if (!document.contains(pointer) || !document.at(pointer).is_number()) continue;
       const double value = document.at(pointer).get<double>();
@@ -157,16 +157,22 @@ void name_units(const Json& document, const std::string& file, std::vector<Fault
 }
 
 /// Replaces the message of a fault about the drive `rear_wheel`, whose nearest name would mislead.
-void name_rear_wheel_drive(const Json& document, const std::string& file,
+void name_rear_wheel_drive(const Json& document, const std::string& place,
                            std::vector<Fault>& faults) {
   const Json::json_pointer pointer{"/drive"};
   if (!document.contains(pointer) || document.at(pointer) != kRearWheelDrive) return;
   for (Fault& fault : faults) {
-    if (fault.place == fmt::format("{}:/drive", file)) fault.message = kNoRearWheelDrive;
+    if (fault.place == place + "/drive") fault.message = kNoRearWheelDrive;
   }
 }
 
 }  // namespace
+
+void explain_vehicle_faults(const Json& vehicle, const std::string& place,
+                            std::vector<Fault>& faults) {
+  name_units(vehicle, place, faults);
+  name_rear_wheel_drive(vehicle, place, faults);
+}
 
 Vehicle vehicle_from_json(JsonObject& json) {
   Vehicle vehicle;
@@ -249,8 +255,7 @@ Result<Vehicle> read_vehicle(const std::filesystem::path& path) {
   std::vector<Fault> faults;
   JsonObject root(json, path.string(), "", faults);
   Vehicle vehicle = vehicle_from_json(root);
-  name_units(json, path.string(), faults);
-  name_rear_wheel_drive(json, path.string(), faults);
+  explain_vehicle_faults(json, path.string() + ":", faults);
   if (!faults.empty()) return input_errors(std::move(faults));
   return vehicle;
 }
