@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 #include "awmr/core/file.h"
+#include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/tune/option_table.h"
@@ -31,16 +35,71 @@ Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
   return tune(model, options);
 }
 
+/// Checks that no option contradicts tune.json. Errors (input, `conflict`): those of
+/// check_observer_choice(); `--nominal`, with a key about drawn vehicles; `--draws`, with the key
+/// `nominal`.
+Status check_against(const TuneConfig& config, const TuneCommand& command) {
+  const TuneOptions& options = config.options;
+  AWMR_RETURN_IF_ERROR(check_observer_choice(
+      command.observer, options, command.observer == false ? "--no-observer" : "--observer"));
+  if (command.draws && options.nominal) {
+    return input_error(
+        ErrorCode::kConflict, "--draws",
+        "the configuration (--config) sets nominal, which uses no draws; remove --draws or "
+        "nominal");
+  }
+  if (!command.nominal) return {};
+  for (const auto& [key, draws] :
+       {std::pair("draws", options.draws != 0),
+        std::pair("judged_draws", options.evaluation_draws != 0), std::pair("tail_share", true)}) {
+    if (!draws || !config.keys.contains(key)) continue;
+    return input_error(ErrorCode::kConflict, "--nominal",
+                       fmt::format("the configuration (--config) has the key {0}, which needs "
+                                   "randomly drawn vehicles; remove --nominal or {0}",
+                                   key));
+  }
+  return {};
+}
+
+/// Returns the note `option-overrides` for each option that replaces another value in tune.json.
+std::vector<Finding> overridden_keys(const TuneConfig& config, const TuneCommand& command) {
+  std::vector<Finding> findings;
+  const auto note = [&](const char* key, const std::string& before, const std::string& now) {
+    if (!config.keys.contains(key) || before == now) return;
+    findings.push_back(
+        {command.config->string(), 0, Severity::kNote, "option-overrides",
+         fmt::format("{} {} replaces {} of this file", option_text(key), now, before)});
+  };
+  const TuneOptions& options = config.options;
+  if (command.mode) {
+    note("mode", std::string(options.mode ? name_of(*options.mode) : ""),
+         std::string(name_of(*command.mode)));
+  }
+  if (command.draws)
+    note("draws", fmt::format("{}", options.draws), fmt::format("{}", *command.draws));
+  if (command.baseline) {
+    note("baseline", options.baseline ? options.baseline->source : std::string(kPolePlacement),
+         command.baseline->string());
+  }
+  return findings;
+}
+
+/// tune.json with the command-line options, which override it.
+struct ChosenConfig {
+  TuneConfig config;
+  std::vector<Finding> findings;  ///< overridden_keys()
+};
+
 /// Reads the tune.json of `--config`. Then applies the other command-line options, which override
 /// the values in that file. `--allocation` also changes `model`.
-Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
+Result<ChosenConfig> config_of(const TuneCommand& command, Model& model) {
   TuneConfig config;
   if (command.config) {
     AWMR_ASSIGN_OR_RETURN(config, read_tune_config(*command.config));
   }
+  AWMR_RETURN_IF_ERROR(check_against(config, command));
+  const std::vector<Finding> findings = overridden_keys(config, command);
   TuneOptions& options = config.options;
-  AWMR_RETURN_IF_ERROR(check_observer_choice(
-      command.observer, options, command.observer == false ? "--no-observer" : "--observer"));
   choose_observer(command.observer, options);
   if (options.scenarios.empty()) {
     AWMR_ASSIGN_OR_RETURN(options.scenarios,
@@ -50,12 +109,6 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
   AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, options.scenarios));
   if (command.nominal) options.nominal = true;
   if (command.mode) options.mode = command.mode;
-  if (command.draws && options.nominal) {
-    return input_error(
-        ErrorCode::kConflict, "--draws",
-        "the configuration (--config) sets nominal, which uses no draws; remove --draws or "
-        "nominal");
-  }
   if (command.draws) options.draws = *command.draws;
   if (command.baseline) {
     AWMR_ASSIGN_OR_RETURN(options.baseline, baseline_named(*command.baseline));
@@ -64,7 +117,7 @@ Result<TuneConfig> config_of(const TuneCommand& command, Model& model) {
       config.baseline_file = *command.baseline;
     }
   }
-  return config;
+  return ChosenConfig{std::move(config), findings};
 }
 
 std::vector<fs::path> inputs_of(const TuneCommand& command, const TuneConfig& config) {
@@ -127,12 +180,14 @@ void add_draws(CLI::App& sub, TuneCommand& command, CLI::Option* nominal) {
 
 Result<Outcome> execute(const TuneCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
-  AWMR_ASSIGN_OR_RETURN(const TuneConfig config, config_of(command, model));
+  AWMR_ASSIGN_OR_RETURN(const ChosenConfig chosen, config_of(command, model));
+  const TuneConfig& config = chosen.config;
   const std::vector<fs::path> inputs = inputs_of(command, config);
   AWMR_RETURN_IF_ERROR(check_output(command.output, inputs));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, inputs));
   AWMR_ASSIGN_OR_RETURN(const Tuning tuning, tune_with_progress(model, config.options));
-  std::vector<Finding> findings = tune_findings(model, config.options, tuning);
+  std::vector<Finding> findings = chosen.findings;
+  std::ranges::move(tune_findings(model, config.options, tuning), std::back_inserter(findings));
   if (config.baseline_file) {
     AWMR_RETURN_IF_ERROR(
         note_other_model(*config.baseline_file, command.model, findings, config.options.mode));

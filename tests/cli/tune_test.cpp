@@ -71,6 +71,29 @@ TEST_F(TunedGains, TakeTheBaselinesThatTheProgramKnowsByName) {
   EXPECT_EQ(gains().at("baseline").at("source"), "pole-placement");
 }
 
+TEST_F(TunedGains, OptionsReplaceTheKeysOfTheConfigurationWithANote) {
+  Json config = Json::parse(read_all(path("tune.json")));
+  config["mode"] = "steering";
+  write_all(path("steering.json"), config.dump());
+  const std::string start = "tune --model " + path("model.json") + " --config ";
+  const std::string end = " --mode combined -o " + path("gains.json");
+  const ProcessResult run = awmr(start + path("steering.json") + end);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(gains().at("mode"), "combined");
+  const Json note = gains().at("findings").front();
+  EXPECT_EQ(note.at("code"), "option-overrides");
+  EXPECT_EQ(note.at("severity"), "note");
+  EXPECT_EQ(note.at("message"), "--mode combined replaces steering of this file");
+}
+
+TEST_F(TunedGains, RefuseANominalSearchWithDrawsInTheConfiguration) {
+  const ProcessResult run = tune("--nominal");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("--nominal: "));
+  EXPECT_THAT(run.err, HasSubstr("the key draws"));
+  EXPECT_THAT(run.err, HasSubstr("[conflict]"));
+}
+
 TEST_F(TunedGains, RefuseABaselineThatIsNoGainsFile) {
   const ProcessResult missing = tune("--baseline " + path("absent.json"));
   EXPECT_EQ(missing.exit_code, 2);

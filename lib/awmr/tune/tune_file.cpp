@@ -14,12 +14,14 @@
 namespace awmr {
 namespace {
 
-void read_weights(JsonObject json, ObjectiveWeights& weights) {
-  weight_options(weights, ReadOption{json});
+void read_weights(JsonObject& root, ObjectiveWeights& weights) {
+  auto json = root.optional_object("weights");
+  if (!json) return;
+  weight_options(weights, ReadOption{*json});
   if (!has_weight(weights)) {
-    json.fault(ErrorCode::kOutOfRange, "itae", "all weights are 0: give at least one above 0");
+    root.fault(ErrorCode::kOutOfRange, "weights", "all weights are 0: give at least one above 0");
   }
-  json.reject_unknown_keys();
+  json->reject_unknown_keys();
 }
 
 /// Raises the default numbers of drawn vehicles to a multiple of the number of combinations of
@@ -144,9 +146,7 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
   TuneConfig config;
   object.schema(kTuneSchema);
   read_search(object, config.options);
-  if (auto weights = object.optional_object("weights")) {
-    read_weights(*weights, config.options.weights);
-  }
+  read_weights(object, config.options.weights);
   if (auto bounds = object.optional_object("bounds")) {
     bound_options(config.options.bounds, ReadOption{*bounds});
     bounds->reject_unknown_keys();
@@ -166,6 +166,7 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
   read_baseline(object, directory, config, faults);
   read_scenarios(object, directory, config, faults);
   object.reject_unknown_keys();
+  for (const std::string& key : object.keys()) config.keys.insert(key);
   return config;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct TuneConfig {
   std::vector<std::filesystem::path> scenario_files;  ///< of `options.scenarios`
   /// File of `options.baseline`, if it was read from one.
   std::optional<std::filesystem::path> baseline_file = {};
+  std::set<std::string> keys = {};  ///< the keys that tune.json has
 };
 
 /// The baseline with this name: "pole-placement" (no gains, tune() computes them), "paper" or the
