@@ -13,6 +13,7 @@
 #include "awmr/model/findings_json.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/scenario_file.h"
 #include "emit_options.h"
 #include "emulator.h"
@@ -77,7 +78,8 @@ Result<Inputs> read_inputs(const PilOptions& options) {
   AWMR_ASSIGN_OR_RETURN(in.model, read_model(options.model));
   const Vehicle& vehicle = in.model.vehicle;
   AWMR_ASSIGN_OR_RETURN(in.gains, read_gains_for(options.gains, vehicle.sample_time_s));
-  AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(options.scenario));
+  AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(options.scenario));
+  scenario = equipped(vehicle, std::move(scenario));
   AWMR_RETURN_IF_ERROR(check_scenario(scenario, options.scenario.string()));
   if (options.link == cli::PilLink::kMemory) AWMR_RETURN_IF_ERROR(check_sample_time(in.model));
   AWMR_RETURN_IF_ERROR(check_mode(vehicle, options.mode));

@@ -13,6 +13,7 @@
 #include "awmr/core/file.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/scenario_file.h"
 #include "commands.h"
 #include "gains_origin.h"
@@ -51,6 +52,7 @@ struct ComparedInputs {
   Tyres<double> tyres;
   HeadingRateChoice rate;
   std::vector<Finding> findings;
+  std::string equipment;  ///< equipment_text() of the scenarios
 };
 
 Result<ComparedInputs> read_inputs(const CompareCommand& command) {
@@ -64,6 +66,8 @@ Result<ComparedInputs> read_inputs(const CompareCommand& command) {
   inputs.rate = rate_to_compare_at(command.heading_rate_limit, inputs.model);
   AWMR_RETURN_IF_ERROR(limit_heading_rate(inputs.rate, inputs.model, inputs.scenarios));
   return inputs;
+  inputs.equipment = equipment_text(inputs.model.vehicle, inputs.scenarios);
+  inputs.scenarios = equipped(inputs.model.vehicle, std::move(inputs.scenarios));
 }
 
 std::vector<fs::path> inputs_of(const CompareCommand& command) {
@@ -186,6 +190,7 @@ std::string table_of(const CompareCommand& command, const ComparedInputs& inputs
                      const Comparison& comparison) {
   std::string table =
       comparison_table(comparison, command.compare) + rate_in_words(inputs.rate, inputs.model);
+  table += inputs.equipment;
   for (const auto& [name, text] : options_of(command.plant, inputs.scenarios)) {
     table += fmt::format("{}: {}\n", name, text);
   }

@@ -12,6 +12,7 @@
 #include "awmr/model/model_file.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/report/report.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/run_side.h"
 #include "awmr/simulate/run_table.h"
 #include "awmr/simulate/scenario_file.h"
@@ -67,7 +68,8 @@ Result<std::vector<fs::path>> write_runs(const Project& project, const InputName
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(const Gains<double> tuned, read_gains(directory / "gains.json"));
   for (const fs::path& path : project.scenarios) {
-    AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(path));
+    AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(path));
+    scenario = equipped(model.vehicle, std::move(scenario));
     AWMR_ASSIGN_OR_RETURN(const std::string text, read_file(path));
     written.push_back(directory / scenario_name(path));
     AWMR_RETURN_IF_ERROR(write_file(written.back(), text, check_json_text));

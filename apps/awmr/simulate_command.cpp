@@ -12,6 +12,7 @@
 #include "awmr/core/json_document.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/run_side.h"
 #include "awmr/simulate/run_table.h"
@@ -191,6 +192,8 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_RETURN_IF_ERROR(
       limit_heading_rate(command.heading_rate_limit, model, std::span(&scenario, 1)));
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> inputs, checked_inputs(command));
+  const std::string equipment = equipment_text(model.vehicle, std::span(&scenario, 1));
+  scenario = equipped(model.vehicle, std::move(scenario));
   AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, gains_for(command, scenario, model));
   AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, command.mode));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
@@ -199,7 +202,7 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_RETURN_IF_ERROR(note_run(command, scenario, model, gains, metrics, findings));
   AWMR_ASSIGN_OR_RETURN(const Provenance provenance, provenance_of(command, scenario, inputs));
   const std::string csv = run_csv(run, scenario);
-  Outcome outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) +
+  Outcome outcome{.summary = summary_of(run, scenario, command) + figures_of(metrics) + equipment +
                              fmt::format("wrote {}\n", command.output.string()),
                   .findings = findings,
                   .document = run_side_text(

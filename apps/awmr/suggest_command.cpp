@@ -7,6 +7,7 @@
 #include "awmr/identify/planning/suggest.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
@@ -44,7 +45,8 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   AWMR_RETURN_IF_ERROR(check_mode(model.vehicle, command.mode));
   AWMR_ASSIGN_OR_RETURN(const Gains<double> gains,
                         read_gains_for(*command.gains, model.vehicle.sample_time_s));
-  AWMR_ASSIGN_OR_RETURN(const Scenario scenario, read_scenario(*command.scenario));
+  AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(*command.scenario));
+  scenario = equipped(model.vehicle, std::move(scenario));
   const Controller<double> controller = make_controller(plant, model.vehicle, gains);
   const awmr::Run own = simulate(plant, controller, scenario, command.mode,
                                  {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});

@@ -1,4 +1,5 @@
 #include "awmr/compare/compare.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
@@ -24,10 +25,10 @@ EvaluatedRun simulated(const Model& model, const Gains<double>& gains, const Sce
   const YawMode mode = value_of(kYawModeNames, mode_name, "mode");
   const py::gil_scoped_release released;
   EvaluatedRun evaluated{.run = value_or_raise(simulate(model, gains, scenario, mode)),
-                         .scenario = scenario,
+                         .scenario = equipped(model.vehicle, scenario),
                          .metrics = {}};
   const Controller<double> controller = value_or_raise(controller_for(model, gains));
-  evaluated.metrics = metrics_of(evaluated.run, scenario, controller);
+  evaluated.metrics = metrics_of(evaluated.run, evaluated.scenario, controller);
   evaluated.metrics.electric_work_j =
       electric_work_j(evaluated.metrics, model.vehicle, controller.mass_norm);
   return evaluated;

@@ -473,6 +473,33 @@ TEST(Conditions, AreThoseOfTheVehicleOrTheDefaults) {
   EXPECT_EQ(under(c, own).sensors->heading.noise, 0.0);
 }
 
+TEST(Conditions, OfTheVehicleEquipAScenarioWithoutItsOwn) {
+  const Scenario plain = default_tuning_scenario(paper_model()).value();
+  Vehicle vehicle = paper_vehicle();
+  EXPECT_FALSE(equipped(vehicle, plain).sensors);
+  EXPECT_FALSE(equipped(vehicle, plain).actuators);
+  EXPECT_EQ(equipment_text(vehicle, {&plain, 1}), "");
+  vehicle.sensors = {.heading_deg = 7.0, .speed_latency_s = 0.05, .heading_correlation_s = 0.4};
+  vehicle.motor_time_constant_s = 0.1;
+  const Scenario with = equipped(vehicle, plain);
+  EXPECT_DOUBLE_EQ(with.sensors->heading.noise, radians(7.0));
+  EXPECT_EQ(with.sensors->heading.correlation_s, 0.4);
+  EXPECT_EQ(with.sensors->speed.latency_s, 0.05);
+  // Where vehicle.json gives nothing, the sensors are exact, unlike those of conditions_of(vehicle).
+  EXPECT_EQ(with.sensors->heading.latency_s, 0.0);
+  EXPECT_EQ(with.sensors->yaw_rate.noise, 0.0);
+  EXPECT_EQ(with.actuators->motor_time_constant_s, 0.1);
+  // The scenario's own sensors and actuators are kept, each apart.
+  Scenario own = plain;
+  own.sensors = Sensors{};
+  EXPECT_EQ(equipped(vehicle, own).sensors->heading.noise, 0.0);
+  EXPECT_EQ(equipped(vehicle, own).actuators->motor_time_constant_s, 0.1);
+  // In open loop, nothing uses the sensors, but the motors still have their lag.
+  const Scenario open{.name = "open", .duration_s = 1.0, .guidance = OpenLoop{1.0, 0.0}};
+  EXPECT_FALSE(equipped(vehicle, open).sensors);
+  EXPECT_EQ(equipped(vehicle, open).actuators->motor_time_constant_s, 0.1);
+}
+
 TEST(Robust, BeatsThePapersGainsOnFreshDraws) {
   TuneOptions options = short_options();
   options.nominal = false;

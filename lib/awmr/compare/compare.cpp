@@ -17,6 +17,7 @@
 #include "awmr/core/parallel.h"
 #include "awmr/model/fitted_law.h"
 #include "awmr/simulate/batch.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -223,7 +224,8 @@ Comparison gathered(const Layout& layout, const Shard& shard, Slots slots) {
 }  // namespace
 
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
-                           const std::vector<Scenario>& scenarios, const CompareOptions& options) {
+                           const std::vector<Scenario>& as_given, const CompareOptions& options) {
+  const std::vector<Scenario> scenarios = equipped(model.vehicle, as_given);
   AWMR_RETURN_IF_ERROR(check_comparison(model, gains, scenarios, options));
   AWMR_ASSIGN_OR_RETURN(const SampledPlants plants, sample_plants(model, scenarios, options));
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());

@@ -183,6 +183,8 @@ struct Comparison {
 };
 
 /// Simulates every scenario with every mode and set of gains, on the nominal model and on samples.
+/// A scenario without sensors or actuators gets those of the vehicle (equipped() in
+/// simulate/conditions.h).
 /// For a sample, the fitted parameters are drawn from the model's covariance
 /// (simulate/plant_sampler.h); noise and disturbances are drawn with the seeds of scenario and
 /// options. All modes and gains use the same draws. The controller uses the nominal parameters. A

@@ -63,10 +63,11 @@ struct Vehicle {
 
   /// Form of the simulated controller's allocation; the firmware's is always exact.
   AllocationForm allocation = AllocationForm::kExact;
-  /// Errors of the sensors, for which gains are tuned (tune/tune.h).
+  /// Errors of the sensors, for which gains are tuned and with which runs are simulated
+  /// (simulate/conditions.h).
   SensorQuality sensors = {};
   /// Time constant of the first-order lag from the motors' command to their force, s, >= 0. Gains
-  /// are tuned for it, and log fits filter the logged commands with it. Absent: no lag, unless a
+  /// are tuned for it, runs are simulated with it, and log fits filter the logged commands with it. Absent: no lag, unless a
   /// log identifies one.
   std::optional<double> motor_time_constant_s;
   /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel, from its data

@@ -1,12 +1,26 @@
 #include "awmr/simulate/conditions.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
 #include "awmr/core/units.h"
 
 namespace awmr {
+namespace {
 
-LoopConditions conditions_of(const Vehicle& vehicle) {
+/// True if the readings of all sensors are exact. Without noise, its correlation has no effect.
+bool has_exact_sensors(const LoopConditions& c) {
+  return c.heading_noise_deg == 0.0 && c.yaw_rate_noise_degps == 0.0 && c.speed_noise_mps == 0.0 &&
+         c.heading_latency_s == 0.0 && c.yaw_rate_latency_s == 0.0 && c.speed_latency_s == 0.0;
+}
+
+}  // namespace
+
+LoopConditions conditions_of(const Vehicle& vehicle, const LoopConditions& missing) {
   const SensorQuality& sensors = vehicle.sensors;
-  LoopConditions c;
+  LoopConditions c = missing;
   c.heading_noise_deg = sensors.heading_deg.value_or(c.heading_noise_deg);
   c.yaw_rate_noise_degps = sensors.yaw_rate_degps.value_or(c.yaw_rate_noise_degps);
   c.speed_noise_mps = sensors.speed_mps.value_or(c.speed_noise_mps);
@@ -37,6 +51,49 @@ Scenario under(const LoopConditions& c, Scenario scenario) {
     scenario.actuators = Actuators{.motor_time_constant_s = c.motor_time_constant_s};
   }
   return scenario;
+}
+
+Scenario equipped(const Vehicle& vehicle, Scenario scenario) {
+  const LoopConditions given = conditions_of(vehicle, kIdealConditions);
+  const bool has_sensors = scenario.sensors.has_value();
+  const bool has_actuators = scenario.actuators.has_value();
+  scenario = under(given, std::move(scenario));
+  // Exact sensors and motors without lag are left out, as in a scenario without these keys.
+  const bool needs_no_sensors =
+      has_exact_sensors(given) || std::holds_alternative<OpenLoop>(scenario.guidance);
+  if (!has_sensors && needs_no_sensors) scenario.sensors.reset();
+  if (!has_actuators && given.motor_time_constant_s == 0.0) scenario.actuators.reset();
+  return scenario;
+}
+
+std::vector<Scenario> equipped(const Vehicle& vehicle, std::vector<Scenario> scenarios) {
+  for (Scenario& scenario : scenarios) scenario = equipped(vehicle, std::move(scenario));
+  return scenarios;
+}
+
+std::string equipment_text(const Vehicle& vehicle, std::span<const Scenario> as_given) {
+  bool adds_sensors = false;
+  bool adds_motors = false;
+  for (const Scenario& scenario : as_given) {
+    const Scenario with = equipped(vehicle, scenario);
+    adds_sensors = adds_sensors || with.sensors.has_value() != scenario.sensors.has_value();
+    adds_motors = adds_motors || with.actuators.has_value() != scenario.actuators.has_value();
+  }
+  const LoopConditions c = conditions_of(vehicle, kIdealConditions);
+  std::string text;
+  if (adds_sensors) {
+    text += fmt::format(
+        "sensors of vehicle.json (noise, latency), in scenarios without the key sensors:\n"
+        "  heading {:g} deg, {:g} s; yaw rate {:g} deg/s, {:g} s; speed {:g} m/s, {:g} s\n",
+        c.heading_noise_deg, c.heading_latency_s, c.yaw_rate_noise_degps, c.yaw_rate_latency_s,
+        c.speed_noise_mps, c.speed_latency_s);
+  }
+  if (adds_motors) {
+    text += fmt::format(
+        "motors of vehicle.json, in scenarios without the key actuators: time constant {:g} s\n",
+        c.motor_time_constant_s);
+  }
+  return text;
 }
 
 }  // namespace awmr

@@ -1,6 +1,10 @@
-/// Sensor noise, sensor latency and motor lag for the simulations in which gains are tuned. They
-/// are not part of the identified model.
+/// Sensor noise, sensor latency and motor lag of simulated runs. They are not part of the identified
+/// model.
 #pragma once
+
+#include <span>
+#include <string>
+#include <vector>
 
 #include "awmr/model/vehicle.h"
 #include "awmr/simulate/scenario.h"
@@ -24,11 +28,31 @@ struct LoopConditions {
   double motor_time_constant_s = 0.02;
 };
 
-/// Returns the conditions that vehicle.json gives. A missing condition has its default.
-LoopConditions conditions_of(const Vehicle& vehicle);
+/// Exact sensors without latency, and motors without lag.
+inline constexpr LoopConditions kIdealConditions{.heading_noise_deg = 0.0,
+                                                 .yaw_rate_noise_degps = 0.0,
+                                                 .speed_noise_mps = 0.0,
+                                                 .heading_latency_s = 0.0,
+                                                 .yaw_rate_latency_s = 0.0,
+                                                 .speed_latency_s = 0.0,
+                                                 .motor_time_constant_s = 0.0};
+
+/// Returns the conditions that vehicle.json gives. A missing condition is that of `missing`.
+LoopConditions conditions_of(const Vehicle& vehicle, const LoopConditions& missing = {});
 
 /// Returns the scenario with sensors and actuators that have these conditions. Sensors or actuators
 /// that the scenario already has are kept unchanged.
 Scenario under(const LoopConditions& conditions, Scenario scenario);
+
+/// Returns the scenario with the noise, the latency and the lag that vehicle.json gives. What
+/// vehicle.json does not give is ideal (kIdealConditions). Sensors or actuators that the scenario
+/// already has are kept unchanged, and an open-loop scenario gets no sensors. Applying the function
+/// twice has the same result as applying it once.
+Scenario equipped(const Vehicle& vehicle, Scenario scenario);
+std::vector<Scenario> equipped(const Vehicle& vehicle, std::vector<Scenario> scenarios);
+
+/// Describes the sensors and motors that equipped() adds to at least one of the scenarios, for
+/// printing; empty if it adds none.
+std::string equipment_text(const Vehicle& vehicle, std::span<const Scenario> as_given);
 
 }  // namespace awmr

@@ -11,6 +11,7 @@
 #include "awmr/core/units.h"
 #include "awmr/model/observer_rate.h"
 #include "awmr/simulate/closed_loop.h"
+#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
 
@@ -242,9 +243,10 @@ Result<Controller<double>> controller_for(const Model& model, const Gains<double
   return make_controller(nominal, model.vehicle, gains);
 }
 
-Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& as_given,
                      YawMode mode) {
   AWMR_RETURN_IF_ERROR(check_mode(model.vehicle, mode));
+  const Scenario scenario = equipped(model.vehicle, as_given);
   const Motion motion = model.simulated_motion();
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model, motion));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));

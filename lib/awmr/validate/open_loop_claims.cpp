@@ -35,6 +35,8 @@ Run run_open_loop(const Model& model, YawMode mode, OpenLoop forces, double dura
                           .initial = {},
                           .speed_mps = 0.0,
                           .guidance = forces,
+                          // As in the paper, the motors have no lag, whatever vehicle.json gives.
+                          .actuators = Actuators{},
                           .control = control};
   // Gains have no effect in open loop.
   return run_or_failed(model, kPaperGains, scenario, mode);
