@@ -22,6 +22,7 @@
 #include "progress.h"
 #include "shard_option.h"
 #include "stop_on_interrupt.h"
+#include "unstable_gains.h"
 
 namespace awmr::cli {
 namespace {
@@ -175,8 +176,7 @@ Result<std::vector<Finding>> findings_of(const CompareCommand& command,
   std::vector<Finding> findings = inputs.findings;
   for (std::size_t i = 0; i < command.gains.size(); ++i) {
     AWMR_RETURN_IF_ERROR(note_other_model(command.gains[i], command.model, findings));
-    note_unstable(inputs.gains[i].gains, inputs.model.vehicle.sample_time_s, command.gains[i],
-                  findings);
+    note_unstable(inputs.model, inputs.gains[i].gains, command.gains[i], findings);
   }
   std::ranges::move(compare_findings(inputs.model, inputs.scenarios, command.compare, comparison,
                                      command.heading_rate_limit),

@@ -25,6 +25,7 @@
 #include "gains_origin.h"
 #include "inputs.h"
 #include "option_values.h"
+#include "unstable_gains.h"
 
 namespace awmr::cli {
 namespace {
@@ -205,7 +206,7 @@ Result<Outcome> execute(const EmitCommand& command) {
   const double sample_time_s = model.vehicle.sample_time_s;
   std::ranges::move(sample_time(sample_time_s, gains, command),
                     std::back_inserter(outcome.findings));
-  note_unstable(gains, sample_time_s, command.gains, outcome.findings);
+  note_unstable(model, gains, command.gains, outcome.findings);
   if (const auto plant = model.plant(Motion::kStraight)) {
     if (auto finding =
             unsigned_speed_finding(*plant, model.vehicle, gains, command.gains.string())) {

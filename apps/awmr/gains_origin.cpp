@@ -54,22 +54,4 @@ Status note_other_model(const std::filesystem::path& gains, const std::filesyste
   return {};
 }
 
-void note_unstable(const Gains<double>& gains, double sample_time_s,
-                   const std::filesystem::path& gains_file, std::vector<Finding>& findings) {
-  // Limit of a loop's rate times the sample time. A sampled first-order loop is unstable from this
-  // value on.
-  constexpr double kMax = 2.0;
-  const double heading = gains.heading.lambda + gains.heading.mu / gains.heading.epsilon;
-  const double speed = gains.speed.mu / gains.speed.epsilon;
-  for (const auto& [name, rate] : {std::pair("lambda + mu/epsilon of the heading", heading),
-                                   std::pair("mu/epsilon of the speed", speed)}) {
-    if (rate * sample_time_s < kMax) continue;
-    findings.push_back({gains_file.string(), 0, Severity::kWarning, "unstable-gains",
-                        fmt::format("{} is {:.3g} 1/s: at a sample time of {:g} s the loop is "
-                                    "unstable if this rate is {:.3g} 1/s or more. Tune again for "
-                                    "this model (awmr tune)",
-                                    name, rate, sample_time_s, kMax / sample_time_s)});
-  }
-}
-
 }  // namespace awmr::cli

@@ -1,5 +1,4 @@
-/// Warnings about gains that were tuned for another model or mode, or that are unstable at the
-/// model's sample time.
+/// Warnings about gains that were tuned for another model or mode.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +7,6 @@
 
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/result.h"
-#include "awmr/model/gains.h"
 #include "awmr/model/record.h"
 
 namespace awmr::cli {
@@ -22,10 +20,5 @@ namespace awmr::cli {
 /// only once. Errors: those of read_json_file().
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings, std::optional<YawMode> mode = {});
-
-/// Adds the warning `unstable-gains` for each loop (heading, speed) that is unstable at this sample
-/// time, whatever the vehicle. `gains_file`: name of the file in the warnings.
-void note_unstable(const Gains<double>& gains, double sample_time_s,
-                   const std::filesystem::path& gains_file, std::vector<Finding>& findings);
 
 }  // namespace awmr::cli

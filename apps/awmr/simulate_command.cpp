@@ -22,6 +22,7 @@
 #include "gains_origin.h"
 #include "inputs.h"
 #include "option_values.h"
+#include "unstable_gains.h"
 
 namespace awmr::cli {
 namespace {
@@ -159,7 +160,7 @@ Status note_run(const SimulateCommand& command, const Scenario& scenario, const 
                 std::vector<Finding>& findings) {
   if (command.gains) {
     AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings, command.mode));
-    note_unstable(gains, model.vehicle.sample_time_s, *command.gains, findings);
+    note_unstable(model, gains, *command.gains, findings, command.mode);
   }
   std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
   if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);
@@ -191,9 +192,9 @@ Result<Outcome> execute(const SimulateCommand& command) {
   AWMR_RETURN_IF_ERROR(choose(command.plant, tyres, std::span(&scenario, 1)));
   AWMR_RETURN_IF_ERROR(
       limit_heading_rate(command.heading_rate_limit, model, std::span(&scenario, 1)));
-  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> inputs, checked_inputs(command));
   const std::string equipment = equipment_text(model.vehicle, std::span(&scenario, 1));
   scenario = equipped(model.vehicle, std::move(scenario));
+  AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> inputs, checked_inputs(command));
   AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, gains_for(command, scenario, model));
   AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains, scenario, command.mode));
   AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));

@@ -37,13 +37,9 @@ double examined_rate_radps(double share, const ConstraintContext& context) {
   return std::max(share * context.fastest_radps, kSlowest_radps);
 }
 
-/// Slope of the yaw resistance g3 at the yaw rate r, divided by I'z, 1/s:
-///   g3'(r)/I'z,   g3'(r) = a3 b3 r^(b3 - 1) + 2 q3 r
+/// Slope of the yaw resistance at the yaw rate r, divided by I'z, 1/s: g3'(r)/I'z.
 double resistance_rate(const Plant<double>& plant, double rate_radps) {
-  const Resistance<double>& g3 = plant.yaw;
-  return (g3.alpha * g3.beta * std::pow(rate_radps, g3.beta - 1.0) +
-          2.0 * g3.quadratic * rate_radps) /
-         plant.inertia_norm;
+  return slope(plant.yaw, rate_radps) / plant.inertia_norm;
 }
 
 /// A plant and a yaw rate at which its heading loop is examined.
@@ -193,6 +189,10 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
 }
 
 }  // namespace
+
+double slope(const Resistance<double>& g, double w) {
+  return g.alpha * g.beta * std::pow(w, g.beta - 1.0) + 2.0 * g.quadratic * w;
+}
 
 Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle) {
   return forces_beyond_dead_zone(vehicle.wheel_force, vehicle.plant.wheel_dead_zone);

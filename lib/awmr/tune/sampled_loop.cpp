@@ -125,13 +125,21 @@ Eigen::MatrixXd closed_loop(const SampledHeadingLoop& loop) {
   return closed;
 }
 
+double smallest_damping(const Eigen::MatrixXd& closed) {
+  double worst = 1.0;
+  for (const auto& z : eigenvalues(closed)) worst = std::min(worst, pole_of(z).damping);
+  return worst;
+}
+
 }  // namespace
 
-double damping_ratio(const SampledHeadingLoop& loop) {
-  const Eigen::VectorXcd poles = eigenvalues(closed_loop(loop));
-  double worst = 1.0;
-  for (const std::complex<double>& z : poles) worst = std::min(worst, pole_of(z).damping);
-  return worst;
+double damping_ratio(const SampledHeadingLoop& loop) { return smallest_damping(closed_loop(loop)); }
+
+double speed_damping_ratio(const SampledHeadingLoop& loop) {
+  // The first state, psi, acts on no other state if lambda = 0.
+  const Eigen::MatrixXd closed = closed_loop(loop);
+  const Eigen::Index states = closed.rows() - 1;
+  return smallest_damping(closed.bottomRightCorner(states, states));
 }
 
 namespace {

@@ -1,0 +1,95 @@
+#include "awmr/tune/loop_stability.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "awmr/core/units.h"
+#include "awmr/simulate/conditions.h"
+#include "awmr/simulate/scenario.h"
+#include "awmr/tune/constraints.h"
+#include "awmr/tune/tuning_context.h"
+
+namespace awmr {
+namespace {
+
+/// Returns the loop with motor lag and latency.
+SampledHeadingLoop with_lags(SampledHeadingLoop loop, double motor_time_constant_s,
+                             double latency_s) {
+  loop.motor_time_constant_s = motor_time_constant_s;
+  loop.command_delay_s = latency_s;
+  return loop;
+}
+
+/// True if the heading loop is stable. delay_margin_s() takes the same time for every latency; the
+/// poles of a loop with a latency of many samples take long.
+bool is_stable(const SampledHeadingLoop& loop) {
+  SampledHeadingLoop prompt = loop;
+  prompt.command_delay_s = 0.0;
+  return damping_ratio(prompt) > 0.0 && loop.command_delay_s < delay_margin_s(prompt);
+}
+
+std::optional<UnstableLoop> unstable_heading(const Gains<double>& gains,
+                                             const ConstraintContext& context, YawMode mode) {
+  for (const double share : kRateShares) {
+    const double rate_radps = std::max(share * context.fastest_radps, kSlowest_radps);
+    const SampledHeadingLoop loop =
+        with_lags(heading_loop(gains, context, context.plant, rate_radps, mode),
+                  context.motor_time_constant_s, context.latency_s);
+    if (is_stable(loop)) continue;
+    return UnstableLoop{
+        fmt::format("heading loop in mode {} at {:.3g} deg/s", name_of(mode), degrees(rate_radps)),
+        "lambda + mu/epsilon", loop.lambda + loop.reaching_rate};
+  }
+  return std::nullopt;
+}
+
+/// Slope of surge resistance and back-EMF of n driven wheels at the speed u, divided by m', 1/s:
+/// (g1'(u) + n k_e)/m'.
+double surge_rate(const Plant<double>& plant, double speed_mps) {
+  return (slope(plant.surge, speed_mps) + driven_wheels(plant) * plant.back_emf_s_per_m) /
+         plant.mass_norm;
+}
+
+/// The speed loop at the speed of the context, without latency and motor lag.
+SampledHeadingLoop sampled_speed_loop(const Gains<double>& gains,
+                                      const ConstraintContext& context) {
+  const double resistance_rate = surge_rate(context.plant, context.speed_mps);
+  return {.reaching_rate = gains.speed.mu / gains.speed.epsilon,
+          .resistance_rate = resistance_rate,
+          .fed_forward_rate = resistance_rate,
+          .servo_time_constant_s = context.plant.steering_time_constant_s,
+          .sample_time_s = context.sample_time_s,
+          .direct_share = 1.0,
+          .observer_radps = gains.observer.bandwidth_radps};
+}
+
+}  // namespace
+
+std::vector<UnstableLoop> unstable_loops(const Model& model, const Gains<double>& gains,
+                                         std::optional<YawMode> mode) {
+  const auto plant = model.plant();
+  const auto scenario = default_tuning_scenario(model);
+  if (!plant || !scenario) return {};
+  const LoopConditions conditions = conditions_of(model.vehicle, kIdealConditions);
+  ConstraintContext context = context_of({}, *plant, model.vehicle, {*scenario});
+  add_conditions(conditions, context);
+  std::vector<UnstableLoop> unstable;
+  for (const YawMode one : yaw_modes(model.vehicle)) {
+    if (mode && one != *mode) continue;
+    const auto loop = unstable_heading(gains, context, one);
+    if (!loop) continue;
+    unstable.push_back(*loop);
+    break;
+  }
+  const SampledHeadingLoop speed =
+      with_lags(sampled_speed_loop(gains, context),
+                context.motor_time_constant_s, conditions.speed_latency_s);
+  if (!(speed_damping_ratio(speed) > 0.0)) {
+    unstable.push_back({fmt::format("speed loop at {:.3g} m/s", context.speed_mps), "mu_s/epsilon_s",
+                        speed.reaching_rate});
+  }
+  return unstable;
+}
+
+}  // namespace awmr

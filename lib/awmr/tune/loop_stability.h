@@ -1,0 +1,32 @@
+/// Stability of the heading and the speed loop of a vehicle with given gains: linearised and
+/// sampled, with latency and motor lag.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "awmr/control/yaw_mode.h"
+#include "awmr/model/gains.h"
+#include "awmr/model/model.h"
+
+namespace awmr {
+
+/// A loop that is unstable.
+struct UnstableLoop {
+  /// Name and operating point, such as "heading loop in mode steering at 12 deg/s".
+  std::string name;
+  std::string rate_name;    ///< formula of the rate of its law, such as "mu/epsilon"
+  double rate_per_s = 0.0;  ///< value of this formula, 1/s
+};
+
+/// Returns the unstable loops of the identified vehicle: at most one heading loop and the speed
+/// loop. The loops are those that `tune` examines (SampledHeadingLoop), linearised with the
+/// resistances of the model, at the yaw rates and the speed of the default tuning scenario. Sample
+/// time, latency and motor lag are those of vehicle.json; latency and lag that it does not give are
+/// 0. `mode`: the mode in which the gains are used; absent: all modes of the vehicle. Returns
+/// nothing if the model lacks a parameter of these loops.
+std::vector<UnstableLoop> unstable_loops(const Model& model, const Gains<double>& gains,
+                                         std::optional<YawMode> mode = {});
+
+}  // namespace awmr
