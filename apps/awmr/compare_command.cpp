@@ -52,8 +52,8 @@ struct ComparedInputs {
   std::vector<Scenario> scenarios;
   Tyres<double> tyres;
   HeadingRateChoice rate;
-  std::vector<Finding> findings;
   std::string equipment;  ///< equipment_text() of the scenarios
+  std::vector<Finding> findings;
 };
 
 Result<ComparedInputs> read_inputs(const CompareCommand& command) {
@@ -66,9 +66,9 @@ Result<ComparedInputs> read_inputs(const CompareCommand& command) {
   AWMR_RETURN_IF_ERROR(choose(command.plant, inputs.tyres, inputs.scenarios));
   inputs.rate = rate_to_compare_at(command.heading_rate_limit, inputs.model);
   AWMR_RETURN_IF_ERROR(limit_heading_rate(inputs.rate, inputs.model, inputs.scenarios));
-  return inputs;
   inputs.equipment = equipment_text(inputs.model.vehicle, inputs.scenarios);
   inputs.scenarios = equipped(inputs.model.vehicle, std::move(inputs.scenarios));
+  return inputs;
 }
 
 std::vector<fs::path> inputs_of(const CompareCommand& command) {
@@ -208,8 +208,10 @@ Result<Outcome> whole_outcome(const CompareCommand& command, const ComparedInput
                               const Comparison& comparison, const Provenance& provenance,
                               const std::vector<Finding>& findings) {
   Outcome outcome{.brief = table_of(command, inputs, comparison),
-                  .findings = extrapolation_findings(comparison, provenance),
+                  .findings = completion_findings(comparison),
                   .document = comparison_text(comparison, command.compare, provenance)};
+  std::ranges::move(extrapolation_findings(comparison, provenance),
+                    std::back_inserter(outcome.findings));
   std::ranges::copy(findings, std::back_inserter(outcome.findings));
   put_findings_into_document(outcome);
   AWMR_RETURN_IF_ERROR(write_comparison(command.output, comparison, outcome.document));

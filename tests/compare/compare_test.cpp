@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "awmr/compare/compare_findings.h"
 #include "awmr/core/json.h"
 #include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
@@ -101,6 +102,70 @@ TEST(Compare, NoiseOfSampleZeroDoesNotDependOnTheSeed) {
   const Comparison two = compared({.samples = 1, .seed = 2, .threads = 1}, {noisy});
   EXPECT_EQ(one.rows[0].metrics.heading_iae_degs, two.rows[0].metrics.heading_iae_degs);
   EXPECT_NE(one.rows[1].metrics.heading_iae_degs, two.rows[1].metrics.heading_iae_degs);
+}
+
+TEST(Compare, SimulatesTheSensorsAndMotorsOfTheVehicle) {
+  Model model = uncertain_model();
+  model.vehicle.sensors = {.heading_deg = 2.0, .yaw_rate_latency_s = 0.03};
+  model.vehicle.motor_time_constant_s = 0.05;
+  Scenario given = short_heading();
+  given.sensors.emplace();
+  given.sensors->heading.noise = radians(2.0);
+  given.sensors->yaw_rate.latency_s = 0.03;
+  given.actuators.emplace().motor_time_constant_s = 0.05;
+  Scenario exact = short_heading();
+  exact.sensors.emplace();
+  exact.actuators.emplace();
+  const CompareOptions options{.samples = 1, .seed = 1, .threads = 1};
+  const auto iae_of = [&](const Model& of, const Scenario& scenario) {
+    std::vector<double> iae;
+    const Comparison comparison = compare(of, kPaperGains, {scenario}, options).value();
+    for (const ComparisonRow& row : comparison.rows) {
+      iae.push_back(row.metrics.heading_iae_degs.value());
+    }
+    return iae;
+  };
+  const Model plain = uncertain_model();
+  EXPECT_EQ(iae_of(model, short_heading()), iae_of(plain, given));
+  // The sensors and actuators of a scenario replace those of the vehicle.
+  EXPECT_EQ(iae_of(model, exact), iae_of(plain, short_heading()));
+  EXPECT_NE(iae_of(model, short_heading()), iae_of(plain, short_heading()));
+  // simulate() drives the vehicle in the same way.
+  const auto run = simulate(model, kPaperGains, short_heading(), YawMode::kCombined).value();
+  const auto same = simulate(plain, kPaperGains, given, YawMode::kCombined).value();
+  EXPECT_EQ(run.rows.back().state.psi_rad, same.rows.back().state.psi_rad);
+  EXPECT_EQ(run.rows.back().measured.psi_rad, same.rows.back().measured.psi_rad);
+}
+
+TEST(Compare, ReportsAModeThatCompletesNoRunUnderAChange) {
+  const auto row = [](YawMode mode, bool completed) {
+    ComparisonRow one{.scenario = "path", .mode = mode, .metrics = {}};
+    one.metrics.completed = completed;
+    return one;
+  };
+  Comparison comparison{.rows = {row(YawMode::kDifferential, true), row(YawMode::kSteering, false),
+                                 row(YawMode::kCombined, true)}};
+  const auto change = [](ChangeKind kind, const char* setting) {
+    return Change{.scenario = "path",
+                  .kind = kind,
+                  .setting = setting,
+                  .first = {},
+                  .completed = {{{YawMode::kDifferential, ""}, 0, 1},
+                                {{YawMode::kSteering, ""}, 0, 1},
+                                {{YawMode::kCombined, ""}, 1, 1}}};
+  };
+  EXPECT_TRUE(completion_findings(comparison).empty());
+  comparison.changes = {change(ChangeKind::kPlant, "four-wheel"),
+                        change(ChangeKind::kGains, "faster")};
+  const std::vector<Finding> findings = completion_findings(comparison);
+  ASSERT_EQ(findings.size(), 2U);
+  for (const Finding& finding : findings) {
+    EXPECT_EQ(finding.code, "incomplete-if-changed");
+    EXPECT_EQ(finding.severity, Severity::kWarning);
+    // Steering completes no run without the change either.
+    EXPECT_THAT(finding.message, HasSubstr("0 of 1 runs are completed by differential, so"));
+  }
+  EXPECT_THAT(findings.front().message, HasSubstr("path: on the four-wheel plant, "));
 }
 
 TEST(Compare, ASampleIsTheSameVehicleInEveryScenarioAndMode) {

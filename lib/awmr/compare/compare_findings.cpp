@@ -1,12 +1,14 @@
 #include "awmr/compare/compare_findings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "awmr/compare/decision.h"
 #include "awmr/core/option_text.h"
 
 namespace awmr {
@@ -63,6 +65,37 @@ std::vector<Finding> compare_findings(const Model& model, const std::vector<Scen
   note_samples(options, comparison, findings);
   if (auto finding = heading_rate_not_limited(rate, model)) findings.push_back(*std::move(finding));
   note_scrub(model, findings);
+  return findings;
+}
+
+std::vector<Finding> completion_findings(const Comparison& comparison) {
+  std::vector<Finding> findings;
+  const auto is_drawn = [](const ComparisonRow& row) { return row.sample > 0; };
+  const bool has_drawn = std::ranges::any_of(comparison.rows, is_drawn);
+  for (const Change& change : comparison.changes) {
+    std::vector<std::string> labels;
+    std::size_t runs = 0;
+    for (const Completion& one : change.completed) {
+      const auto completes = [&](const ComparisonRow& row) {
+        return row.scenario == change.scenario && is_drawn(row) == has_drawn &&
+               Contender{row.mode, row.gains} == one.contender && row.metrics.completed;
+      };
+      if (one.count > 0 || std::ranges::none_of(comparison.rows, completes)) continue;
+      labels.push_back(one.contender.label());
+      runs = one.of;
+    }
+    if (labels.empty()) continue;
+    findings.push_back(
+        {"", 0, Severity::kWarning, "incomplete-if-changed",
+         fmt::format(
+             "{}: {}, 0 of {} runs are completed by {}, so the ranking may not hold for the "
+             "vehicle. {}",
+             change.scenario, text_of(change), runs, fmt::join(labels, " and "),
+             change.kind == ChangeKind::kPlant
+                 ? "Find out which plant describes it: validate both with logs (awmr "
+                   "validate --tyres)"
+                 : "Tune again, or give a longer scenario")});
+  }
   return findings;
 }
 

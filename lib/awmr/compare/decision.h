@@ -80,6 +80,9 @@ Decision decide(const ScenarioRows& scenario, const ScenarioStatistics& statisti
                 const std::vector<RankedMode>& ranking, const std::vector<Change>& changes,
                 const Preferences& preferences, std::uint64_t seed);
 
+/// Text of a change, such as "on the four-wheel plant".
+std::string text_of(const Change& change);
+
 /// Verdict on a scenario in one sentence: the best mode, how far the others are behind, and how
 /// robust the result is. A single mode of rank 1 is called "ahead here" instead of "best" if it
 /// does not keep rank 1 with another plant, other weights or other gains.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -202,7 +204,9 @@ Result<Merged> merge_shards(const std::vector<std::filesystem::path>& directorie
   merged.comparison.changes = payload.changes;
   AWMR_ASSIGN_OR_RETURN(merged.comparison.rows, rows_of(parts, payload.samples + 1));
   AWMR_RETURN_IF_ERROR(check_groups(merged.comparison.rows, at(payload.samples) + 1));
-  merged.findings = extrapolation_findings(merged.comparison, merged.provenance);
+  merged.findings = completion_findings(merged.comparison);
+  std::ranges::move(extrapolation_findings(merged.comparison, merged.provenance),
+                    std::back_inserter(merged.findings));
   merged.findings.insert(merged.findings.end(), payload.findings.begin(), payload.findings.end());
   return merged;
 }

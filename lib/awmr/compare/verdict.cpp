@@ -162,18 +162,6 @@ std::string listed(const std::vector<Contender>& contenders) {
   return labels.empty() ? "none" : fmt::format("{}", fmt::join(labels, " and "));
 }
 
-std::string in_words(const Change& change) {
-  switch (change.kind) {
-    case ChangeKind::kPlant:
-      return fmt::format("on the {} plant", change.setting);
-    case ChangeKind::kWeights:
-      return fmt::format("with all weights {}", change.setting);
-    case ChangeKind::kGains:
-      return fmt::format("with gains {:.1f} times {}", kGainsFactor, change.setting);
-  }
-  return {};
-}
-
 /// Text such as "; differential completed 0 of 1 on the four-wheel plant": names the modes that
 /// complete no run under a change.
 std::string incomplete_in_words(const std::vector<Change>& changes) {
@@ -187,8 +175,8 @@ std::string incomplete_in_words(const std::vector<Change>& changes) {
       runs = one.of;
     }
     if (labels.empty()) continue;
-    text += fmt::format("; {} completed 0 of {} {}", fmt::join(labels, " and "), runs,
-                        in_words(change));
+    text +=
+        fmt::format("; {} completed 0 of {} {}", fmt::join(labels, " and "), runs, text_of(change));
   }
   return text;
 }
@@ -215,16 +203,17 @@ std::string decision_text(const Decision& decision) {
   std::vector<std::string> words;
   for (const Change& change : decision.changes) {
     if (!is_undecided) {
-      words.push_back(in_words(change));
+      words.push_back(text_of(change));
     } else if (!std::ranges::is_permutation(change.first, decision.first)) {
-      words.push_back(fmt::format("{} first {}", listed(change.first), in_words(change)));
+      words.push_back(fmt::format("{} first {}", listed(change.first), text_of(change)));
     }
   }
   const bool differ = decision.kind() != DecisionKind::kDecided;
   const std::string trials = differ ? trials_in_words(decision.deciding_trials()) : "";
   const std::string incomplete = incomplete_in_words(decision.changes) + narrow_text(decision);
   if (is_undecided) {
-    return fmt::format("; undecided: {}{}{}", fmt::join(words, ", "), incomplete, trials);
+    return fmt::format("; undecided{}{}{}{}", words.empty() ? "" : ": ", fmt::join(words, ", "),
+                       incomplete, trials);
   }
   return fmt::format("; {} a first place {}{}{}",
                      listed(never_behind) + (never_behind.size() == 1 ? " keeps" : " keep"),
@@ -232,6 +221,18 @@ std::string decision_text(const Decision& decision) {
 }
 
 }  // namespace
+
+std::string text_of(const Change& change) {
+  switch (change.kind) {
+    case ChangeKind::kPlant:
+      return fmt::format("on the {} plant", change.setting);
+    case ChangeKind::kWeights:
+      return fmt::format("with all weights {}", change.setting);
+    case ChangeKind::kGains:
+      return fmt::format("with gains {:.1f} times {}", kGainsFactor, change.setting);
+  }
+  return {};
+}
 
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
                        const std::optional<Decision>& decision,

@@ -33,6 +33,7 @@ constexpr CodeEffect kEffects[] = {
     {"result-without-origin", Effect::kWithdrawn},
     {"log-of-the-fit", Effect::kWithdrawn},
     {"unstable-gains", Effect::kWithdrawn},
+    {"incomplete-if-changed", Effect::kWithdrawn},
     {"table-contradiction", Effect::kContradiction},
     {"log-contradiction", Effect::kContradiction},
     {"contradiction", Effect::kContradiction},
