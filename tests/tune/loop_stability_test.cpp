@@ -44,7 +44,8 @@ double growth_with_latency(const SampledHeadingLoop& loop, std::size_t n) {
   double log_size = 0.0;
   constexpr int kSamples = 4000;
   for (int j = 0; j < kSamples; ++j) {
-    const double next = phi * x.back() + gamma * (loop.fed_forward_rate - loop.reaching_rate) * x.front();
+    const double next =
+        phi * x.back() + gamma * (loop.fed_forward_rate - loop.reaching_rate) * x.front();
     x.erase(x.begin());
     x.push_back(next);
     double size = 0.0;

@@ -105,8 +105,8 @@ struct Manoeuvre {
   double hold_s;
 };
 
-Result<Manoeuvre> manoeuvre_for(const Model& model) {
-  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+/// The manoeuvre with the time that the turn takes, without the decay of the error after it.
+Manoeuvre turn_for(const Model& model, const Plant<double>& plant) {
   const double speed_mps = speed_for(model, plant);
   const auto hold_for = [&](double step_deg) {
     return kHoldOverTurn * turning_time_s(model, plant, speed_mps, radians(2.0 * step_deg));
@@ -118,22 +118,35 @@ Result<Manoeuvre> manoeuvre_for(const Model& model) {
   const double hold_s =
       std::clamp(std::round(hold_for(step_deg) / kShortestHold_s) * kShortestHold_s,
                  kShortestHold_s, kLongestHold_s);
-  const Scenario scenario =
-      heading_steps({step_deg, -step_deg}, {.hold_s = hold_s, .speed_mps = speed_mps});
-  const double settled_s = turning_time_s(model, plant, speed_mps, radians(2.0 * step_deg)) +
-                           decay_time_s(model, plant, scenario);
-  return Manoeuvre{speed_mps, step_deg,
-                   std::max(hold_s, std::min(std::ceil(settled_s), kLongestDecay_s))};
+  return {speed_mps, step_deg, hold_s};
 }
 
-}  // namespace
-
-Result<Scenario> default_tuning_scenario(const Model& model) {
-  AWMR_ASSIGN_OR_RETURN(const Manoeuvre m, manoeuvre_for(model));
+Scenario scenario_of(const Manoeuvre& m) {
   return heading_steps({m.step_deg, -m.step_deg},
                        {.hold_s = m.hold_s,
                         .speed_mps = m.speed_mps,
                         .name = fmt::format("heading_{:g}_{:g}", m.step_deg, -m.step_deg)});
+}
+
+Result<Manoeuvre> manoeuvre_for(const Model& model) {
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  Manoeuvre m = turn_for(model, plant);
+  const double settled_s = turning_time_s(model, plant, m.speed_mps, radians(2.0 * m.step_deg)) +
+                           decay_time_s(model, plant, scenario_of(m));
+  m.hold_s = std::max(m.hold_s, std::min(std::ceil(settled_s), kLongestDecay_s));
+  return m;
+}
+
+}  // namespace
+
+Result<Scenario> examined_scenario(const Model& model) {
+  AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
+  return scenario_of(turn_for(model, plant));
+}
+
+Result<Scenario> default_tuning_scenario(const Model& model) {
+  AWMR_ASSIGN_OR_RETURN(const Manoeuvre m, manoeuvre_for(model));
+  return scenario_of(m);
 }
 
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,

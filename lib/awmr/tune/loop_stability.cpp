@@ -69,7 +69,7 @@ SampledHeadingLoop sampled_speed_loop(const Gains<double>& gains,
 std::vector<UnstableLoop> unstable_loops(const Model& model, const Gains<double>& gains,
                                          std::optional<YawMode> mode) {
   const auto plant = model.plant();
-  const auto scenario = default_tuning_scenario(model);
+  const auto scenario = examined_scenario(model);
   if (!plant || !scenario) return {};
   const LoopConditions conditions = conditions_of(model.vehicle, kIdealConditions);
   ConstraintContext context = context_of({}, *plant, model.vehicle, {*scenario});
@@ -83,11 +83,11 @@ std::vector<UnstableLoop> unstable_loops(const Model& model, const Gains<double>
     break;
   }
   const SampledHeadingLoop speed =
-      with_lags(sampled_speed_loop(gains, context),
-                context.motor_time_constant_s, conditions.speed_latency_s);
+      with_lags(sampled_speed_loop(gains, context), context.motor_time_constant_s,
+                conditions.speed_latency_s);
   if (!(speed_damping_ratio(speed) > 0.0)) {
-    unstable.push_back({fmt::format("speed loop at {:.3g} m/s", context.speed_mps), "mu_s/epsilon_s",
-                        speed.reaching_rate});
+    unstable.push_back({fmt::format("speed loop at {:.3g} m/s", context.speed_mps),
+                        "mu_s/epsilon_s", speed.reaching_rate});
   }
   return unstable;
 }

@@ -19,6 +19,11 @@ namespace awmr {
 ConstraintContext context_of(const TuneOptions& options, const Plant<double>& plant,
                              const Vehicle& vehicle, const std::vector<Scenario>& scenarios);
 
+/// default_tuning_scenario(), but its duration does not include the decay of the heading error,
+/// which takes long to compute. For context_of(), which does not use the duration. Errors (input):
+/// those of Model::plant().
+Result<Scenario> examined_scenario(const Model& model);
+
 /// Adds noise, latency and motor lag to the context.
 void add_conditions(const LoopConditions& conditions, ConstraintContext& context);
 
