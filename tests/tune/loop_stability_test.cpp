@@ -114,8 +114,8 @@ TEST(UnstableLoops, CountTheResistanceOfTheVehicle) {
 
 TEST(UnstableLoops, CountTheLatencyOfTheVehicle) {
   // With little resistance, the open heading loop is (7.2 s + 12.5)/s^2: lambda + k = 7.2 1/s and
-  // lambda k = 12.5 1/s^2. Its gain is 1 at 7.4 rad/s, with a phase margin of 1.34 rad, so its delay
-  // margin is 0.18 s, less half a sample of 0.01 s.
+  // lambda k = 12.5 1/s^2. Its gain is 1 at 7.4 rad/s, with a phase margin of 1.34 rad, so its
+  // delay margin is 0.18 s, less half a sample of 0.01 s.
   Model model = paper_model();
   model[ParameterId::kYawAlpha].value = 0.0003;
   const auto unstable_at = [&](double heading_s, double speed_s) {

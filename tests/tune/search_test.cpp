@@ -485,7 +485,8 @@ TEST(Conditions, OfTheVehicleEquipAScenarioWithoutItsOwn) {
   EXPECT_DOUBLE_EQ(with.sensors->heading.noise, radians(7.0));
   EXPECT_EQ(with.sensors->heading.correlation_s, 0.4);
   EXPECT_EQ(with.sensors->speed.latency_s, 0.05);
-  // Where vehicle.json gives nothing, the sensors are exact, unlike those of conditions_of(vehicle).
+  // Where vehicle.json gives nothing, the sensors are exact, unlike those of
+  // conditions_of(vehicle).
   EXPECT_EQ(with.sensors->heading.latency_s, 0.0);
   EXPECT_EQ(with.sensors->yaw_rate.noise, 0.0);
   EXPECT_EQ(with.actuators->motor_time_constant_s, 0.1);

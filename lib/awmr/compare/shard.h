@@ -27,7 +27,8 @@ struct Merged {
   /// Options of the parts. Only samples, seed and preferences are set.
   CompareOptions options;
   Provenance provenance;
-  /// completion_findings() and extrapolation_findings() of all runs, then the findings of the first part.
+  /// completion_findings() and extrapolation_findings() of all runs, then the findings of the first
+  /// part.
   std::vector<Finding> findings;
 };
 

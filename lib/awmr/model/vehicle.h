@@ -67,8 +67,8 @@ struct Vehicle {
   /// (simulate/conditions.h).
   SensorQuality sensors = {};
   /// Time constant of the first-order lag from the motors' command to their force, s, >= 0. Gains
-  /// are tuned for it, runs are simulated with it, and log fits filter the logged commands with it. Absent: no lag, unless a
-  /// log identifies one.
+  /// are tuned for it, runs are simulated with it, and log fits filter the logged commands with it.
+  /// Absent: no lag, unless a log identifies one.
   std::optional<double> motor_time_constant_s;
   /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel, from its data
   /// sheet. Absent: no back-EMF, unless a log identifies it.

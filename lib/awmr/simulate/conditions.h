@@ -1,5 +1,5 @@
-/// Sensor noise, sensor latency and motor lag of simulated runs. They are not part of the identified
-/// model.
+/// Sensor noise, sensor latency and motor lag of simulated runs. They are not part of the
+/// identified model.
 #pragma once
 
 #include <span>

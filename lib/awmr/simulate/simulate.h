@@ -126,8 +126,8 @@ Result<Controller<double>> controller_for(const Model& model, const Gains<double
 /// scenario without sensors or actuators gets those of the vehicle (equipped() in conditions.h). A
 /// corner of the scenario (parameters at an end of their interval) changes the plant, but not the
 /// controller. A model without turning parameters (Model::simulated_motion()) can only drive
-/// straight. Errors (input): those of plant_for(), Model::plant(), check_mode() and failure_of(); the
-/// run turns or moves sideways, but the model only has parameters for straight motion.
+/// straight. Errors (input): those of plant_for(), Model::plant(), check_mode() and failure_of();
+/// the run turns or moves sideways, but the model only has parameters for straight motion.
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,
                      YawMode mode);
 

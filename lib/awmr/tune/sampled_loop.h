@@ -55,9 +55,9 @@ inline constexpr double kGoneWithinASample = 0.1;
 double damping_ratio(const SampledHeadingLoop& loop);
 
 /// Smallest damping ratio of the speed loop, whose equations are those of SampledHeadingLoop for
-/// lambda = 0 and s = 1, without psi (precondition: `loop` has these values): r is the deviation from the commanded speed u_d, m/s, k is
-/// mu_s/eps_s, a = (g1'(u_d) + n k_e)/m' with the back-EMF k_e of n driven wheels, and m' replaces
-/// I'z. Positive exactly if the loop is stable.
+/// lambda = 0 and s = 1, without psi (precondition: `loop` has these values): r is the deviation
+/// from the commanded speed u_d, m/s, k is mu_s/eps_s, a = (g1'(u_d) + n k_e)/m' with the back-EMF
+/// k_e of n driven wheels, and m' replaces I'z. Positive exactly if the loop is stable.
 double speed_damping_ratio(const SampledHeadingLoop& loop);
 
 /// Like damping_ratio(), but poles that decay much faster than the slowest one count less, because
