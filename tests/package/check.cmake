@@ -1,5 +1,5 @@
 # Installs into WORK/prefix, checks the files, builds the README's example with them, runs it on the
-# paper's tables and compares its model with the program's.
+# paper's tables and compares its model with the program's. AS_PRINTED: without it, the example's search for gains is nominal.
 function(run directory)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${directory} COMMAND_ECHO STDOUT
     OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
@@ -28,7 +28,7 @@ list(JOIN headers "\n  " listed)
 message("${count} headers installed:\n  ${listed}")
 
 run(${WORK} ${CMAKE_COMMAND} -S ${SOURCE}/tests/package/consumer -B ${WORK}/consumer -G Ninja
-  -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_PREFIX_PATH=${prefix} -DINCLUDE=${prefix}/include -DREADME=${SOURCE}/lib/awmr/README.md)
+  -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_PREFIX_PATH=${prefix} -DINCLUDE=${prefix}/include -DAS_PRINTED=${AS_PRINTED} -DREADME=${SOURCE}/lib/awmr/README.md)
 run(${WORK} ${CMAKE_COMMAND} --build ${WORK}/consumer)
 
 file(COPY ${SOURCE}/configs/paper/vehicle.json ${SOURCE}/datasets/paper/surge.csv
