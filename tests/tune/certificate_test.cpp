@@ -107,10 +107,10 @@ TEST_P(CertificateOf, IsAttainedAtThePlaceThatItNames) {
 }
 
 /// Growth of the loop's free motion: the largest |psi| in the last tenth of the time, divided by
-/// that in the first tenth. The motion is integrated by Euler steps of 1/200 of a sample. A queue
+/// that in the first tenth. The motion is integrated by Euler steps of 1/100 of a sample. A queue
 /// with one command per step delays the held command.
 double growth(const SampledHeadingLoop& loop, double delay_s, double time_s) {
-  constexpr int kSteps = 200;
+  constexpr int kSteps = 100;
   const double h = loop.sample_time_s / kSteps;
   const double all_s = delay_s + loop.command_delay_s + loop.latency_samples * loop.sample_time_s;
   const auto late = static_cast<std::size_t>(std::lround(all_s / h));
