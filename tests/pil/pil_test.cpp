@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -28,18 +29,40 @@ constexpr const char* kC3 = "configs/paper/scenarios/c3_heading_steps.json";
 constexpr const char* kC8 = "configs/paper/scenarios/c8_waypoints.json";
 constexpr const char* kC13 = "configs/paper/scenarios/c13_heading_steps.json";
 
+/// Writes the model of the paper's vehicle and its nominal gains into a folder.
+void make_inputs(const std::filesystem::path& folder) {
+  const std::string model = (folder / "model.json").string();
+  const ProcessResult run = awmr(
+      "identify --quiet --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
+      "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
+      model);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProcessResult tuned =
+      awmr("tune --nominal --quiet --model " + model + " -o " + (folder / "gains.json").string());
+  ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
+}
+
+/// Makes the files of the suites below once for all their processes (a fixture of ctest).
+TEST(PilInputs, AreMade) {
+  const char* const folder = std::getenv("AWMR_PIL_INPUTS");
+  if (folder == nullptr) GTEST_SKIP() << "AWMR_PIL_INPUTS is not set";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  make_inputs(folder);
+}
+
 class Pil : public ::testing::Test {
  protected:
+  /// Takes the files from AWMR_PIL_INPUTS, where the test PilInputs wrote them, or makes them.
   static void SetUpTestSuite() {
     directory_ = new TemporaryDirectory;
-    const ProcessResult run = awmr(
-        "identify --quiet --vehicle configs/paper/vehicle.json --surge datasets/paper/surge.csv "
-        "--coastdown datasets/paper/coastdown.csv --turning datasets/paper/turning.csv -o " +
-        path("model.json"));
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-    const ProcessResult tuned =
-        awmr("tune --nominal --quiet --model " + path("model.json") + " -o " + path("gains.json"));
-    ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
+    if (const char* const made = std::getenv("AWMR_PIL_INPUTS")) {
+      for (const char* name : {"model.json", "gains.json"}) {
+        std::filesystem::copy(std::filesystem::path(made) / name, path(name));
+      }
+    } else {
+      make_inputs(directory_->path());
+    }
     write_compile_once();
   }
   static void TearDownTestSuite() { delete directory_; }
