@@ -14,8 +14,8 @@ namespace {
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
-/// One run of the whole pipeline, shared by the tests below. If AWMR_PAPER_RUN is set, it names the
-/// folder of the results, which examples.py then uses.
+/// One run of the whole pipeline with a short search for gains, shared by the tests below. If
+/// AWMR_PAPER_RUN is set, it names the folder of the results, which examples.py then uses.
 class Pipeline : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -23,9 +23,27 @@ class Pipeline : public ::testing::Test {
     const char* kept = std::getenv("AWMR_PAPER_RUN");
     folder_ = kept != nullptr ? kept : temporary_->path() / "out";
     std::filesystem::remove_all(folder_);
-    result_ = awmr("run configs/paper/project.json --json -o '" + folder_.string() + "'");
+    result_ = awmr("run '" + copied_project().string() + "' --json -o '" + folder_.string() + "'");
   }
   static void TearDownTestSuite() { delete temporary_; }
+  /// The paper's project in a copy of its folders, so that its relative paths are the same.
+  static std::filesystem::path copied_project() {
+    const std::filesystem::path source = AWMR_SOURCE_DIR;
+    for (const char* folder : {"configs", "datasets"}) {
+      const std::filesystem::path copy = temporary_->path() / folder;
+      std::filesystem::create_directory(copy);
+      std::filesystem::copy(source / folder / "paper", copy / "paper",
+                            std::filesystem::copy_options::recursive);
+    }
+    const std::filesystem::path project = temporary_->path() / "configs/paper/project.json";
+    Json document = Json::parse(read_all(project));
+    document["tune"] = "tune.json";
+    write_all(project, document.dump());
+    write_all(project.parent_path() / "tune.json",
+              R"({"global_evaluations": 80, "local_evaluations": 30, "draws": 4,
+                  "judged_draws": 40})");
+    return project;
+  }
   static Json json(const std::string& name) { return Json::parse(read_all(folder_ / name)); }
   static bool has_finding(const std::string& file, int line, const std::string& code) {
     const Json model = json("model.json");
@@ -159,12 +177,13 @@ TEST(RunOfALog, GoesOnWithAnAssumedSwayAsTuneDoes) {
   vehicle.erase("sway_alpha");
   write_all(folder / "vehicle.json", vehicle.dump());
   write_all(folder / "log.csv", log_without_positions(source + "/datasets/synthetic/drive_2.csv"));
-  write_all(
-      folder / "tune.json",
-      R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 4, "judged_draws": 4})");
+  write_all(folder / "tune.json",
+            R"({"global_evaluations": 20, "local_evaluations": 10, "draws": 1, "judged_draws": 2,
+          "mode": "combined"})");
   const Json project{{"schema", "awmr.project/1"},
                      {"vehicle", "vehicle.json"},
                      {"trials", {{"logs", {"log.csv"}}}},
+                     {"identify", {{"family", {"power"}}}},
                      {"tune", "tune.json"},
                      {"compare",
                       {{"scenarios", {source + "/configs/paper/scenarios/c3_heading_steps.json"}},

@@ -52,9 +52,9 @@ class PlantOption : public ::testing::Test {
 /// the fitted tyres.
 TEST_F(PlantOption, TyresOfValidateAreThoseOfTheRuns) {
   Json scenario = Json::parse(read_all(std::string(AWMR_SOURCE_DIR) + "/" + kC3));
-  scenario["duration_s"] = 40;
+  scenario["duration_s"] = 32;
   scenario["guidance"]["steps"] = Json::array();
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 8; ++i) {
     scenario["guidance"]["steps"].push_back(
         {{"t_s", 4.0 * i}, {"psi_deg", i % 2 == 0 ? 25 + i : -20}});
   }
