@@ -39,15 +39,15 @@ std::vector<DrivingLog> with_coulomb_friction(double coulomb, double duration_s 
   Plant<double> rubbing = plant(kTruths[1]);
   rubbing.surge.coulomb = coulomb;
   Random random(8, 5);
-  return {simulate_log(rubbing, robot(), {.duration_s = duration_s, .drive = 8}, kPreciseSensors,
-                       random)};
+  return {simulate_log(rubbing, robot(), {.duration_s = duration_s, .rate_hz = 50.0, .drive = 8},
+                       kPreciseSensors, random)};
 }
 
 TEST(Multistart, MostStartsLeadToTheOptimum) {
   std::size_t all = 0, there = 0;
   for (const Truth& truth : kTruths) {
     for (const std::uint64_t seed : {11, 12, 13}) {
-      const std::vector<DrivingLog> logs{drive(truth, seed)};
+      const std::vector<DrivingLog> logs{drive(truth, seed, {.duration_s = 20.0, .rate_hz = 50.0})};
       const LogFitOptions options = from_nothing(logs);
       const Multistart search = multistart(log_problem(logs, options), options);
       ASSERT_FALSE(search.ends.empty());
@@ -151,7 +151,7 @@ DrivingLog steps_behind_lag(double lag_s, std::uint64_t seed) {
   log.steering_command_rad.emplace();
   Measured speed;
   double u = 0.0, force = 0.0, command = 0.0, until_s = 0.0;
-  for (int i = 0; i * kRow_s < 60.0; ++i) {
+  for (int i = 0; i * kRow_s < 40.0; ++i) {
     const double t = i * kRow_s;
     if (t >= until_s) {
       until_s = t + 0.5 + 1.5 * part(chance);
@@ -195,7 +195,7 @@ TEST(Families, OfMotorsThatLagLeaveTheMassRightWhereOnlyTheSpeedIsMeasured) {
 /// Log of a drive that never coasts. The vehicle has the resistances of `vehicle`, and motors with
 /// the time constant `lag_s`.
 DrivingLog driven_throughout(const Plant<double>& vehicle, double lag_s, std::uint64_t seed) {
-  DrivingLog log = drive(kTruths[1], seed, {.duration_s = 20.0, .rate_hz = 50.0});
+  DrivingLog log = drive(kTruths[1], seed, {.duration_s = 20.0, .rate_hz = 25.0});
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     log[channel].reset();
   }
@@ -263,7 +263,7 @@ TEST(Families, DropTermsOfThePreviousFamily) {
 }
 
 TEST(Families, SearchesAgainFromABetterAlternative) {
-  const std::vector<DrivingLog> logs{drive(kTruths[0], 9)};
+  const std::vector<DrivingLog> logs{drive(kTruths[0], 9, {.duration_s = 20.0, .rate_hz = 50.0})};
   const LogFitOptions options = from_nothing(logs);
   const FamilyFit alternative = fit_family(logs, options, Family::kCoulombPower, Family::kPower);
   ASSERT_TRUE(alternative.fit.usable);
@@ -346,7 +346,7 @@ TEST(Families, TestNoTermsThatTheyHave) {
 class InexactPositions : public ::testing::TestWithParam<bool> {};
 
 TEST_P(InexactPositions, FamiliesAreCompared) {
-  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 8.0});
+  DrivingLog log = drive(kTruths[1], 4, {.duration_s = 6.0});
   for (const LogChannel channel :
        {LogChannel::kSpeed, LogChannel::kYawRate, LogChannel::kHeading, LogChannel::kSway}) {
     log[channel].reset();

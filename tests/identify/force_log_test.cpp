@@ -66,7 +66,8 @@ TEST(ForceLog, FindsASlope) {
   ExtraForces slope;
   slope[ExtraForce::kSlopeX] = 0.1;
   slope[ExtraForce::kSlopeY] = -0.15;
-  const Identification result = identified(drive_with(plant(t), slope));
+  const Identification result =
+      identified(drive_with(plant(t), slope, false, 50.0, kPreciseSensors));
   EXPECT_TRUE(has_finding(result, "slope"));
   EXPECT_FALSE(has_finding(result, "model-inadequate"));
   expect_estimated(result, "slope.x_mps2", 0.1);

@@ -19,10 +19,10 @@
 namespace awmr::testing {
 namespace {
 
-constexpr double kStep_s = 0.01;  // row spacing of drive()
+constexpr double kStep_s = 0.02;  // row spacing of precise_drive()
 
 DrivingLog precise_drive(const Truth& t) {
-  return drive(t, 8, {.duration_s = 20.0}, kPreciseSensors);
+  return drive(t, 8, {.duration_s = 12.0, .rate_hz = 1.0 / kStep_s}, kVeryPreciseSensors);
 }
 
 class LateLogs : public FitOfInstance {};
@@ -38,7 +38,7 @@ DrivingLog with_late_steering(DrivingLog log, std::size_t rows) {
 }
 
 TEST(LateLog, SeparatesASteeringDeadTimeFromServoLag) {
-  constexpr std::size_t kRows = 8;
+  constexpr std::size_t kRows = 4;
   TrialData data;
   data.logs = {with_late_steering(precise_drive(kTruths[1]), kRows)};
   const auto result = identify(robot(), data, {}, {});
@@ -62,7 +62,7 @@ DrivingLog with_late_steering_stamps(DrivingLog log, std::size_t rows) {
 }
 
 TEST_P(LateLogs, FindsLateStampsOfTheSteeringAlone) {
-  constexpr std::size_t kRows = 14;
+  constexpr std::size_t kRows = 7;
   TrialData data;
   data.logs = {with_late_steering_stamps(precise_drive(kTruths[1]), kRows)};
   const auto result = identify(robot(), data, options(), {});
@@ -126,7 +126,8 @@ TEST(LateLog, FindsACommandDelayOfAFractionOfARow) {
   // The commands are late by 2.25 rows of 0.04 s, and the servo is at its rate limit after many
   // changes of the command.
   TrialData data;
-  data.logs = {with_late_commands(precise_drive(kTruths[1]), kTruths[1], 4, 9)};
+  data.logs = {with_late_commands(drive(kTruths[1], 8, {.duration_s = 20.0}, kPreciseSensors),
+                                  kTruths[1], 4, 9)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const auto delay = estimated(*result, "input_delay_s");
@@ -143,7 +144,7 @@ TEST(LateLog, FindsACommandDelayOfAFractionOfARow) {
 TEST(LateLog, KeepsAMotorLagOfTheVehicleFileFixed) {
   constexpr double kLag_s = 0.08;
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s)};
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0, .rate_hz = 50.0})};
   Vehicle vehicle = robot();
   vehicle.motor_time_constant_s = kLag_s;
   const auto result = identify(vehicle, data, {}, {});
@@ -291,7 +292,7 @@ DrivingLog with_centred_mean(DrivingLog log, LogChannel channel, std::size_t rea
 }
 
 TEST_P(LateLogs, AllowsForSpeedAndYawRateThatWereSmoothedAfterTheDrive) {
-  constexpr std::size_t kReach = 8;
+  constexpr std::size_t kReach = 4;
   const Truth& t = kTruths[1];
   TrialData data;
   data.logs = {precise_drive(t)};
@@ -384,7 +385,8 @@ TEST_P(SlippingWheels, AreFoundInTheirReadings) {
 TEST(LateLog, WithdrawsTheMassIfSlipResemblesLateCommands) {
   // Wheel slip changes the measured speed as if it were read early. Late commands together with a
   // late yaw rate have the same effect, so the log does not show which of the two is the cause.
-  DrivingLog log = with_slip(precise_drive(kTruths[1]), 0.02, false);
+  DrivingLog log = with_slip(
+      drive(kTruths[1], 8, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors), 0.02, false);
   for (const LogChannel absent : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     log[absent].reset();
   }
@@ -491,8 +493,8 @@ TEST_P(LateLogs, FindsAServoThatIsSlowerThanTheVehicleFileSays) {
   Plant<double> slow = plant(t);
   slow.steering_max_rate_radps = kRate_radps;
   Random random(8, 5);
-  DrivingLog log =
-      simulate_log(slow, robot(), {.duration_s = 20.0, .drive = 8}, kPreciseSensors, random);
+  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 20.0, .rate_hz = 50.0, .drive = 8},
+                                kPreciseSensors, random);
   expect_found(std::move(log), t, "steering.max_rate_radps", kRate_radps, "servo-rate", options());
 }
 
@@ -514,8 +516,8 @@ TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
   Plant<double> slow = plant(t);
   slow.steering_time_constant_s = 0.1;
   Random random(8, 5);
-  DrivingLog log =
-      simulate_log(slow, robot(), {.duration_s = 10.0, .drive = 8}, kPreciseSensors, random);
+  DrivingLog log = simulate_log(slow, robot(), {.duration_s = 10.0, .rate_hz = 50.0, .drive = 8},
+                                kPreciseSensors, random);
   std::vector<double> angle(log.rows());
   replay<double>(LogSignals(log), 0, log.rows(), slow, nullptr, 0.002, {},
                  [&](std::size_t row, const State<double>& s) { angle[row] = s.steering_rad; });
@@ -537,12 +539,11 @@ TEST(LateLog, DetectsASteeringCommandThatIsTheMeasuredAngle) {
   expect_recovered(*result, ParameterId::kYawAlpha, t.a3, 4.5);
 }
 
-/// Smooth commands, with a row every `step_s` for 30 s.
-DrivingLog smooth_commands(double step_s) {
-  constexpr double kDuration_s = 30.0;
+/// Smooth commands, with a row every `step_s`.
+DrivingLog smooth_commands(double step_s, double duration_s = 20.0) {
   DrivingLog log;
   log.steering_command_rad.emplace();
-  const auto rows = static_cast<std::size_t>(kDuration_s / step_s);
+  const auto rows = static_cast<std::size_t>(duration_s / step_s);
   for (std::size_t i = 0; i < rows; ++i) {
     const double t_s = step_s * static_cast<double>(i);
     log.t_s.push_back(t_s);
@@ -618,7 +619,7 @@ std::vector<double> on_lines(const std::vector<double>& signal, std::size_t rows
 /// Log with rows every 20 ms and commands that are held for `rows` times 4 ms. They change between
 /// the rows unless `rows` is a multiple of 5.
 DrivingLog sampled_steps(std::size_t rows) {
-  DrivingLog fast = smooth_commands(0.004);
+  DrivingLog fast = smooth_commands(0.004, 30.0);
   hold_commands(fast, rows);
   return measured_rows(fast, plant(kTruths[1]), 5);
 }
@@ -802,7 +803,7 @@ INSTANTIATE_TEST_SUITE_P(Long, ForceSaturation, ::testing::Values(1.0, 2.0, 4.0,
 
 TEST(LateLog, GivesTheSameBytesOnALoadedMachine) {
   TrialData data;
-  data.logs = {drive(kTruths[0], 11, {.duration_s = 12.0})};
+  data.logs = {drive(kTruths[0], 11, {.duration_s = 8.0, .rate_hz = 50.0})};
   const std::string idle = model_text(identify(robot(), data, {}, {})->model);
   std::atomic<bool> is_over = false;
   std::vector<std::jthread> busy;

@@ -30,7 +30,7 @@ bool refused(const Identification& result, ParameterId id) {
 TEST(Log, IdentifiesEveryParameterFromALogAlone) {
   for (const Truth& t : kTruths) {
     TrialData data;
-    data.logs = {drive(t, 3)};
+    data.logs = {drive(t, 3, {.duration_s = 20.0, .rate_hz = 50.0})};
     const auto result = identify(robot(), data, {}, {});
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->refused.empty());
@@ -131,7 +131,7 @@ TEST(Log, IsIdentifiedWithGapsAndIrregularSamples) {
 
 TEST(Log, FindsADelayAndABias) {
   const Truth& t = kTruths[1];
-  DrivingLog log = drive(t, 8);
+  DrivingLog log = drive(t, 8, {.duration_s = 20.0, .rate_hz = 50.0});
   // The commands were logged three samples before they reached the wheels.
   const auto early = [](std::vector<double>& v) {
     std::rotate(v.begin(), v.begin() + 3, v.end());
@@ -156,7 +156,7 @@ TEST(Log, FindsADelayAndABias) {
     ADD_FAILURE() << name;
     return EstimatorParameter{};
   };
-  EXPECT_NEAR(parameter("input_delay_s").value, 0.03, 4.5 * *parameter("input_delay_s").std_error);
+  EXPECT_NEAR(parameter("input_delay_s").value, 0.06, 4.5 * *parameter("input_delay_s").std_error);
   EXPECT_NEAR(parameter("bias.yaw_rate_radps").value, 0.05,
               4.5 * *parameter("bias.yaw_rate_radps").std_error);
   EXPECT_LT(*parameter("input_delay_s").std_error, 0.003);
@@ -177,15 +177,16 @@ void move_commands(DrivingLog& log, int rows) {
 }
 
 TEST_P(Logs, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
-  for (const int rows : {-4, 5}) {
+  constexpr double kStep_s = 0.02;
+  for (const int rows : {-2, 3}) {
     TrialData data;
-    data.logs = {drive(kTruths[1], 8, {.duration_s = 12.0})};
+    data.logs = {drive(kTruths[1], 8, {.duration_s = 12.0, .rate_hz = 1.0 / kStep_s})};
     move_commands(data.logs[0], rows);
     const auto result = identify(robot(), data, options(), {});
     ASSERT_TRUE(result);
     const auto delay = estimated(*result, "input_delay_s");
     ASSERT_TRUE(delay && delay->std_error) << rows;
-    EXPECT_NEAR(delay->value, -0.01 * rows, 4.5 * *delay->std_error);
+    EXPECT_NEAR(delay->value, -kStep_s * rows, 4.5 * *delay->std_error);
     EXPECT_TRUE(has_finding(*result, rows > 0 ? "late-commands" : "actuator-lag"));
     expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
     expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * kTruths[1].mass_norm, 4.5);
@@ -195,8 +196,8 @@ TEST_P(Logs, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
 TEST_P(Logs, FreesMotorLagAndDeadTimeTogether) {
   constexpr double kLag_s = 0.08;
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0})};
-  move_commands(data.logs[0], -4);
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0, .rate_hz = 50.0})};
+  move_commands(data.logs[0], -2);
   const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "motor.time_constant_s");
@@ -212,7 +213,7 @@ TEST_P(Logs, FreesMotorLagAndDeadTimeTogether) {
 TEST_P(Logs, SeparatesMotorLagFromADeadTime) {
   constexpr double kLag_s = 0.08;
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0})};
+  data.logs = {drive_with_lag(kTruths[1], 8, kLag_s, {.duration_s = 12.0, .rate_hz = 50.0})};
   const auto result = identify(robot(), data, options(), {});
   ASSERT_TRUE(result);
   const auto lag = estimated(*result, "motor.time_constant_s");
@@ -229,7 +230,7 @@ class LargeMotorLag : public ::testing::TestWithParam<double> {};
 TEST_P(LargeMotorLag, IsFoundInALogThatBeginsWithTheMotors) {
   const double lag_s = GetParam();
   TrialData data;
-  data.logs = {drive_with_lag(kTruths[1], 8, lag_s, {.duration_s = 12.0}, true)};
+  data.logs = {drive_with_lag(kTruths[1], 8, lag_s, {.duration_s = 12.0, .rate_hz = 50.0}, true)};
   add_row_of_rest(data.logs[0]);
   ASSERT_EQ(data.logs[0].force_left[0], 0.0);
   const auto result = identify(robot(), data, options_of_instance(), {});
@@ -247,7 +248,7 @@ INSTANTIATE_TEST_SUITE_P(Long, LargeMotorLag, ::testing::Values(0.3));
 
 TEST(Log, RefusesAnImpossibleInertia) {
   TrialData data;
-  data.logs = {drive(kTruths[1], 3)};
+  data.logs = {drive(kTruths[1], 3, {.duration_s = 20.0, .rate_hz = 50.0})};
   Vehicle small = robot();
   small.length_m = 0.4;
   small.width_m = 0.24;
@@ -260,7 +261,7 @@ TEST(Log, RefusesAnImpossibleInertia) {
 
 TEST(Log, DoesNotDependOnTheNumberOfThreads) {
   TrialData data;
-  data.logs = {drive(kTruths[0], 11, {.duration_s = 12.0})};
+  data.logs = {drive(kTruths[0], 11, {.duration_s = 8.0, .rate_hz = 50.0})};
   IdentifyOptions one;
   one.threads = 1;
   IdentifyOptions three;
@@ -273,7 +274,8 @@ TEST(Log, ReportsAContradictionWithTables) {
   const Truth& t = kTruths[0];
   TrialData data = synthetic(t, 0.01, 3);
   data.coastdown.reset();
-  data.logs = {drive({t.a1 * 1.3, t.b1, t.a3, t.b3, t.mass_norm}, 3)};
+  data.logs = {
+      drive({t.a1 * 1.3, t.b1, t.a3, t.b3, t.mass_norm}, 3, {.duration_s = 20.0, .rate_hz = 50.0})};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   const bool has_finding_of_it =
@@ -288,7 +290,7 @@ TEST(Log, CorrelatedErrorsAreFoundAndWidenTheIntervals) {
   const Truth& t = kTruths[1];
   Random white(1, 5);
   Random autocorrelated(1, 5);
-  const DrivePlan plan{.duration_s = 20.0, .drive = 2};
+  const DrivePlan plan{.duration_s = 20.0, .rate_hz = 50.0, .drive = 2};
   TrialData data;
   data.logs = {simulate_log(plant(t), robot(), plan, {}, white)};
   const auto plain = identify(robot(), data, {}, {});
@@ -381,7 +383,7 @@ TEST(Log, OfSkidTurnsWithASteeringColumnShowsTheInertia) {
                                            {LogChannel::kHeading, 0.002},
                                            {LogChannel::kSpeed, 0.01},
                                            {LogChannel::kYawRate, 0.001}};
-  DrivingLog log = drive(t, 8, {.duration_s = 40.0});
+  DrivingLog log = drive(t, 8, {.duration_s = 40.0, .rate_hz = 50.0});
   std::ranges::fill(*log.steering_command_rad, 0.0);
   Random random(8, 77);
   replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
@@ -430,8 +432,8 @@ TEST(Log, SelectsAndReportsABetterFamily) {
   braked.surge = {.alpha = 0.74, .beta = 1.0, .coulomb = 0.15};
   Random random(22, 5);
   TrialData data;
-  data.logs = {
-      simulate_log(braked, robot(), {.duration_s = 20.0, .drive = 22}, kPreciseSensors, random)};
+  data.logs = {simulate_log(braked, robot(), {.duration_s = 20.0, .rate_hz = 50.0, .drive = 22},
+                            kPreciseSensors, random)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(terms_of(result->model.surge_family).coulomb);
@@ -482,7 +484,7 @@ INSTANTIATE_TEST_SUITE_P(Long, BackEmfOfSeeds, ::testing::Values(3));
 
 TEST(BackEmf, IsNotFoundForIdealMotorsAndRefusedOnRequest) {
   TrialData data;
-  data.logs = {drive(kTruths[0], 31, {.duration_s = 20.0}, kPreciseSensors)};
+  data.logs = {drive(kTruths[0], 31, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors)};
   const auto by_itself = identify(robot(), data, {}, {});
   ASSERT_TRUE(by_itself);
   EXPECT_FALSE(has_finding(*by_itself, "back-emf", ""));
@@ -531,7 +533,8 @@ TEST(FrontWheelDrive, GivesEveryParameterOfALog) {
   pulled.rear_driven = 0.0;
   Random random(61, 5);
   TrialData data;
-  data.logs = {simulate_log(pulled, vehicle, {.duration_s = 20.0, .drive = 61}, {}, random)};
+  data.logs = {simulate_log(pulled, vehicle, {.duration_s = 20.0, .rate_hz = 50.0, .drive = 61}, {},
+                            random)};
   const auto result = identify(vehicle, data, {}, {});
   ASSERT_TRUE(result);
   expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
@@ -544,8 +547,8 @@ TEST(Log, ReportsAnotherMassOnTheSecondDayAndWidensTheInterval) {
   Truth heavy = kTruths[0];
   heavy.mass_norm *= 1.2;
   TrialData data;
-  data.logs = {drive(kTruths[0], 23, {.duration_s = 20.0}, kPreciseSensors),
-               drive(heavy, 24, {.duration_s = 20.0}, kPreciseSensors)};
+  data.logs = {drive(kTruths[0], 23, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors),
+               drive(heavy, 24, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "logs-disagree", "mass_norm"));
@@ -607,7 +610,7 @@ Identification identified_with_change(double factor, std::uint64_t seed) {
 }
 
 TEST(Log, WithdrawsTheIntervalsIfTheInertiaShowsAWrongUnitOfTheSpeed) {
-  DrivingLog log = drive(kTruths[0], 25, {.duration_s = 20.0});
+  DrivingLog log = drive(kTruths[0], 25, {.duration_s = 20.0, .rate_hz = 50.0});
   // The speed is in rad/s of wheels of 0.1 m, 10 times the value in m/s. The estimated I'z/m' is
   // then 0.82 * 10 times that of the box, more than the largest possible 3.
   for (double& u : log[LogChannel::kSpeed]->value) u *= 10.0;

@@ -38,4 +38,8 @@ inline DrivingLog drive(const Truth& t, std::uint64_t seed, DrivePlan plan = {.d
 inline constexpr SensorNoise kPreciseSensors{
     .speed_mps = 0.0141, .yaw_rate_radps = 0.00617, .heading_rad = 0.01234, .position_m = 0.0354};
 
+/// Sensors with half of the default noise, for short logs of errors that are found by their size.
+inline constexpr SensorNoise kVeryPreciseSensors{
+    .speed_mps = 0.01, .yaw_rate_radps = 0.00436, .heading_rad = 0.00873, .position_m = 0.025};
+
 }  // namespace awmr::testing
