@@ -25,6 +25,9 @@ namespace fs = std::filesystem;
 constexpr const char* kTables =
     "--surge datasets/paper/surge.csv --coastdown datasets/paper/coastdown.csv --turning "
     "datasets/paper/turning.csv";
+/// Trials without turns, of whose model `suggest` simulates fewer trials.
+constexpr const char* kStraightTables =
+    "--surge datasets/paper/surge.csv --coastdown datasets/paper/coastdown.csv";
 constexpr const char* kScenario = "--scenario configs/paper/scenarios/c3_heading_steps.json";
 constexpr const char* kForeignGains = "gains-of-another-model";
 
@@ -42,13 +45,19 @@ class Honesty : public ::testing::Test {
     vehicle["name"] = "another";
     vehicle["mass_kg"] = 41.0;
     write_all(kept("other_vehicle.json"), vehicle.dump());
+    Json turn =
+        Json::parse(read_all(AWMR_SOURCE_DIR "/configs/paper/scenarios/c3_heading_steps.json"));
+    turn["duration_s"] = 6;
+    write_all(kept("turn.json"), turn.dump());
     write_all(kept("short.json"), R"({"global_evaluations": 20, "local_evaluations": 10,
-                                      "mode": "combined"})");
+                                      "mode": "combined", "scenarios": ["turn.json"]})");
     const std::string lines[] = {
         fmt::format("identify --vehicle configs/paper/vehicle.json {} -o {}", kTables,
                     kept("model.json")),
         fmt::format("identify --vehicle {} {} -o {}", kept("other_vehicle.json"), kTables,
                     kept("other.json")),
+        fmt::format("identify --vehicle configs/paper/vehicle.json {} -o {}", kStraightTables,
+                    kept("straight.json")),
         fmt::format("tune --nominal --config {} --model {} -o {}", kept("short.json"),
                     kept("model.json"), kept("gains.json"))};
     for (const std::string& line : lines) EXPECT_EQ(awmr(line).exit_code, 0) << line;
@@ -244,7 +253,7 @@ TEST_F(Honesty, FindingsOnStderrAreThoseOfTheFile) {
       {fmt::format("compare {} {} --samples 3 -o {}", both, kScenario, path("c")),
        "c/comparison.json"},
       {fmt::format("emit {} -o {}", both, path("e")), "e/awmr_emit.json"},
-      {fmt::format("suggest --model {} -o {}", model, path("s.json")), "s.json"},
+      {fmt::format("suggest --model {} -o {}", kept("straight.json"), path("s.json")), "s.json"},
       {fmt::format("recover --runs 2 --model {} -o {}", model, path("r.json")), "r.json"}};
   std::set<std::string> seen;
   for (const auto& [line, file] : lines) {
