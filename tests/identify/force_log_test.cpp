@@ -28,10 +28,11 @@ std::vector<State<double>> motion_with(const DrivingLog& log, const Plant<double
 /// Log of a drive of the plant with sensor noise and the extra forces. `reverses`: after the first
 /// 5 s, the commanded wheel forces are reversed in every second interval of 3 s.
 DrivingLog drive_with(const Plant<double>& plant, ExtraForces extra, bool reverses = false,
-                      double rate_hz = 100.0, const SensorNoise& noise = {}) {
+                      double rate_hz = 100.0, const SensorNoise& noise = {},
+                      double duration_s = 25.0) {
   Random random(8, 5);
   DrivingLog log = simulate_log(
-      plant, robot(), {.duration_s = 25.0, .rate_hz = rate_hz, .drive = 8}, noise, random);
+      plant, robot(), {.duration_s = duration_s, .rate_hz = rate_hz, .drive = 8}, noise, random);
   const std::vector<State<double>> before = motion_with(log, plant, {});
   for (std::size_t row = 0; reverses && row < log.rows(); ++row) {
     if (log.t_s[row] < 5.0 || static_cast<int>(log.t_s[row] / 3.0) % 2 == 0) continue;
@@ -67,7 +68,7 @@ TEST(ForceLog, FindsASlope) {
   slope[ExtraForce::kSlopeX] = 0.1;
   slope[ExtraForce::kSlopeY] = -0.15;
   const Identification result =
-      identified(drive_with(plant(t), slope, false, 50.0, kPreciseSensors));
+      identified(drive_with(plant(t), slope, false, 50.0, kPreciseSensors, 16.0));
   EXPECT_TRUE(has_finding(result, "slope"));
   EXPECT_FALSE(has_finding(result, "model-inadequate"));
   expect_estimated(result, "slope.x_mps2", 0.1);
@@ -110,7 +111,7 @@ TEST_P(FoundForce, IsEstimatedBesideTheParameters) {
   const auto& [name, truth, code, forces] = GetParam();
   const Truth& t = kTruths[1];
   const Identification result =
-      identified(drive_with(plant(t), forces, true, 50.0, kPreciseSensors), power_law());
+      identified(drive_with(plant(t), forces, true, 50.0, kPreciseSensors, 16.0), power_law());
   EXPECT_TRUE(has_finding(result, code));
   EXPECT_FALSE(has_finding(result, "model-inadequate"));
   expect_estimated(result, name, truth);

@@ -784,7 +784,7 @@ TEST(LateLog, FindsForcesThatGrowWithAPowerOfTheCommands) {
 TEST(LateLog, DoesNotCompareLogsWithALargeSaturation) {
   TrialData data;
   for (const std::uint64_t seed : {8U, 9U}) {
-    DrivingLog log = drive(kTruths[1], seed, {.duration_s = 12.0, .rate_hz = 40.0});
+    DrivingLog log = drive(kTruths[1], seed, {.duration_s = 8.0, .rate_hz = 40.0});
     for (auto* const forces : {&log.force_left, &log.force_right}) {
       for (double& force : *forces) force = 0.9 * std::atanh(std::clamp(force, -0.8, 0.8) / 0.9);
     }

@@ -180,7 +180,7 @@ TEST_P(Logs, FindsALatencyOfCommandsAndOfTheirTimeStamps) {
   constexpr double kStep_s = 0.02;
   for (const int rows : {-2, 3}) {
     TrialData data;
-    data.logs = {drive(kTruths[1], 8, {.duration_s = 12.0, .rate_hz = 1.0 / kStep_s})};
+    data.logs = {drive(kTruths[1], 8, {.duration_s = 8.0, .rate_hz = 1.0 / kStep_s})};
     move_commands(data.logs[0], rows);
     const auto result = identify(robot(), data, options(), {});
     ASSERT_TRUE(result);
@@ -290,7 +290,7 @@ TEST(Log, CorrelatedErrorsAreFoundAndWidenTheIntervals) {
   const Truth& t = kTruths[1];
   Random white(1, 5);
   Random autocorrelated(1, 5);
-  const DrivePlan plan{.duration_s = 20.0, .rate_hz = 50.0, .drive = 2};
+  const DrivePlan plan{.duration_s = 12.0, .rate_hz = 50.0, .drive = 2};
   TrialData data;
   data.logs = {simulate_log(plant(t), robot(), plan, {}, white)};
   const auto plain = identify(robot(), data, {}, {});
@@ -307,7 +307,7 @@ TEST_P(Logs, FindsAndCompensatesALatencyOfTheSpeed) {
   const Truth& t = kTruths[0];
   constexpr std::size_t kLate = 5;  // rows of 20 ms
   TrialData data;
-  data.logs = {drive(t, 21, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors)};
+  data.logs = {drive(t, 21, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors)};
   std::vector<double>& speed = data.logs[0][LogChannel::kSpeed]->value;
   std::rotate(speed.rbegin(), speed.rbegin() + kLate, speed.rend());
   std::fill(speed.begin(), speed.begin() + kLate, speed[kLate]);
@@ -336,7 +336,7 @@ DrivingLog commanded_early(DrivingLog log, std::size_t rows) {
 
 TEST_P(Logs, ReportsTheActuatorsIfAllSensorsAreDelayed) {
   const DrivingLog log =
-      drive(kTruths[0], 22, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors);
+      drive(kTruths[0], 22, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors);
   TrialData data;
   data.logs = {commanded_early(log, 3)};
   const auto result = identify(robot(), data, options(), {});
@@ -547,8 +547,8 @@ TEST(Log, ReportsAnotherMassOnTheSecondDayAndWidensTheInterval) {
   Truth heavy = kTruths[0];
   heavy.mass_norm *= 1.2;
   TrialData data;
-  data.logs = {drive(kTruths[0], 23, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors),
-               drive(heavy, 24, {.duration_s = 20.0, .rate_hz = 50.0}, kPreciseSensors)};
+  data.logs = {drive(kTruths[0], 23, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors),
+               drive(heavy, 24, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "logs-disagree", "mass_norm"));
@@ -610,7 +610,7 @@ Identification identified_with_change(double factor, std::uint64_t seed) {
 }
 
 TEST(Log, WithdrawsTheIntervalsIfTheInertiaShowsAWrongUnitOfTheSpeed) {
-  DrivingLog log = drive(kTruths[0], 25, {.duration_s = 20.0, .rate_hz = 50.0});
+  DrivingLog log = drive(kTruths[0], 25, {.duration_s = 12.0, .rate_hz = 50.0});
   // The speed is in rad/s of wheels of 0.1 m, 10 times the value in m/s. The estimated I'z/m' is
   // then 0.82 * 10 times that of the box, more than the largest possible 3.
   for (double& u : log[LogChannel::kSpeed]->value) u *= 10.0;
