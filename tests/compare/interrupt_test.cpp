@@ -41,12 +41,13 @@ TEST(Interrupt, LeavesTheFilesOfASmallerComparison) {
   EXPECT_NE(stopped.exit_code, 0);
   EXPECT_NE(stopped.err.find("finished runs are in"), std::string::npos) << stopped.err;
   // With --json, stdout and stderr have nothing but JSON.
-  const auto json = in_source("timeout --signal=INT 1 " + compare("50000", "as_json") + " --json");
+  const auto json =
+      in_source("timeout --signal=INT 1 " + compare("50000", "as_json") + " --threads 1 --json");
   EXPECT_NE(json.exit_code, 0);
   EXPECT_EQ(json.out + json.err, "");
   // A part is not written, because it must be run again.
   const auto part =
-      in_source("timeout --signal=INT 1 " + compare("50000", "shard") + " --shard 1/2");
+      in_source("timeout --signal=INT 1 " + compare("50000", "shard") + " --threads 1 --shard 1/2");
   EXPECT_NE(part.exit_code, 0);
   EXPECT_NE(part.err.find("nothing is written"), std::string::npos) << part.err;
   EXPECT_FALSE(std::filesystem::exists(directory.path() / "shard"));
