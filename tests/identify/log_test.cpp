@@ -27,6 +27,17 @@ bool refused(const Identification& result, ParameterId id) {
   return std::find(result.refused.begin(), result.refused.end(), id) != result.refused.end();
 }
 
+/// Severity of the finding that the parameter is not identifiable; absent without such a finding.
+std::optional<Severity> severity_of_refusal(const Identification& result, ParameterId id) {
+  for (const Finding& finding : result.model.record.findings) {
+    const std::string name = std::string(info(id).name) + " ";
+    if (finding.code == "not-identifiable" && finding.message.starts_with(name)) {
+      return finding.severity;
+    }
+  }
+  return std::nullopt;
+}
+
 TEST(Log, IdentifiesEveryParameterFromALogAlone) {
   for (const Truth& t : kTruths) {
     TrialData data;
@@ -62,14 +73,26 @@ TEST(Log, SpeedAloneShowsSurgeAndRefusesYaw) {
   ASSERT_TRUE(result);
   expect_recovered(*result, ParameterId::kMassNorm, kTruths[1].mass_norm, 4.5);
   expect_recovered(*result, ParameterId::kSurgeBeta, kTruths[1].b1, 4.5);
-  for (const ParameterId id : {ParameterId::kYawAlpha, ParameterId::kYawBeta,
-                               ParameterId::kInertiaNorm, ParameterId::kSwayAlpha}) {
-    EXPECT_TRUE(refused(*result, id)) << info(id).name;
+  constexpr std::array kNotMeasured{ParameterId::kYawAlpha, ParameterId::kYawBeta,
+                                    ParameterId::kInertiaNorm, ParameterId::kSwayAlpha};
+  for (const ParameterId id : kNotMeasured) {
     EXPECT_FALSE(result->model[id].value) << info(id).name;
+    EXPECT_EQ(severity_of_refusal(*result, id), Severity::kNote) << info(id).name;
   }
   // The servo lag of the vehicle file is kept and reported as not identifiable from the log.
-  EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
+  EXPECT_EQ(severity_of_refusal(*result, ParameterId::kSteeringTimeConstant), Severity::kNote);
   EXPECT_EQ(result->model[ParameterId::kSteeringTimeConstant].value, 0.02);
+  EXPECT_TRUE(result->refused.empty());
+
+  // Named parameters are refused.
+  IdentifyOptions named;
+  named.requested = {ParameterId::kSurgeAlpha, ParameterId::kYawAlpha, ParameterId::kSwayAlpha,
+                     ParameterId::kSteeringTimeConstant};
+  const auto refusal = identify(robot(), data, named, {});
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->refused, (std::vector{ParameterId::kYawAlpha, ParameterId::kSwayAlpha,
+                                           ParameterId::kSteeringTimeConstant}));
+  EXPECT_EQ(severity_of_refusal(*refusal, ParameterId::kSwayAlpha), Severity::kError);
 }
 
 TEST(Log, AtOneConstantThrustShowsOnlyACombinationOfAlphaAndBeta) {
@@ -354,13 +377,25 @@ TEST_P(Logs, ReportsTheActuatorsIfAllSensorsAreDelayed) {
   EXPECT_FALSE(has_finding(*identify(robot(), data, options(), {}), "actuator-lag", ""));
 }
 
+/// Expects that the logs do not identify the servo lag, which is an error only if it is named.
+void expect_servo_lag_refused_only_if_named(const TrialData& data) {
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(refused(*result, ParameterId::kSteeringTimeConstant));
+  EXPECT_EQ(severity_of_refusal(*result, ParameterId::kSteeringTimeConstant), Severity::kNote);
+  IdentifyOptions named = power_law();
+  named.requested = {ParameterId::kSteeringTimeConstant};
+  const auto refusal = identify(robot(), data, named, {});
+  ASSERT_TRUE(refusal);
+  EXPECT_TRUE(refused(*refusal, ParameterId::kSteeringTimeConstant));
+  EXPECT_EQ(severity_of_refusal(*refusal, ParameterId::kSteeringTimeConstant), Severity::kError);
+}
+
 TEST(Log, RefusesTheServoLagWithoutASteeringCommand) {
   TrialData data;
   data.logs = {drive(kTruths[1], 23, {.duration_s = 8.0})};
   std::ranges::fill(*data.logs[0].steering_command_rad, 0.0);
-  const auto result = identify(robot(), data, power_law(), {});
-  ASSERT_TRUE(result);
-  EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
+  expect_servo_lag_refused_only_if_named(data);
 }
 
 TEST(Log, RefusesTheServoLagIfOnlyTheSpeedIsMeasured) {
@@ -371,9 +406,7 @@ TEST(Log, RefusesTheServoLagIfOnlyTheSpeedIsMeasured) {
         LogChannel::kSway, LogChannel::kSteering}) {
     data.logs[0][channel].reset();
   }
-  const auto result = identify(robot(), data, power_law(), {});
-  ASSERT_TRUE(result);
-  EXPECT_TRUE(refused(*result, ParameterId::kSteeringTimeConstant));
+  expect_servo_lag_refused_only_if_named(data);
 }
 
 TEST(Log, OfSkidTurnsWithASteeringColumnShowsTheInertia) {

@@ -257,7 +257,7 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
   result.has_refused_terms = std::ranges::any_of(model.record.findings, [](const Finding& finding) {
     return finding.code == "not-identifiable" && finding.severity == Severity::kError;
   });
-  result.refused = refuse_what_is_missing(data, reasons, requested, model);
+  result.refused = refuse_what_is_missing(data, reasons, requested, options, model);
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace awmr {
 
 struct Identification {
   Model model;
-  std::vector<ParameterId> refused;  ///< requested parameters that the data do not identify
+  std::vector<ParameterId> refused;  ///< required parameters that the data do not identify
   bool has_refused_terms = false;  ///< true: the logs do not identify one of IdentifyOptions::terms
 };
 
@@ -22,7 +22,7 @@ struct Identification {
 /// that the vehicle cannot have; back-EMF, given or requested, together with a surge or turning
 /// table; and the errors of run_log_stage() (log_stage.h). A parameter that the data do not
 /// identify is not an error: it gets no value and the finding `not-identifiable`, and is listed in
-/// `refused` if it was requested.
+/// `refused` if it was requested or the data should measure it (refuse_what_is_missing()).
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
 

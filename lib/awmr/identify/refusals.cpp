@@ -17,6 +17,18 @@ bool has_coastdown(const TrialData& data) {
 
 bool is_assumed(const Estimate& estimate) { return estimate.method == kAssumedSwayMethod; }
 
+bool is_surge_law(ParameterId id) {
+  return id == ParameterId::kSurgeAlpha || id == ParameterId::kSurgeBeta;
+}
+
+bool is_yaw_law(ParameterId id) {
+  return id == ParameterId::kYawAlpha || id == ParameterId::kYawBeta;
+}
+
+bool is_inertial(ParameterId id) {
+  return id == ParameterId::kMassNorm || id == ParameterId::kInertiaNorm;
+}
+
 /// Reason why the tables do not determine a parameter. Tables never determine the sway resistance,
 /// the servo's time constant and back-EMF. For these, the reason is that vehicle.json has no value.
 std::string table_reason(ParameterId id, const TrialData& data, const Reasons& reasons) {
@@ -55,10 +67,8 @@ bool is_logged(const TrialData& data, std::initializer_list<LogChannel> channels
 
 /// The trial or channel that would identify the parameter.
 std::string_view remedy_of(ParameterId id, const TrialData& data, const Vehicle& vehicle) {
-  const bool is_turning = id == ParameterId::kYawAlpha || id == ParameterId::kYawBeta ||
-                          id == ParameterId::kInertiaNorm;
-  const bool is_surge = id == ParameterId::kSurgeAlpha || id == ParameterId::kSurgeBeta ||
-                        id == ParameterId::kMassNorm;
+  const bool is_turning = is_yaw_law(id) || id == ParameterId::kInertiaNorm;
+  const bool is_surge = is_surge_law(id) || id == ParameterId::kMassNorm;
   using enum LogChannel;
   if (!data.logs.empty() && is_surge && !is_logged(data, {kSpeed, kX})) {
     return "the logs have neither speed_mps nor x_m, y_m: log or map speed_mps, or both x_m and "
@@ -69,6 +79,41 @@ std::string_view remedy_of(ParameterId id, const TrialData& data, const Vehicle&
            "heading_deg";
   }
   return trial_of(vehicle, id);
+}
+
+bool is_steered(const DrivingLog& log) {
+  return std::ranges::any_of(log.driving_steering_rad(),
+                             [](double angle_rad) { return angle_rad != 0.0; });
+}
+
+/// True if a log has what measures the parameter.
+bool is_shown(ParameterId id, const DrivingLog& log) {
+  using enum LogChannel;
+  const bool has_turns = log[kYawRate] || log[kHeading] || log[kX];
+  switch (id) {
+    case ParameterId::kYawAlpha:
+    case ParameterId::kYawBeta:
+    case ParameterId::kInertiaNorm:
+      return has_turns && (is_steered(log) || has_force_difference(log));
+    case ParameterId::kSteeringTimeConstant:
+      return has_turns && has_steering_changes(log);
+    case ParameterId::kSwayAlpha:
+      return false;  // few logs determine it, and without it a value is assumed
+    default:
+      return true;
+  }
+}
+
+/// True if it is an error that the logs do not identify `id`: the user named it, or it has no other
+/// value and a log has what measures it.
+bool is_required(ParameterId id, const TrialData& data, const IdentifyOptions& options,
+                 const Estimate& estimate) {
+  if (!options.requested.empty()) return true;
+  const bool by_table = (data.surge && is_surge_law(id)) || (data.turning && is_yaw_law(id)) ||
+                        (has_coastdown(data) && is_inertial(id));
+  const bool by_log =
+      std::ranges::any_of(data.logs, [&](const DrivingLog& log) { return is_shown(id, log); });
+  return by_table || (!estimate.value && by_log);
 }
 
 }  // namespace
@@ -96,7 +141,7 @@ std::vector<ParameterId> requested_parameters(const Vehicle& vehicle, const Tria
 
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
                                                 const std::vector<ParameterId>& requested,
-                                                Model& model) {
+                                                const IdentifyOptions& options, Model& model) {
   std::vector<ParameterId> refused;
   for (const ParameterInfo& parameter : parameter_table()) {
     Estimate& estimate = model[parameter.id];
@@ -114,7 +159,8 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
       estimate.source = Source::kFitted;
       estimate.method = "none";
     }
-    if (wanted) refused.push_back(parameter.id);
+    const bool required = wanted && is_required(parameter.id, data, options, estimate);
+    if (required) refused.push_back(parameter.id);
     const auto inadmissible = reasons.inadmissible.find(parameter.id);
     const std::string why = inadmissible != reasons.inadmissible.end() ? inadmissible->second
                             : logged != reasons.logs.end()
@@ -125,7 +171,7 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
                            is_assumed(estimate) ? "assumed" : "given", *estimate.value)
              : std::string();
     model.record.findings.push_back(
-        {"", 0, wanted ? Severity::kError : Severity::kNote, "not-identifiable",
+        {"", 0, required ? Severity::kError : Severity::kNote, "not-identifiable",
          fmt::format("{} ({}) cannot be identified: {}; {}{}", parameter.name, parameter.meaning,
                      why, remedy_of(parameter.id, data, model.vehicle), kept)});
   }
