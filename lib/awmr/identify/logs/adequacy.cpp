@@ -54,19 +54,61 @@ bool has_only_positions(const NoiseLevels& noise) {
   });
 }
 
-/// Possible causes of a model error in a channel.
-std::string possible_causes(LogChannel channel) {
-  if (channel == LogChannel::kSway) {
-    return "the tyres slide, or the sensor drifts, is mounted at an angle, or sits ahead of or "
-           "behind the centre of gravity";
+using Channels = std::vector<LogChannel>;
+
+bool contains(const Channels& channels, LogChannel channel) {
+  return std::ranges::find(channels, channel) != channels.end();
+}
+
+/// Channels whose residuals show a model error.
+Channels inadequate_channels(const NoiseLevels& noise) {
+  Channels channels;
+  for (const auto& [channel, level] : noise) {
+    if (level.of_the_model()) channels.push_back(channel);
+  }
+  return channels;
+}
+
+/// Possible causes of a model error in these channels.
+std::string possible_causes(const Channels& channels) {
+  std::string sway;
+  if (contains(channels, LogChannel::kSway)) {
+    sway =
+        "the tyres slide, or the sway sensor drifts, is mounted at an angle, or sits ahead of or "
+        "behind the centre of gravity";
+    if (channels.size() == 1) return sway;
   }
   const std::string causes =
       "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
       "curved throttle, play or a curved linkage of the steering, a slope, sliding tyres), a value "
       "in the vehicle file is wrong (half_track_m, front_axle_m, "
-      "steering.max_rate_degps), or the sensor has a bias or drifts";
-  if (channel != LogChannel::kYawRate) return causes;
-  return causes + " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias)";
+      "steering.max_rate_degps), or a sensor has a bias or drifts";
+  const std::string bias =
+      contains(channels, LogChannel::kYawRate)
+          ? " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias of the yaw rate)"
+          : "";
+  return causes + bias + (sway.empty() ? "" : "; for the sway speed, " + sway);
+}
+
+/// The model error of a channel, its duration and the sensor noise.
+std::string describe_error(LogChannel channel, const ChannelNoise& noise) {
+  const auto& [name, unit] = std::pair(info(channel).name, info(channel).unit);
+  const std::string duration = noise.correlation_s < kWindow_s
+                                   ? fmt::format("{:.2g} s", noise.correlation_s)
+                                   : fmt::format("more than {:g} s", kWindow_s);
+  return fmt::format("{} {:.3g} {} for {} (noise {:.2g})", name, noise.drift_std, unit, duration,
+                     noise.sensor_std);
+}
+
+/// Effect of the model errors on the intervals.
+std::string describe_effect(const Adequacy& adequacy) {
+  if (adequacy.withdraws_intervals) return "The intervals are withdrawn";
+  std::string withdrawn;
+  if (adequacy.withdraws_servo) withdrawn = "steering.time_constant_s";
+  if (adequacy.withdraws_sway)
+    withdrawn += (withdrawn.empty() ? "" : " and ") + std::string("sway.alpha");
+  if (withdrawn.empty()) return "The intervals do not include this model error";
+  return "No interval for " + withdrawn + "; the other intervals do not include this model error";
 }
 
 }  // namespace
@@ -91,35 +133,28 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
 Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families) {
   Adequacy adequacy;
-  for (const auto& [channel, noise] : chosen.fit.noise) {
-    if (!noise.of_the_model()) continue;
-    std::string advice = possible_causes(channel);
-    if (channel == LogChannel::kSpeed && try_families) {
-      advice = try_alternatives(best_family(logs, power_law, chosen, {.only_candidates = false}),
-                                chosen, adequacy)
-                   .value_or(advice);
-    }
-    const bool is_models = noise.overwhelms_sensor() && is_evaluated(chosen.fit.noise, channel);
-    const bool withdraws = is_models || has_only_positions(chosen.fit.noise);
-    adequacy.withdraws_intervals |= withdraws;
+  const NoiseLevels& noise = chosen.fit.noise;
+  const Channels channels = inadequate_channels(noise);
+  if (channels.empty()) return adequacy;
+  std::string errors;
+  for (const LogChannel channel : channels) {
+    adequacy.withdraws_intervals |=
+        has_only_positions(noise) ||
+        (noise.at(channel).overwhelms_sensor() && is_evaluated(noise, channel));
     adequacy.withdraws_sway |= channel == LogChannel::kSway;
-    const bool is_of_turns = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
-    adequacy.withdraws_servo |= is_of_turns;
-    adequacy.findings.push_back(
-        {logs.front().file, 0, Severity::kWarning, "model-inadequate",
-         fmt::format("the model has an error of {1:.3g} {2} in {0} that persists for {3}, compared "
-                     "with a sensor noise of {4:.2g}: {5}. {6}",
-                     info(channel).name, noise.drift_std, info(channel).unit,
-                     noise.correlation_s < kWindow_s ? fmt::format("{:.2g} s", noise.correlation_s)
-                                                     : fmt::format("more than {:g} s", kWindow_s),
-                     noise.sensor_std, advice,
-                     withdraws                      ? "The intervals are withdrawn"
-                     : channel == LogChannel::kSway ? "The interval of sway.alpha is withdrawn"
-                     : is_of_turns
-                         ? "The interval of steering.time_constant_s is withdrawn; the others do "
-                           "not include this model error"
-                         : "The intervals do not include this model error")});
+    adequacy.withdraws_servo |= channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
+    errors += (errors.empty() ? "" : ", ") + describe_error(channel, noise.at(channel));
   }
+  std::string advice = possible_causes(channels);
+  if (contains(channels, LogChannel::kSpeed) && try_families) {
+    advice = try_alternatives(best_family(logs, power_law, chosen, {.only_candidates = false}),
+                              chosen, adequacy)
+                 .value_or(advice);
+  }
+  adequacy.findings.push_back(
+      {logs.front().file, 0, Severity::kWarning, "model-inadequate",
+       fmt::format("the model has lasting errors: {}. Possible causes: {}. {}", errors, advice,
+                   describe_effect(adequacy))});
   return adequacy;
 }
 
