@@ -645,6 +645,58 @@ TEST(LateLog, EstimatesTheTimesOfCommandsThatChangeBetweenRows) {
   }
 }
 
+TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithAMotorLag) {
+  constexpr double kLag_s = 0.1;
+  constexpr std::size_t kRowsHeld = 163;
+  const Truth& t = kTruths[1];
+  DrivingLog fast = smooth_commands(0.004);
+  hold_commands(fast, kRowsHeld);
+  DrivingLog lagged = fast;
+  for (std::vector<double>* const force : {&lagged.force_left, &lagged.force_right}) {
+    *force = behind_motors(fast, *force, kLag_s, force->front());
+  }
+  DrivingLog log = measured_rows(lagged, plant(t), 5);
+  for (std::size_t i = 0; i < log.rows(); ++i) {
+    log.force_left[i] = fast.force_left[5 * i];
+    log.force_right[i] = fast.force_right[5 * i];
+  }
+  TrialData data;
+  data.logs = {std::move(log)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
+  EXPECT_FALSE(has_finding(*result, "late-commands"));
+  const auto lag = estimated(*result, "motor.time_constant_s");
+  ASSERT_TRUE(lag && lag->std_error);
+  EXPECT_NEAR(lag->value, kLag_s, 4.5 * *lag->std_error);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+}
+
+TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithBackEmf) {
+  constexpr double kBackEmf_s_per_m = 0.1;
+  constexpr std::size_t kRowsHeld = 163;
+  const Truth& t = kTruths[1];
+  DrivingLog fast = smooth_commands(0.004);
+  hold_commands(fast, kRowsHeld);
+  for (std::size_t i = 0; i < fast.rows(); ++i) {  // coasts in every fourth period
+    if (i / kRowsHeld % 4 == 3) fast.force_left[i] = fast.force_right[i] = 0.0;
+  }
+  Plant<double> geared = plant(t);
+  geared.back_emf_s_per_m = kBackEmf_s_per_m;
+  TrialData data;
+  data.logs = {measured_rows(fast, geared, 5)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
+  EXPECT_FALSE(has_finding(*result, "late-commands"));
+  expect_recovered(*result, ParameterId::kBackEmf, kBackEmf_s_per_m, 4.5);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+  expect_recovered(*result, ParameterId::kSteeringTimeConstant, plant(t).steering_time_constant_s,
+                   4.5);
+}
+
 TEST_P(LateLogs, HoldsSetPointsThatWereInterpolatedInTheLog) {
   constexpr std::size_t kRowsHeld = 5;
   const Truth& t = kTruths[1];

@@ -25,8 +25,8 @@ struct Adequacy {
   bool withdraws_sway = false;  ///< true: the measured sway speed shows a model error
 };
 
-/// Checks every channel of the fit `chosen`. One finding `model-inadequate` lists the channels whose
-/// residuals show a model error (ChannelNoise::of_the_model()). If the speed is among them and
+/// Checks every channel of the fit `chosen`. One finding `model-inadequate` lists the channels with
+/// residuals that show a model error (ChannelNoise::of_the_model()). If the speed is among them and
 /// `try_families` is true, also fits other formulas ("families") of the surge resistance, and
 /// recommends a better one. `power_law`: options of a fit with power laws in surge and yaw.
 Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/family_score.h"
@@ -62,6 +63,12 @@ LogFitOptions with_back_emf(LogFitOptions options) {
   }
   if (!options.frees(ParameterId::kBackEmf)) options.free.push_back(ParameterId::kBackEmf);
   return options;
+}
+
+LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options) {
+  if (!fit.options.frees(ParameterId::kBackEmf)) return options;
+  std::erase(options.candidate_terms, ParameterId::kBackEmf);
+  return with_back_emf(std::move(options));
 }
 
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms) {

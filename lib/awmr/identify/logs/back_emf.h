@@ -22,6 +22,9 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 /// Returns the options with k_e free, and with an initial guess of k_e if there was none.
 LogFitOptions with_back_emf(LogFitOptions options);
 
+/// Returns the options with k_e free if `fit` estimates it, else unchanged options.
+LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options);
+
 /// True if a further fit should also estimate k_e. One of these reasons suffices: the score test of
 /// k_e predicts that -2 ln L decreases by more than 4; a channel has a slow drift, which may hide
 /// the effect of k_e; `fit` did not converge. False if k_e is not in `candidate_terms`, the terms

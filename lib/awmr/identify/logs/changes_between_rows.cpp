@@ -7,6 +7,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
+#include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/further_terms.h"
 #include "awmr/identify/logs/information.h"
@@ -96,6 +97,29 @@ UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& poi
   return {lead > threshold, between.change_times};
 }
 
+/// Options of a fit with uncertain times of the changes: begins at the stopped fit `at_rows`, with
+/// its back-EMF and a motor lag above `step_s`, the row spacing. Its delays and shorter lags are
+/// left out, because wrong times of the changes can cause them.
+LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_law,
+                           double step_s) {
+  LogFitOptions from = with_back_emf_as_in(at_rows, power_law);
+  from.initial_guess = fitted_values(at_rows.options, at_rows.fit);
+  from.guessed.clear();
+  // With wrong times of the changes, the time constant of the servo can become almost 0. A search
+  // that begins there would not leave it.
+  constexpr std::size_t kServo = at(ParameterId::kSteeringTimeConstant);
+  from.initial_guess[kServo] = power_law.initial_guess[kServo];
+  const std::vector<FreeQuantity>& quantities = at_rows.fit.quantities;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const bool is_requested = std::ranges::any_of(
+        from.terms, [&](const FreeTerm& term) { return term.quantity.kind == quantities[i].kind; });
+    if (quantities[i].kind != FreeQuantity::Kind::kMotorLag || is_requested) continue;
+    const double coordinate = at_rows.fit.coordinates[i];
+    if (quantities[i].value(coordinate) > step_s) from.terms.push_back({quantities[i], coordinate});
+  }
+  return from;
+}
+
 }  // namespace
 
 bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
@@ -133,13 +157,11 @@ FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
   at_rows.options.tests_changes = false;
   if (!at_rows.fit.has_changes_between_rows) return {logs, std::move(at_rows), {}};
   FirstFit between{with_changes_between_rows(logs), {}, {}};
-  LogFitOptions from = power_law;
-  from.initial_guess = fitted_values(at_rows.options, at_rows.fit);
-  from.guessed.clear();
+  LogFitOptions from = options_from(at_rows, power_law, logs.front().median_step_s());
   from.effort = std::make_shared<Effort>(power_law.effort->left() / kEffortShare);
   between.fit = fit_first_family(between.logs, from, options);
-  at_rows =
-      fit_family(logs, from_optimum(power_law, between.fit), between.fit.surge, between.fit.yaw);
+  at_rows = fit_family(logs, from_optimum(with_back_emf_as_in(between.fit, power_law), between.fit),
+                       between.fit.surge, between.fit.yaw);
   between.fit.options.effort = power_law.effort;
   if (!from.effort->is_over() && between.fit.fit.usable &&
       are_times_between_rows(between.fit.fit.change_times) &&

@@ -1,10 +1,12 @@
 #include "awmr/identify/logs/family_screen.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "awmr/core/parallel.h"
+#include "awmr/identify/logs/back_emf.h"
 
 namespace awmr {
 
@@ -20,10 +22,11 @@ std::vector<Families> other_families(const Families& from, bool of_yaw) {
 
 namespace {
 
-/// A model that differs from the current one in one family, or by one additional term.
+/// A model that differs from the current one in one family, by one additional term, or by back-EMF.
 struct Neighbour {
   Families families;
   std::vector<FreeTerm> more = {};
+  bool has_back_emf = false;
 };
 
 /// A delay of the commands and a lag of the motors, except those that the fit already contains.
@@ -41,8 +44,8 @@ std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
 }
 
 /// Returns the models to try next. Each changes the family of an open axis, or adds one of
-/// late_terms(). `is_done`: axis that is not changed, because it was changed last (true: yaw,
-/// false: surge).
+/// late_terms() or, if it is a candidate term, back-EMF. `is_done`: axis that is not changed,
+/// because it was changed last (true: yaw, false: surge).
 std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
                                      std::optional<bool> is_done) {
   const Families families{fit.surge, fit.yaw};
@@ -52,6 +55,10 @@ std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
     for (const Families& other : other_families(families, of_yaw)) neighbours.push_back({other});
   }
   for (const FreeTerm& term : late_terms(fit)) neighbours.push_back({families, {term}});
+  if (std::ranges::find(fit.options.candidate_terms, ParameterId::kBackEmf) !=
+      fit.options.candidate_terms.end()) {
+    neighbours.push_back({.families = families, .has_back_emf = true});
+  }
   return neighbours;
 }
 
@@ -60,6 +67,7 @@ std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open) {
   constexpr double kClearlyLess = 0.98;
+  constexpr double kMuchLess = 0.67;  // back-EMF can compensate a little for any model error
   constexpr double kExplained = 0.7;
   constexpr int kMostChanges = 8;
   const FamilyFit same = fit_roughly_from(logs, power_law, first, first.surge, first.yaw, {});
@@ -69,8 +77,16 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
     const std::vector<Neighbour> neighbours = neighbours_of(best, open, changed_yaw);
     std::vector<FamilyFit> fits(neighbours.size());
     parallel_for(fits.size(), power_law.threads, [&](std::size_t i) {
-      const auto& [families, more] = neighbours[i];
-      fits[i] = fit_roughly_from(logs, power_law, best, families.surge, families.yaw, more);
+      const auto& [families, more, has_back_emf] = neighbours[i];
+      LogFitOptions options = with_back_emf_as_in(best, power_law);
+      if (has_back_emf) {
+        options = with_back_emf(std::move(options));
+        std::erase(options.candidate_terms, ParameterId::kBackEmf);
+      }
+      fits[i] = fit_roughly_from(logs, options, best, families.surge, families.yaw, more);
+      if (has_back_emf && !(kMuchLess * best.fit.relative_error > fits[i].fit.relative_error)) {
+        fits[i].fit.relative_error = std::numeric_limits<double>::infinity();
+      }
     });
     const auto least = std::ranges::min_element(
         fits, {}, [](const FamilyFit& other) { return other.fit.relative_error; });

@@ -29,8 +29,9 @@ struct OpenAxes {
 
 /// Selects families by rough fits (fit_roughly()), starting at the optimum of `first`. Each round
 /// tries every change of the family of one open axis. It also tries an additional delay of the
-/// commands or lag of the motors, because a wrong family can compensate for these. The best change
-/// is kept if it lowers LogFit::relative_error by more than 2 %; there are at most eight rounds.
+/// commands or lag of the motors, and back-EMF if it is a candidate term of `power_law`, because a
+/// wrong family can compensate for these. The best change is kept if it lowers
+/// LogFit::relative_error by more than 2 % (back-EMF: by a third); there are at most eight rounds.
 ///
 /// Let E be the amount by which the relative error exceeds 1. Returns the last rough fit if its E
 /// is less than 0.7 times that of the families of `first`. Otherwise returns the rough fit of these
@@ -38,8 +39,9 @@ struct OpenAxes {
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open);
 
-/// Fits the families of the rough fit `rough`, starting at its optimum, but without its delay and
-/// lag. Then searches delays and command errors, and tests the candidate terms of `power_law`.
+/// Fits the families and the back-EMF of the rough fit `rough`, starting at its optimum, but
+/// without its delay and lag. Then searches delays and command errors, and tests the candidate
+/// terms of `power_law`.
 FamilyFit refine(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                  const FamilyFit& rough);
 

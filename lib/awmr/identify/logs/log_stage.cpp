@@ -10,6 +10,7 @@
 #include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/adequacy.h"
+#include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/between_logs.h"
 #include "awmr/identify/logs/changes_between_rows.h"
 #include "awmr/identify/logs/command_findings.h"
@@ -257,7 +258,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   AWMR_RETURN_IF_ERROR(check_replay(plant_of(vehicle, power_law.initial_guess), rows.front().file));
   auto [logs, first, findings] = first_fit(rows, power_law, options);
   append(stage.findings, findings);
-  if (const auto other = read_again(logs, power_law, first)) {
+  if (const auto other = read_again(logs, with_back_emf_as_in(first, power_law), first)) {
     Result<LogStage> again =
         run_log_stage(vehicle, other->logs, options, requested, model, overrule);
     if (again) again->findings.push_back(other->finding);

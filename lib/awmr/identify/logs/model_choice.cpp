@@ -72,7 +72,6 @@ FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOpti
   FamilyFit fit = fit_family(logs, first, surge, yaw);
   if (!fit.fit.gave_up) return fit;
   first = power_law;
-  first.tests_changes = false;
   return refine(logs, first, likely_families(logs, first, fit, open));
 }
 
@@ -158,6 +157,22 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return chosen;
 }
 
+/// Selects the families with the back-EMF of `first`. Empty if back-EMF is not significant: a fit
+/// of the same families and terms without it has nearly the same AIC, or the result is inadequate.
+std::optional<BestFamily> with_screened_back_emf(const std::vector<DrivingLog>& logs,
+                                                 LogFitOptions& power_law,
+                                                 const IdentifyOptions& options,
+                                                 const FamilyFit& first) {
+  LogFitOptions freed = with_back_emf_as_in(first, power_law);
+  FamilyFit without = fit_from(logs, power_law, first, first.surge, first.yaw);
+  BestFamily with = choose_families(logs, freed, options, first).found;
+  if (!shows_back_emf(with.best, without)) return std::nullopt;
+  with.findings.push_back(back_emf_finding(logs.front().file, with.best, without));
+  with.others.push_back(std::move(without));
+  power_law = std::move(freed);
+  return with;
+}
+
 /// Tests whether the motors have back-EMF: fits the best families of `ideal`, the result without
 /// back-EMF, with back-EMF in addition.
 ///
@@ -198,6 +213,13 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
 
 BestFamily choose_model(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                         const IdentifyOptions& options, FamilyFit first) {
+  if (first.options.frees(ParameterId::kBackEmf) && !power_law.frees(ParameterId::kBackEmf)) {
+    if (auto with = with_screened_back_emf(logs, power_law, options, first)) {
+      return *std::move(with);
+    }
+    std::erase(power_law.candidate_terms, ParameterId::kBackEmf);
+    first = fit_first_family(logs, power_law, options);
+  }
   auto [found, may_have_back_emf] = choose_families(logs, power_law, options, std::move(first));
   if (!may_have_back_emf || found.is_out_of_time) return std::move(found);
   return or_with_back_emf(logs, power_law, options, std::move(found));
