@@ -248,14 +248,14 @@ Json ranking_json(const Preferences& preferences) {
   json["first_by_weights"] =
       "fraction of random weightings of the metrics (uniform over all that sum to 1) with which "
       "the mode has the best score. A weighting is divided equally among all modes within "
-      "relevance of "
-      "the best score. Modes that are tied for best have the mean of their fractions";
+      "relevance of the best score. Modes that are tied for best have the mean of their fractions";
   json["decision"] = fmt::format(
-      "decided: one mode has rank 1 in the ranking and under every change of one assumption; "
-      "level: several modes have; undecided: no mode has, or the lead is narrow (narrow_lead): by "
-      "one metric alone, and lost with half its weight. Modes that complete no run have no rank 1 "
-      "here. Changes: any weights within a factor {:g}; with "
-      "option plant both, also the other plant and, for a single set of gains, the rates of "
+      "decided: exactly one mode has rank 1 in the ranking and under every change of one "
+      "assumption; level: several modes have rank 1 in all of these; undecided: no mode has, or "
+      "the lead rests on one metric and is lost if this metric has half its weight (narrow_lead). "
+      "A mode that completes no run does not have rank 1. Changes: any weights within a factor "
+      "{:g}; with option plant both, also the other plant and, for a single set of gains, the "
+      "rates of "
       "heading and speed loop multiplied and divided by {:.3g}, each with up to {} samples",
       kWeightFactor, kGainsFactor, kBatchRuns - 1);
   return json;

@@ -190,9 +190,10 @@ std::string trials_in_words(const std::vector<std::string_view>& trials) {
 /// Text of a lead by one metric alone; empty without such a lead.
 std::string narrow_text(const Decision& decision) {
   if (!decision.narrow_lead) return {};
-  return fmt::format("; undecided: {} leads {} in {} alone, and not with half its weight",
-                     listed(decision.first), listed(decision.narrow_lead->others),
-                     column_of(decision.narrow_lead->metric).name);
+  return fmt::format(
+      "; undecided: {} leads {} only by {}, and no longer if this metric has half its weight",
+      listed(decision.first), listed(decision.narrow_lead->others),
+      column_of(decision.narrow_lead->metric).name);
 }
 
 /// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...", then the modes
