@@ -36,8 +36,7 @@ Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
 }
 
 /// Checks that no option contradicts tune.json. Errors (input, `conflict`): those of
-/// check_observer_choice(); `--nominal`, with a key about drawn vehicles; `--draws`, with the key
-/// `nominal`.
+/// check_observer_choice(); `--draws`, with the key `nominal`.
 Status check_against(const TuneConfig& config, const TuneCommand& command) {
   const TuneOptions& options = config.options;
   AWMR_RETURN_IF_ERROR(check_observer_choice(
@@ -48,20 +47,11 @@ Status check_against(const TuneConfig& config, const TuneCommand& command) {
         "the configuration (--config) sets nominal, which uses no draws; remove --draws or "
         "nominal");
   }
-  if (!command.nominal) return {};
-  for (const auto& [key, draws] :
-       {std::pair("draws", options.draws != 0),
-        std::pair("judged_draws", options.evaluation_draws != 0), std::pair("tail_share", true)}) {
-    if (!draws || !config.keys.contains(key)) continue;
-    return input_error(ErrorCode::kConflict, "--nominal",
-                       fmt::format("the configuration (--config) has the key {0}, which needs "
-                                   "randomly drawn vehicles; remove --nominal or {0}",
-                                   key));
-  }
   return {};
 }
 
-/// Returns the note `option-overrides` for each option that replaces another value in tune.json.
+/// Returns the note `option-overrides` for each option that replaces another value in tune.json, and
+/// for each key about drawn vehicles that has no effect with `--nominal`.
 std::vector<Finding> overridden_keys(const TuneConfig& config, const TuneCommand& command) {
   std::vector<Finding> findings;
   const auto note = [&](const char* key, const std::string& before, const std::string& now) {
@@ -80,6 +70,12 @@ std::vector<Finding> overridden_keys(const TuneConfig& config, const TuneCommand
   if (command.baseline) {
     note("baseline", options.baseline ? options.baseline->source : std::string(kPolePlacement),
          command.baseline->string());
+  }
+  for (const char* key : {"draws", "judged_draws", "tail_share"}) {
+    if (!command.nominal || !config.keys.contains(key)) continue;
+    findings.push_back({command.config->string(), 0, Severity::kNote, "option-overrides",
+                        fmt::format("{} draws no vehicles, so {} of this file has no effect",
+                                    option_text("nominal"), key)});
   }
   return findings;
 }

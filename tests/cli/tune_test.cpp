@@ -86,12 +86,11 @@ TEST_F(TunedGains, OptionsReplaceTheKeysOfTheConfigurationWithANote) {
   EXPECT_EQ(note.at("message"), "--mode combined replaces steering of this file");
 }
 
-TEST_F(TunedGains, RefuseANominalSearchWithDrawsInTheConfiguration) {
-  const ProcessResult run = tune("--nominal");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--nominal: "));
-  EXPECT_THAT(run.err, HasSubstr("the key draws"));
-  EXPECT_THAT(run.err, HasSubstr("[conflict]"));
+TEST_F(TunedGains, NoteKeysAboutDrawsThatANominalSearchIgnores) {
+  ASSERT_EQ(tune("--nominal").exit_code, 0);
+  const Json note = gains().at("findings").front();
+  EXPECT_EQ(note.at("code"), "option-overrides");
+  EXPECT_EQ(note.at("message"), "--nominal draws no vehicles, so draws of this file has no effect");
 }
 
 TEST_F(TunedGains, RefuseABaselineThatIsNoGainsFile) {

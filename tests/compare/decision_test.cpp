@@ -241,7 +241,7 @@ TEST(Decision, IsUndecidedIfOneMetricAloneLeadsNarrowly) {
   EXPECT_THAT(one.decision->narrow_lead->others, ElementsAre(kSteering));
   EXPECT_EQ(one.decision->kind(), DecisionKind::kUndecided);
   EXPECT_THAT(one.verdict, ::testing::StartsWith("differential is ahead here"));
-  EXPECT_THAT(one.verdict, ::testing::HasSubstr("differential leads steering in tyre_work alone"));
+  EXPECT_THAT(one.verdict, ::testing::HasSubstr("differential leads steering only by tyre_work"));
   const Json json = Json::parse(comparison_text(narrow, {}, {"compare", {}, {}}));
   EXPECT_EQ(json.at("scenarios").at(0).at("decision").at("narrow_lead").at("metric"), "tyre_work");
   const auto kind = [](const Comparison& comparison) {

@@ -649,7 +649,7 @@ TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithAMotorLag) {
   constexpr double kLag_s = 0.1;
   constexpr std::size_t kRowsHeld = 163;
   const Truth& t = kTruths[1];
-  DrivingLog fast = smooth_commands(0.004);
+  DrivingLog fast = smooth_commands(0.004, 30.0);
   hold_commands(fast, kRowsHeld);
   DrivingLog lagged = fast;
   for (std::vector<double>* const force : {&lagged.force_left, &lagged.force_right}) {
@@ -677,7 +677,7 @@ TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithBackEmf) {
   constexpr double kBackEmf_s_per_m = 0.1;
   constexpr std::size_t kRowsHeld = 163;
   const Truth& t = kTruths[1];
-  DrivingLog fast = smooth_commands(0.004);
+  DrivingLog fast = smooth_commands(0.004, 30.0);
   hold_commands(fast, kRowsHeld);
   for (std::size_t i = 0; i < fast.rows(); ++i) {  // coasts in every fourth period
     if (i / kRowsHeld % 4 == 3) fast.force_left[i] = fast.force_right[i] = 0.0;
