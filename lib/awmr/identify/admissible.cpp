@@ -42,7 +42,7 @@ std::string refusal_reason(double value, const NumberRule& rule) {
 /// Empty if the tables determine m', for any other parameter, and for an m' from logs, whose
 /// interval can be so wide only because several logs disagree.
 std::string why_open(ParameterId id, const Estimate& estimate) {
-  constexpr double kMaxOpen = 1e4;  // ratio of the interval's upper end to its lower end
+  constexpr double kMaxOpen = 1e4;  // largest accepted ratio of the interval's ends
   const auto& ci = estimate.ci95;
   const bool is_of_logs = estimate.method == name_in(kEstimatorNames, Estimator::kTrajectory);
   if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};

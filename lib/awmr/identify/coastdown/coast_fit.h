@@ -54,7 +54,8 @@ struct CoastFit {
   double residual_std_mps = 0.0;
   int rows = 0;  ///< number of samples of all runs
   int rank = 0;
-  double condition_number = 0.0;               ///< of the Jacobian with columns of length 1
+  /// Condition number of the Jacobian after its columns were scaled to length 1.
+  double condition_number = 0.0;
   std::vector<std::vector<double>> residuals;  ///< by run, m/s
   /// True if neighbouring residuals are correlated. `variance` allows for this.
   bool autocorrelated = false;

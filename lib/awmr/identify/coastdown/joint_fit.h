@@ -12,9 +12,10 @@ namespace awmr {
 struct JointFit {
   SteadyFit surge;             ///< the surge law at the joint optimum, with its covariance
   double log_mass_norm = 0.0;  ///< ln m'
-  Eigen::MatrixXd covariance;  ///< of the coordinates surge.free and ln m', positive definite
-  Eigen::VectorXd dof;         ///< Satterthwaite's degrees of freedom of surge.free and ln m'
-  CoastFit coast;              ///< residuals and noise of the curves; stop reason; usable or not
+  /// Covariance of the coordinates surge.free and ln m', positive definite.
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd dof;  ///< Satterthwaite's degrees of freedom of surge.free and ln m'
+  CoastFit coast;       ///< residuals and noise of the curves; stop reason; usable or not
 };
 
 /// Fits surge rows and curves together. `alone`: fit of the surge rows alone, the initial guess.

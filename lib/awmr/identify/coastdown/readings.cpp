@@ -45,8 +45,10 @@ double extrapolated_mps(const CoastCurve& curve, std::size_t end) {
 /// Cuts the curve at its first speed of 0. Returns the extrapolated speed at this row if it is
 /// significantly above 0.
 std::optional<double> cut_at_rest(double quantum_mps, CoastCurve& curve) {
-  constexpr double kOverNoise = 5.0;  // standard deviations of the noise
-  constexpr double kShare = 0.03;     // of the highest speed
+  // Smallest extrapolated speed that counts as above 0: in standard deviations of the noise, and as
+  // a share of the highest speed.
+  constexpr double kOverNoise = 5.0;
+  constexpr double kShare = 0.03;
   const std::size_t end = first_zero(curve.speed_mps);
   if (end == curve.speed_mps.size()) return std::nullopt;
   const double lost_mps = extrapolated_mps(curve, end);

@@ -27,13 +27,15 @@ Finding changes_between_rows_finding(const std::string& file) {
           "when it is sent"};
 }
 
-/// Result of a Gauss-Newton step of all coordinates and initial states.
+/// Cost and times of the changes of the commands that a Gauss-Newton step of all coordinates and
+/// initial states predicts.
 struct Predicted {
   double squares = 0.0;              ///< twice the predicted cost
   std::vector<double> change_times;  ///< WindowErrors::change_times
 };
 
-/// `prior`: information of the weak prior of each coordinate.
+/// Predicts the result of a Gauss-Newton step from the sums of all windows. `prior`: information of
+/// the weak prior of each coordinate.
 Predicted predicted(const std::vector<WindowSums>& sums, const Eigen::VectorXd& prior) {
   const Eigen::Index n = prior.size();
   const FitEvidence evidence = fit_evidence(sums, n);
@@ -48,7 +50,9 @@ Predicted predicted(const std::vector<WindowSums>& sums, const Eigen::VectorXd& 
     result.squares += window.products(n + k, n + k) -
                       gradient.dot(Eigen::VectorXd(solve_ldlt(of_initial, gradient)));
     if (window.change_times.size() == 0) continue;
-    Eigen::VectorXd all(n + k + 1);  // changes of the unknowns, and -1
+    // Steps of the coordinates and of the initial state. The factor -1 selects the last column of
+    // WindowSums::change_times, the times before the step.
+    Eigen::VectorXd all(n + k + 1);
     all << change, -solve_ldlt(of_initial, gradient + window.products.block(n, 0, k, n) * change),
         -1.0;
     const Eigen::VectorXd times = -window.change_times * all;
@@ -63,7 +67,8 @@ struct UncertainTimes {
   std::vector<double> standardised;  ///< WindowErrors::change_times
 };
 
-/// `more`: free quantities in addition to those of the problem.
+/// Tests whether uncertain times of the changes are likelier than changes at the rows. `more`: free
+/// quantities in addition to those of the problem.
 UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& point,
                                const std::vector<FreeQuantity>& more) {
   constexpr double kClearly = 20.0;
@@ -138,8 +143,10 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
 }
 
 bool are_times_between_rows(const std::vector<double>& times) {
-  constexpr double kVariance = 0.8;  // of the square of a uniform number with the variance 1
-  constexpr double kErrors = 2.0;    // standard errors
+  // Variance of x^2, if x is uniformly distributed with the mean 0 and the variance 1.
+  constexpr double kVariance = 0.8;
+  // Accepted excess of the mean square, in its standard errors.
+  constexpr double kErrors = 2.0;
   double squares = 0.0;
   for (const double time : times) squares += time * time;
   const auto n = static_cast<double>(times.size());
@@ -148,7 +155,9 @@ bool are_times_between_rows(const std::vector<double>& times) {
 
 FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const IdentifyOptions& options) {
-  constexpr std::int64_t kEffortShare = 3;  // a trial in vain may spend a third of the limit
+  // The fit with uncertain times may use a third of the remaining work (Effort). Enough work is
+  // then left for the other fits if its result is rejected.
+  constexpr std::int64_t kEffortShare = 3;
   LogFitOptions tests = power_law;
   tests.tests_changes = std::ranges::none_of(logs, [](const DrivingLog& log) {
     return log.has_interpolated_commands || log.has_held_set_points;

@@ -161,7 +161,7 @@ DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, d
 
 DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path) {
   constexpr double kMoment_s = 1e-6;
-  // Row whose command acts; includes a change at this very time.
+  // Row whose command acts at a time. If the command changes at exactly this time, the new row.
   const auto row_at = [&](double at_s) {
     return ActingRow(signals.log->t_s, at_s + 2.0 * kSameTime_s).row();
   };

@@ -39,11 +39,13 @@ struct WindowSums {
   Eigen::MatrixXd products;  ///< [J r]^T [J r], (q + k + 1) x (q + k + 1)
   /// J^T r (length q + k) of each block of samples. The prior is left out. Empty unless requested.
   std::vector<Eigen::VectorXd> block_gradients;
-  /// `products` if the uncertain times of changes were known; empty if there are none.
+  /// `products` as they would be if the commands changed exactly at the times of their rows. Empty if
+  /// no change has an uncertain time.
   Eigen::MatrixXd products_at_known_times;
   double change_cost = 0.0;  ///< ln det of marginalised()
-  /// Likeliest times of changes as in WindowErrors::change_times, and their decrease per change of
-  /// the unknowns: [decrease times], [m][q + k + 1].
+  /// One row for each of the m changes at uncertain times. The last column has the likeliest times
+  /// (WindowErrors::change_times). The columns before it have the amounts by which these times
+  /// decrease if an unknown (quantity or initial state) increases by 1: [m][q + k + 1].
   Eigen::MatrixXd change_times;
   bool finite = false;  ///< false if the simulation or its derivatives are not finite
 

@@ -18,7 +18,8 @@ bool is_change(const LogSignals& signals, std::size_t row) {
   return signals.forces_differ(row, row - 1) || signals.steering_commands_differ(row, row - 1);
 }
 
-/// Row of the log with a change inserted before it, or without.
+/// Row of the new log: the row `row` of the original log, or a row inserted before it for a change
+/// of the commands.
 struct PlannedRow {
   std::size_t row;
   bool is_inserted;  ///< true: half a row spacing before `row`

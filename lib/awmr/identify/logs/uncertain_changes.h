@@ -46,7 +46,8 @@ struct Marginalised {
   double ln_det = 0.0;       ///< ln det(I + S J_o^T J_o S), S = diag s
   /// Likeliest (o - mean)/s at the point at which the sums were computed.
   Eigen::VectorXd standardised;
-  /// Decrease of these numbers per change of the unknowns, [m][columns of J].
+  /// Amounts by which the numbers in `standardised` decrease if an unknown increases by 1,
+  /// [m][columns of J].
   Eigen::MatrixXd decrease;
 };
 /// `products`: [J J_o r]^T [J J_o r], without the prior of the times.
