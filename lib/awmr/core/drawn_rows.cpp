@@ -22,7 +22,7 @@ std::vector<double> ranges_of(std::span<const std::vector<double>> signals) {
 
 struct Farthest {
   std::size_t row = 0;
-  double distance = 0.0;  ///< from the straight line, divided by the signal's range
+  double distance = 0.0;  ///< distance of the row from the line, over the signal's range
 };
 
 /// Of the rows between `first` and `last`, the one that deviates most, in any signal, from the

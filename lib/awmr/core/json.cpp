@@ -227,7 +227,7 @@ void JsonObject::schema(std::string_view expected) {
     fault(ErrorCode::kWrongFile, "schema",
           fmt::format("expected \"{}\", found \"{}\": this is another kind of file", expected,
                       *found));
-    value_ = nullptr;  // the keys of another kind of file are no further faults
+    value_ = nullptr;  // a file of another kind has other keys: report no further faults
   }
 }
 

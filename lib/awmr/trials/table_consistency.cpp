@@ -79,9 +79,11 @@ double side_limit(const Vehicle& vehicle) {
   return std::max(vehicle.wheel_force.hi, -vehicle.wheel_force.lo);
 }
 
-/// Range of the wheel forces over those tables of a vehicle in which the forces exceed the limit
-/// and cannot be F'. Absent if there is no such table.
+/// Wheel forces that are not F' (force over F_max), from all tables of a vehicle. They decide the
+/// unit of each force column whose values cannot be F'.
 struct FolderForces {
+  /// Range of the forces of those tables in which the forces exceed the limit and cannot be F'.
+  /// Absent if there is no such table.
   std::optional<ForceSpan> wheels = {};
 
   /// Returns the range of forces from which the unit of a column is determined. `own`: range of the

@@ -211,9 +211,9 @@ std::optional<Contradiction> check_large_angles(const Evidence& evidence, const 
 }
 
 /// Ratio of the path's curvature to that of the logged steering angle. In a log without a speed,
-/// the yaw rate per moment of the steering, divided by the yaw rate per moment of a force
-/// difference. Either ratio is about 1 if the angle was logged in degrees, and large if it was
-/// logged in radians. 0 if the log does not determine it.
+/// another ratio replaces it: the yaw rate per moment of the steering, divided by the yaw rate per
+/// moment of a force difference. Either ratio is about 1 if the angle was logged in degrees, and
+/// large if it was logged in radians. 0 if the log does not determine it.
 double times_as_sharp(const Evidence& evidence) {
   const double degree = degrees(1.0);
   if (const auto sharp = sharpness(evidence, degree)) return *sharp * degree;

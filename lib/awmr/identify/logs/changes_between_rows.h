@@ -25,8 +25,8 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
 /// expected values, in standard deviations (LogFit::change_times).
 bool are_times_between_rows(const std::vector<double>& times);
 
-/// First fit of the logs. In `logs`, the commands are as in this fit: they change at the rows, or at
-/// uncertain times between the rows.
+/// First fit of the logs. In `logs`, the commands are as in this fit: they change at the rows, or
+/// at uncertain times between the rows.
 struct FirstFit {
   std::vector<DrivingLog> logs;
   FamilyFit fit;

@@ -80,8 +80,8 @@ Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
 }
 
 /// Raises the factors of the standard errors according to the scatter of `scores`, the scores of
-/// parts of the logs (blocks of some seconds, or whole logs). A factor is raised only if the variance
-/// by this scatter exceeds `allowed` times the variance by the noise model.
+/// parts of the logs (blocks of some seconds, or whole logs). A factor is raised only if the
+/// variance by this scatter exceeds `allowed` times the variance by the noise model.
 void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
                   Identifiability& found) {
   if (scores.size() < 2) return;

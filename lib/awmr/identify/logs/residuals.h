@@ -39,8 +39,8 @@ struct WindowSums {
   Eigen::MatrixXd products;  ///< [J r]^T [J r], (q + k + 1) x (q + k + 1)
   /// J^T r (length q + k) of each block of samples. The prior is left out. Empty unless requested.
   std::vector<Eigen::VectorXd> block_gradients;
-  /// `products` as they would be if the commands changed exactly at the times of their rows. Empty if
-  /// no change has an uncertain time.
+  /// `products` as they would be if the commands changed exactly at the times of their rows. Empty
+  /// if no change has an uncertain time.
   Eigen::MatrixXd products_at_known_times;
   double change_cost = 0.0;  ///< ln det of marginalised()
   /// One row for each of the m changes at uncertain times. The last column has the likeliest times
