@@ -23,7 +23,7 @@ std::string run_side_text(std::string_view csv, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
 /// Checks that the file `side` may be written. Errors (input): a file with this name exists and is
-/// not the side file of a run.
+/// not a side file, the description that `simulate` writes next to the CSV file of a run.
 Status check_run_side(const std::filesystem::path& side);
 
 /// The JSON Schema of the side file.

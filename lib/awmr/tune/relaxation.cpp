@@ -9,10 +9,10 @@
 #include <span>
 #include <string_view>
 
+#include "awmr/tune/feasible_gains.h"
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/problem.h"
-#include "awmr/tune/search.h"
 
 namespace awmr {
 namespace {

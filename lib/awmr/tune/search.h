@@ -1,5 +1,5 @@
-/// Search over the logarithms of the gains: first for feasible gains, then a global and a local
-/// search of the objective. Private to tune/.
+/// Search over the logarithms of the gains: a global, then a local search of the
+/// objective. Private to tune/.
 #pragma once
 
 #include <optional>
@@ -43,24 +43,6 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
 /// meet. COBYLA, whose models of the constraints are linear, can fail to move from there. Returns
 /// the reasons for stopping. Errors (program fault): a failure of NLopt.
 Result<std::string> search_near(Problem& problem, int most_evaluations);
-
-/// Returns gains within the bounds that meet the constraints that need no simulation. If it finds
-/// none, it returns the gains with the smallest violation. Searches from `baseline`, then from
-/// other points.
-Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
-                         const Gains<double>& baseline);
-
-/// As feasible_start(), but searches only from `gains`.
-Candidate feasible_near(const TuneOptions& options, const ConstraintContext& context,
-                        const Gains<double>& gains);
-
-/// Returns gains within the bounds that violate the constraints named in `relaxed` as little as
-/// possible, and meet all other constraints that need no simulation. Empty if none are found.
-/// Searches from `baseline`, then from other points.
-std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
-                                           const ConstraintContext& context,
-                                           const Gains<double>& baseline,
-                                           std::span<const std::string> relaxed);
 
 /// Searches the logarithms of the gains with NLopt. `searched` is the objective on the nominal
 /// vehicle and some of the drawn vehicles, `all` on the nominal vehicle and all drawn vehicles.

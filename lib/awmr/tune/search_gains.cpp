@@ -14,6 +14,7 @@
 #include "awmr/core/parallel.h"
 #include "awmr/tune/baseline_limits.h"
 #include "awmr/tune/certificate.h"
+#include "awmr/tune/feasible_gains.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/problem.h"
 #include "awmr/tune/refusals.h"
@@ -22,6 +23,7 @@
 #include "awmr/tune/settling.h"
 #include "awmr/tune/trade_off.h"
 #include "awmr/tune/tuning_context.h"
+#include "awmr/tune/unsettled_cause.h"
 
 namespace awmr {
 namespace {

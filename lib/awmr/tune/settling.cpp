@@ -12,20 +12,12 @@
 
 #include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
-#include "awmr/model/parameters.h"
 #include "awmr/tune/pole_placement.h"
 #include "awmr/tune/relaxation.h"
 #include "awmr/tune/steering_rate.h"
 
 namespace awmr {
 namespace {
-
-/// The scenario with its duration, and the time for each heading, multiplied by `factor`.
-Scenario stretched(Scenario scenario, double factor) {
-  scenario.duration_s *= factor;
-  for (HeadingStep& step : std::get<HeadingSteps>(scenario.guidance).steps) step.t_s *= factor;
-  return scenario;
-}
 
 /// The headings of a scenario with their times, for messages.
 std::string manoeuvre(const Scenario& scenario) {
@@ -36,17 +28,10 @@ std::string manoeuvre(const Scenario& scenario) {
   return text;
 }
 
-constexpr double kMoreTime[] = {2.0, 4.0};
-
-ObjectiveSetting stretched(ObjectiveSetting setting, double factor) {
-  for (Scenario& scenario : setting.scenarios) scenario = stretched(std::move(scenario), factor);
-  return setting;
-}
-
 std::optional<SettlingChange> more_time(const ObjectiveSetting& setting, const Gains<double>& gains,
                                         double share) {
-  for (const double factor : kMoreTime) {
-    const ObjectiveSetting longer = stretched(setting, factor);
+  for (const double factor : {2.0, kMostTime}) {
+    const ObjectiveSetting longer = in_more_time(setting, factor);
     if (!enough_settle(longer, gains, share)) continue;
     return SettlingChange{
         "/scenarios",
@@ -117,79 +102,12 @@ double settled_share_without_noise(ObjectiveSetting setting, const Gains<double>
   return settled_share(setting, gains);
 }
 
-std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
-                                        const Gains<double>& gains) {
-  const double without = settled_share_without_noise(setting, gains);
-  if (without >= kSettledShare) return NoiseEffect{without, 1.0};
-  const double factor = *std::rbegin(kMoreTime);
-  const ObjectiveSetting longer = stretched(setting, factor);
-  const double without_in_more_time = settled_share_without_noise(longer, gains);
-  if (without_in_more_time < kSettledShare || enough_settle(longer, gains, kSettledShare)) {
-    return std::nullopt;
+ObjectiveSetting in_more_time(ObjectiveSetting setting, double factor) {
+  for (Scenario& scenario : setting.scenarios) {
+    scenario.duration_s *= factor;
+    for (HeadingStep& step : std::get<HeadingSteps>(scenario.guidance).steps) step.t_s *= factor;
   }
-  return NoiseEffect{without_in_more_time, factor};
-}
-
-namespace {
-
-/// A quantity that is drawn with the model's error. `identify` copies it from the identified plant.
-struct DrawnQuantity {
-  const char* name;
-  ParameterId parameter;  ///< with the trial that identifies it
-  void (*identify)(Plant<double>& drawn, const Plant<double>& identified);
-};
-constexpr DrawnQuantity kDrawnQuantities[] = {
-    {"the yaw resistance g3", ParameterId::kYawAlpha,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.yaw = p.yaw; }},
-    {"the surge resistance g1", ParameterId::kSurgeAlpha,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.surge = p.surge; }},
-    {"the mass m'", ParameterId::kMassNorm,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.mass_norm = p.mass_norm; }},
-    {"the yaw inertia I'z", ParameterId::kInertiaNorm,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.inertia_norm = p.inertia_norm; }},
-    {"the sway resistance a_s", ParameterId::kSwayAlpha,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.sway_alpha = p.sway_alpha; }},
-    {"the steering time constant T", ParameterId::kSteeringTimeConstant,
-     [](Plant<double>& drawn, const Plant<double>& p) {
-       drawn.steering_time_constant_s = p.steering_time_constant_s;
-     }},
-    {"the motors' dead zone F'0", ParameterId::kWheelDeadZone,
-     [](Plant<double>& drawn, const Plant<double>& p) {
-       drawn.wheel_dead_zone = p.wheel_dead_zone;
-     }},
-    {"the back-EMF k_e", ParameterId::kBackEmf,
-     [](Plant<double>& drawn, const Plant<double>& p) {
-       drawn.back_emf_s_per_m = p.back_emf_s_per_m;
-     }},
-    {"the scrub moment", ParameterId::kYawCoulomb,
-     [](Plant<double>& drawn, const Plant<double>& p) { drawn.yaw_scrub_m = p.yaw_scrub_m; }}};
-
-/// Share of the runs that settle if each of the quantities has its identified value in all
-/// vehicles.
-double settled_share_with(ObjectiveSetting setting, const Gains<double>& gains,
-                          std::span<const DrawnQuantity> identified) {
-  const Plant<double> nominal = setting.vehicles.front().plant;
-  for (DrawnVehicle& vehicle : setting.vehicles) {
-    for (const DrawnQuantity& quantity : identified) quantity.identify(vehicle.plant, nominal);
-  }
-  return settled_share(setting, gains);
-}
-
-}  // namespace
-
-std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
-                                                const Gains<double>& gains) {
-  const std::span all(kDrawnQuantities);
-  const double drawn = settled_share(setting, gains);
-  const double identified = settled_share_with(setting, gains, all);
-  if (identified <= drawn + 0.5 * (1.0 - drawn)) return std::nullopt;
-  std::optional<UnsettlingError> largest;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double share = settled_share_with(setting, gains, all.subspan(i, 1));
-    if (largest && share <= largest->settled_share) continue;
-    largest = {all[i].name, std::string(info(all[i].parameter).trial), share, identified};
-  }
-  return largest;
+  return setting;
 }
 
 ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, YawMode mode) {

@@ -25,22 +25,15 @@ bool enough_settle(const ObjectiveSetting& setting, const Gains<double>& gains, 
 /// Share of the runs that settle with noise-free sensors, [0, 1].
 double settled_share_without_noise(ObjectiveSetting setting, const Gains<double>& gains);
 
-/// Tells whether noise keeps the runs from settling: without noise, at least kSettledShare of them
-/// settle, in the duration of the scenarios or in four times this duration, but not with noise.
-/// (Gains that are slow because of limits on noise need more time.) Empty if not.
-/// Precondition: fewer than kSettledShare of the runs settle.
-std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
-                                        const Gains<double>& gains);
-
-/// Returns the error of the model that most keeps runs from settling, by simulation: one quantity
-/// of all drawn vehicles at a time gets its identified value. Empty if at least half of the
-/// unsettled runs do not settle with the identified values of all quantities either.
-std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
-                                                const Gains<double>& gains);
-
 /// Returns the setting with only one mode and one scenario (all scenarios if `scenario` is empty),
 /// and without goals.
 ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, YawMode mode);
+
+/// Largest factor of in_more_time() that is tried.
+inline constexpr double kMostTime = 4.0;
+/// Returns the setting with the duration of its scenarios, and the time for each heading, multiplied
+/// by `factor`.
+ObjectiveSetting in_more_time(ObjectiveSetting setting, double factor);
 
 /// Returns the setting with only the nominal vehicle and the first drawn vehicles.
 ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);

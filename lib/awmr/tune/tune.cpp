@@ -23,6 +23,7 @@
 #include "awmr/tune/settling.h"
 #include "awmr/tune/tuning_context.h"
 #include "awmr/tune/turning.h"
+#include "awmr/tune/unsettled_cause.h"
 
 namespace awmr {
 namespace {

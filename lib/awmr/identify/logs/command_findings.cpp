@@ -301,9 +301,8 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
          fmt::format(
              "the wheel force is proportional to the command to the power of {:.3f} +- "
              "{:.3f}: large commands give less force than in proportion. The fit "
-             "compensates this{}, but simulations and gains assume proportional forces: "
-             "log |command|^{:.2f} with the sign of the command, which is proportional to the "
-             "force",
+             "compensates this{}, but simulations and gains assume proportional forces: record "
+             "the command raised to the power of {:.2f}, with its sign, as the force",
              p, p * exponent.error, withdrawn, p)});
   }
   const double n = sharpness_of(fit);

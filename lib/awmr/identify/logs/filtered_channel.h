@@ -31,8 +31,9 @@ struct SensorFilter {
 template <class Scalar>
 class FilterStage {
  public:
-  /// `direction`: time constant of this stage over that of the whole filter (complex for a filter
-  /// of second order). `first`: initial output, with the derivatives `by_column`.
+  /// `direction`: time constant of this stage, divided by that of the whole filter (complex for a
+  /// filter of second order). `first`: initial output. `by_column`: its derivatives with respect to
+  /// the estimated quantities, the columns of the Jacobian.
   FilterStage(const SensorFilter& filter, Scalar direction, Scalar first,
               std::vector<Scalar> by_column)
       : lag_s_(direction * filter.lag.delay_s),

@@ -1,0 +1,34 @@
+/// NLopt searches over the points of a SearchSpace. Private to tune/.
+#pragma once
+
+#include <nlopt.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "awmr/tune/problem.h"
+
+namespace awmr {
+
+/// First step and smallest step of local searches, in ln(gain): 20 % and 0.1 %.
+inline constexpr double kFirstStep = 0.2;
+inline constexpr double kLastStep = 1e-3;
+
+using Optimizer = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
+
+/// Returns a search within the bounds of the space, with at most `evaluations` evaluations.
+inline Optimizer optimizer(nlopt_algorithm algorithm, const SearchSpace& space, int evaluations) {
+  Optimizer opt(nlopt_create(algorithm, space.dimension()), &nlopt_destroy);
+  nlopt_set_lower_bounds(opt.get(), space.lower_corner().data());
+  nlopt_set_upper_bounds(opt.get(), space.upper_corner().data());
+  nlopt_set_maxeval(opt.get(), evaluations);
+  return opt;
+}
+
+inline Point point_at(unsigned dimension, const double* x) {
+  Point point{};
+  std::copy(x, x + dimension, point.begin());
+  return point;
+}
+
+}  // namespace awmr

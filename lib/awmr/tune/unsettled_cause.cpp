@@ -1,0 +1,88 @@
+#include "awmr/tune/unsettled_cause.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "awmr/model/model.h"
+#include "awmr/model/parameters.h"
+#include "awmr/tune/settling.h"
+
+namespace awmr {
+
+std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
+                                        const Gains<double>& gains) {
+  const double without = settled_share_without_noise(setting, gains);
+  if (without >= kSettledShare) return NoiseEffect{without, 1.0};
+  const ObjectiveSetting longer = in_more_time(setting, kMostTime);
+  const double without_in_more_time = settled_share_without_noise(longer, gains);
+  if (without_in_more_time < kSettledShare || enough_settle(longer, gains, kSettledShare)) {
+    return std::nullopt;
+  }
+  return NoiseEffect{without_in_more_time, kMostTime};
+}
+
+namespace {
+
+/// A quantity that is drawn with the model's error. `identify` copies it from the identified plant.
+struct DrawnQuantity {
+  const char* name;
+  ParameterId parameter;  ///< with the trial that identifies it
+  void (*identify)(Plant<double>& drawn, const Plant<double>& identified);
+};
+constexpr DrawnQuantity kDrawnQuantities[] = {
+    {"the yaw resistance g3", ParameterId::kYawAlpha,
+     [](Plant<double>& drawn, const Plant<double>& p) { drawn.yaw = p.yaw; }},
+    {"the surge resistance g1", ParameterId::kSurgeAlpha,
+     [](Plant<double>& drawn, const Plant<double>& p) { drawn.surge = p.surge; }},
+    {"the mass m'", ParameterId::kMassNorm,
+     [](Plant<double>& drawn, const Plant<double>& p) { drawn.mass_norm = p.mass_norm; }},
+    {"the yaw inertia I'z", ParameterId::kInertiaNorm,
+     [](Plant<double>& drawn, const Plant<double>& p) { drawn.inertia_norm = p.inertia_norm; }},
+    {"the sway resistance a_s", ParameterId::kSwayAlpha,
+     [](Plant<double>& drawn, const Plant<double>& p) { drawn.sway_alpha = p.sway_alpha; }},
+    {"the steering time constant T", ParameterId::kSteeringTimeConstant,
+     [](Plant<double>& drawn, const Plant<double>& p) {
+       drawn.steering_time_constant_s = p.steering_time_constant_s;
+     }},
+    {"the motors' dead zone F'0", ParameterId::kWheelDeadZone,
+     [](Plant<double>& drawn, const Plant<double>& p) {
+       drawn.wheel_dead_zone = p.wheel_dead_zone;
+     }},
+    {"the back-EMF k_e", ParameterId::kBackEmf,
+     [](Plant<double>& drawn, const Plant<double>& p) {
+       drawn.back_emf_s_per_m = p.back_emf_s_per_m;
+     }},
+    {"the scrub moment", ParameterId::kYawCoulomb,
+     [](Plant<double>& drawn, const Plant<double>& p) { drawn.yaw_scrub_m = p.yaw_scrub_m; }}};
+
+/// Share of the runs that settle if each of the quantities has its identified value in all
+/// vehicles.
+double settled_share_with(ObjectiveSetting setting, const Gains<double>& gains,
+                          std::span<const DrawnQuantity> identified) {
+  const Plant<double> nominal = setting.vehicles.front().plant;
+  for (DrawnVehicle& vehicle : setting.vehicles) {
+    for (const DrawnQuantity& quantity : identified) quantity.identify(vehicle.plant, nominal);
+  }
+  return settled_share(setting, gains);
+}
+
+}  // namespace
+
+std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
+                                                const Gains<double>& gains) {
+  const std::span all(kDrawnQuantities);
+  const double drawn = settled_share(setting, gains);
+  const double identified = settled_share_with(setting, gains, all);
+  if (identified <= drawn + 0.5 * (1.0 - drawn)) return std::nullopt;
+  std::optional<UnsettlingError> largest;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double share = settled_share_with(setting, gains, all.subspan(i, 1));
+    if (largest && share <= largest->settled_share) continue;
+    largest = {all[i].name, std::string(trial_of(setting.vehicle, all[i].parameter)), share,
+               identified};
+  }
+  return largest;
+}
+
+}  // namespace awmr
