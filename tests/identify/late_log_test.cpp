@@ -697,6 +697,26 @@ TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithBackEmf) {
                    4.5);
 }
 
+/// The yaw resistance has Coulomb friction, so the first fit, of power laws, does not describe the
+/// log.
+TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithCoulombFriction) {
+  constexpr double kYawCoulomb_m = 0.03;
+  const Truth& t = kTruths[1];
+  DrivingLog fast = smooth_commands(0.004, 30.0);
+  hold_commands(fast, 163);
+  Plant<double> rubbing = plant(t);
+  rubbing.yaw.coulomb = kYawCoulomb_m;
+  TrialData data;
+  data.logs = {measured_rows(fast, rubbing, 10)};
+  const auto result = identify(robot(), data, {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "changes-between-rows"));
+  EXPECT_FALSE(has_finding(*result, "late-commands"));
+  expect_recovered(*result, ParameterId::kYawCoulomb, kYawCoulomb_m, 4.5);
+  expect_recovered(*result, ParameterId::kSurgeAlpha, t.a1, 4.5);
+  expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+}
+
 TEST_P(LateLogs, HoldsSetPointsThatWereInterpolatedInTheLog) {
   constexpr std::size_t kRowsHeld = 5;
   const Truth& t = kTruths[1];

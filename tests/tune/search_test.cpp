@@ -769,6 +769,25 @@ TEST(Settling, FindsThatNoiseAndSlowGainsTogetherKeepRunsFromSettling) {
   EXPECT_EQ(fast->time_factor, 1.0);
 }
 
+/// Drawn vehicles have other friction than the identified one, and the compass is noisy.
+TEST(Settling, FindsThatNoiseAndErrorsOfTheModelTogetherKeepRunsFromSettling) {
+  ObjectiveSetting setting = paper_runs();
+  Sensors& sensors = setting.scenarios[0].sensors.emplace();
+  sensors.heading.noise = radians(7.0);
+  sensors.heading.correlation_s = 2.0;
+  DrawnVehicle drawn = setting.vehicles.front();
+  drawn.plant.yaw.coulomb = 0.05;
+  setting.vehicles.resize(4, drawn);
+  EXPECT_FALSE(noise_effect(setting, kPaperGains));
+  EXPECT_FALSE(unsettling_error(setting, kPaperGains));
+  const auto effect = noise_effect_on_identified(setting, kPaperGains);
+  ASSERT_TRUE(effect);
+  EXPECT_TRUE(effect->is_of_identified);
+  EXPECT_EQ(effect->share_without, 1.0);
+  sensors.heading.noise = 0.0;  // the identified vehicle settles
+  EXPECT_FALSE(noise_effect_on_identified(setting, kPaperGains));
+}
+
 TEST(Settling, ProposesChangesThatHelpAndNoObserverIfOneIsOn) {
   ObjectiveSetting setting = paper_runs();
   const Plant<double> plant = paper_plant();

@@ -253,8 +253,11 @@ std::string describe(const std::vector<SettlingChange>& changes, std::string_vie
 
 std::string no_change_settles(std::string_view runs) {
   return fmt::format(
-      "None of these changes lets {} settle: four times the duration, no heading-rate limit, an "
-      "observer, gains for one mode only, relaxed limits",
+      "No change was found that lets {} settle. Tried were four times the duration, no "
+      "heading-rate "
+      "limit and, with gains by pole placement in place of a search, an observer, gains for one "
+      "mode "
+      "only and relaxed limits",
       runs);
 }
 

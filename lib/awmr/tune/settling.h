@@ -91,8 +91,8 @@ class SettlingSearch {
 /// Text for messages about `changes`: "Each of these changes lets runs settle (...): ...". `runs`:
 /// the noun for the runs, such as "runs". Precondition: `changes` is not empty.
 std::string describe(const std::vector<SettlingChange>& changes, std::string_view runs);
-/// Text for messages if no change was found: "None of these changes lets runs settle: ...", with
-/// the changes that were tried. `runs` as in describe().
+/// Text for messages if no change was found, with the changes that were tried. `runs` as in
+/// describe().
 std::string no_change_settles(std::string_view runs);
 
 }  // namespace awmr

@@ -44,7 +44,11 @@ UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintCont
   const ObjectiveSetting few = on_few_vehicles(setting);
   unsettled.noise = noise_effect(few, gains);
   if (unsettled.noise) return unsettled;
-  if (few.vehicles.size() > 1 && !is_varied) unsettled.error = unsettling_error(few, gains);
+  if (few.vehicles.size() > 1 && !is_varied) {
+    unsettled.error = unsettling_error(few, gains);
+    if (!unsettled.error) unsettled.noise = noise_effect_on_identified(few, gains);
+    if (unsettled.noise) return unsettled;
+  }
   unsettled.changes = scenario_changes(setting, gains, kSettledShare);
   if (!unsettled.error || unsettled.error->share_of_identified < kSettledShare) {
     std::ranges::move(search.changes(few, gains, kSettledShare),
@@ -163,8 +167,9 @@ constexpr double kMaxSearchSteps = 1e11;
 
 /// Expected duration on two cores, s, above which a search is announced.
 constexpr double kLongSearch_s = 10.0;
-/// Time of an RK4 step on two cores, s.
-constexpr double kTimeOfStep_s = 2.5e-8;
+/// Time of a search on two cores, divided by its number of RK4 steps, s: 0.9e-7 to 1.7e-7 for four
+/// vehicles on a processor with AVX2.
+constexpr double kTimeOfStep_s = 1e-7;
 /// Typical numbers of evaluations, to estimate the duration: kOnAllDraws on all drawn vehicles in
 /// the last part of the search, kOnNewDraws on newly drawn vehicles after it.
 constexpr double kOnAllDraws = 12.0;

@@ -410,6 +410,9 @@ struct SettlingChange {
 struct NoiseEffect {
   double share_without = 0.0;  ///< share of the runs that settle without noise, [0, 1]
   double time_factor = 1.0;    ///< these runs last so many times the duration of the scenarios
+  /// True: all these runs are of the identified vehicle, because drawn vehicles do not settle
+  /// without noise either.
+  bool is_of_identified = false;
 };
 /// The error of an identified quantity, as the cause of runs that do not settle.
 struct UnsettlingError {

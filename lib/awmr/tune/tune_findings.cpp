@@ -43,17 +43,21 @@ std::string advice_for(const std::string& scenario, YawMode mode,
     return runs.scenario == scenario && runs.mode == mode;
   });
   if (!found->why.empty()) return ": " + found->why;
-  if (found->noise) {
+  if (const auto& noise = found->noise) {
     return fmt::format(
-        ". With sensors without noise, {:.0f} % settle{}: the noise moves the heading by more than "
-        "{:g} deg and {:g} % of the step, the limits of the error of a settled run. Use or filter "
-        "sensors so that the noise is smaller (keys noise and noise_correlation_s of vehicle.json)",
-        100.0 * found->noise->share_without,
-        found->noise->time_factor > 1.0
+        ". With sensors without noise{}, {:.0f} % settle{}: {} the heading by more than the larger "
+        "of {:g} deg and {:g} % of the step, the permitted error of a settled run. Use or filter "
+        "sensors so that the noise is smaller (keys noise and noise_correlation_s of "
+        "vehicle.json){}",
+        noise->is_of_identified ? " and the identified values of all parameters" : "",
+        100.0 * noise->share_without,
+        noise->time_factor > 1.0
             ? fmt::format(" in {:g} times the duration (limits on noise make the gains slow)",
-                          found->noise->time_factor)
-            : std::string(),
-        meter::kSettledLeastDeg, 100.0 * meter::kSettledShare);
+                          noise->time_factor)
+            : "",
+        noise->is_of_identified ? "noise and errors of the model together move" : "the noise moves",
+        meter::kSettledLeastDeg, 100.0 * meter::kSettledShare,
+        noise->is_of_identified ? ", and record trials that reduce the errors (awmr suggest)" : "");
   }
   std::string advice;
   if (const auto& error = found->error) {

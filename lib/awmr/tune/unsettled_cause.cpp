@@ -69,6 +69,16 @@ double settled_share_with(ObjectiveSetting setting, const Gains<double>& gains,
 
 }  // namespace
 
+std::optional<NoiseEffect> noise_effect_on_identified(const ObjectiveSetting& setting,
+                                                      const Gains<double>& gains) {
+  ObjectiveSetting identified = setting;
+  for (DrawnVehicle& vehicle : identified.vehicles) vehicle = setting.vehicles.front();
+  if (settled_share(identified, gains) >= kSettledShare) return std::nullopt;
+  std::optional<NoiseEffect> effect = noise_effect(identified, gains);
+  if (effect) effect->is_of_identified = true;
+  return effect;
+}
+
 std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
                                                 const Gains<double>& gains) {
   const std::span all(kDrawnQuantities);

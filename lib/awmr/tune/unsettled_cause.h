@@ -16,6 +16,12 @@ namespace awmr {
 std::optional<NoiseEffect> noise_effect(const ObjectiveSetting& setting,
                                         const Gains<double>& gains);
 
+/// As noise_effect(), but of runs of the identified vehicle only, in place of the drawn vehicles:
+/// noise and errors of the model together keep runs from settling. Empty if these runs settle with
+/// noise.
+std::optional<NoiseEffect> noise_effect_on_identified(const ObjectiveSetting& setting,
+                                                      const Gains<double>& gains);
+
 /// Returns the error of the model that most keeps runs from settling, by simulation: one quantity
 /// of all drawn vehicles at a time gets its identified value. Empty if at least half of the
 /// unsettled runs do not settle with the identified values of all quantities either.

@@ -104,12 +104,17 @@ UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& poi
 
 /// Options of a fit with uncertain times of the changes: begins at the stopped fit `at_rows`, with
 /// its back-EMF and a motor lag above `step_s`, the row spacing. Its delays and shorter lags are
-/// left out, because wrong times of the changes can cause them.
+/// left out, because wrong times of the changes can cause them. The terms of its families are left
+/// out, too: the fit begins with the families of `power_law`.
 LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_law,
                            double step_s) {
   LogFitOptions from = with_back_emf_as_in(at_rows, power_law);
   from.initial_guess = fitted_values(at_rows.options, at_rows.fit);
   from.guessed.clear();
+  for (const ParameterInfo& parameter : parameter_table()) {
+    if (!parameter.term || from.frees(parameter.id)) continue;
+    from.initial_guess[at(parameter.id)] = power_law.initial_guess[at(parameter.id)];
+  }
   // With wrong times of the changes, the time constant of the servo can become almost 0. A search
   // that begins there would not leave it.
   constexpr std::size_t kServo = at(ParameterId::kSteeringTimeConstant);
