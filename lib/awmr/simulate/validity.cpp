@@ -169,9 +169,9 @@ std::string fault_of_rate(const HeadingRateChoice& choice) {
   if (choice == kMeasuredRate || choice == kNoRate) return {};
   const auto rate_degps = number_from_text(choice);
   if (rate_degps && kHeadingRateLimits_degps.contains(*rate_degps)) return {};
-  return fmt::format("must be {}, {}, or a number of deg/s from {:g} to {:g}, found {}",
-                     kMeasuredRate, kNoRate, kHeadingRateLimits_degps.lo,
-                     kHeadingRateLimits_degps.hi, choice.empty() ? "nothing" : choice);
+  return fmt::format("must be {}, {}, or deg/s from {:g} to {:g}, found {}", kMeasuredRate, kNoRate,
+                     kHeadingRateLimits_degps.lo, kHeadingRateLimits_degps.hi,
+                     choice.empty() ? "nothing" : choice);
 }
 
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model) {

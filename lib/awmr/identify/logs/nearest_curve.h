@@ -12,7 +12,8 @@ namespace awmr {
 ///
 /// The member `coulomb` of the result is the constant term: Coulomb friction, or the force that a
 /// dead zone takes. It is at least a tenth of the resistance at half of `fastest`, because a fit of
-/// logs that starts with a constant term of 0 may end there even if 0 is wrong. Returns `curve` itself if no such curve exists.
+/// logs that starts with a constant term of 0 may end there even if 0 is wrong. Returns `curve`
+/// itself if no such curve exists.
 Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTerms& terms,
                                  double fastest);
 

@@ -235,11 +235,10 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
         std::isfinite(trial.d_gain)) {
       continue;
     }
-    return input_error(
-        ErrorCode::kOutOfRange, model.file,
-        fmt::format("the information of trial '{}' is not finite with the values of "
-                    "this model; check its mass, its resistances and their exponents",
-                    trial.settings));
+    return input_error(ErrorCode::kOutOfRange, model.file,
+                       fmt::format("the information of trial '{}' is not finite at this model's "
+                                   "values; check its exponents, mass and resistance",
+                                   trial.settings));
   }
   sort_by_promise(suggestion.trials);
   return suggestion;
