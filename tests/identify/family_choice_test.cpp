@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "awmr/core/index.h"
+#include "awmr/identify/logs/family_fit.h"
 #include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/initial_guess.h"
 #include "awmr/identify/logs/log_problem.h"
@@ -375,6 +376,19 @@ LogFit fit_with_errors(const std::vector<double>& errors) {
       likeliest_noise(fit.errors[LogChannel::kSpeed], 1.0, {.sensor_std = 1e-4});
   fit.usable = true;
   return fit;
+}
+
+TEST(FamilyFit, ResetsTermsThatItDoesNotEstimate) {
+  ParameterValues<double> power_law{}, values{};
+  values[at(ParameterId::kSurgeAlpha)] = 2.0;    // in every family: never reset
+  values[at(ParameterId::kSurgeCoulomb)] = 0.3;  // estimated
+  values[at(ParameterId::kYawCoulomb)] = 0.05;   // of another fit
+  power_law[at(ParameterId::kYawQuadratic)] = 0.01;
+  reset_terms({ParameterId::kSurgeCoulomb}, power_law, values);
+  EXPECT_EQ(values[at(ParameterId::kSurgeAlpha)], 2.0);
+  EXPECT_EQ(values[at(ParameterId::kSurgeCoulomb)], 0.3);
+  EXPECT_EQ(values[at(ParameterId::kYawCoulomb)], 0.0);
+  EXPECT_EQ(values[at(ParameterId::kYawQuadratic)], 0.01);
 }
 
 TEST(Families, AreComparedUnderTheNoiseOfTheSmallerErrors) {

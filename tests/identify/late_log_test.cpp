@@ -556,8 +556,9 @@ DrivingLog smooth_commands(double step_s, double duration_s = 20.0) {
 }
 
 /// Simulates the vehicle with the commands of `fast`. Returns a log with every `every`-th row:
-/// commands and noisy measurements.
-DrivingLog measured_rows(const DrivingLog& fast, const Plant<double>& vehicle, std::size_t every) {
+/// commands and measurements with noise of the standard deviation `noise_std` (m/s, rad/s, rad).
+DrivingLog measured_rows(const DrivingLog& fast, const Plant<double>& vehicle, std::size_t every,
+                         double noise_std = 0.007) {
   std::vector<State<double>> states;
   replay<double>(LogSignals(fast), 0, fast.rows(), vehicle, nullptr, 0.002, {},
                  [&](std::size_t, const State<double>& s) { states.push_back(s); });
@@ -565,18 +566,18 @@ DrivingLog measured_rows(const DrivingLog& fast, const Plant<double>& vehicle, s
   log.file = "smooth.csv";
   log.steering_command_rad.emplace();
   Random random(4, 2);
-  const std::map<LogChannel, double> noise{
-      {LogChannel::kSpeed, 0.007}, {LogChannel::kYawRate, 0.007}, {LogChannel::kHeading, 0.007}};
-  for (const auto& [channel, std] : noise) log[channel].emplace();
+  constexpr LogChannel kMeasured[] = {LogChannel::kHeading, LogChannel::kSpeed,
+                                      LogChannel::kYawRate};
+  for (const LogChannel channel : kMeasured) log[channel].emplace();
   for (std::size_t i = 0; i < fast.rows(); i += every) {
     log.t_s.push_back(fast.t_s[i]);
     log.line.push_back(static_cast<int>(log.t_s.size()) + 1);
     log.force_left.push_back(fast.force_left[i]);
     log.force_right.push_back(fast.force_right[i]);
     log.steering_command_rad->push_back((*fast.steering_command_rad)[i]);
-    for (const auto& [channel, std] : noise) {
+    for (const LogChannel channel : kMeasured) {
       Measured& measured = *log[channel];
-      measured.value.push_back(channel_of(states[i], channel) + std * random.normal());
+      measured.value.push_back(channel_of(states[i], channel) + noise_std * random.normal());
       measured.fresh.push_back(true);
       ++measured.fresh_count;
     }
@@ -697,17 +698,17 @@ TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithBackEmf) {
                    4.5);
 }
 
-/// The yaw resistance has Coulomb friction, so the first fit, of power laws, does not describe the
+/// Both resistances have Coulomb friction, so the first fit, of power laws, does not describe the
 /// log.
 TEST(LateLog, EstimatesTheTimesOfChangesTogetherWithCoulombFriction) {
   constexpr double kYawCoulomb_m = 0.03;
   const Truth& t = kTruths[1];
-  DrivingLog fast = smooth_commands(0.004, 30.0);
-  hold_commands(fast, 163);
   Plant<double> rubbing = plant(t);
+  rubbing.surge.coulomb = 0.3;
   rubbing.yaw.coulomb = kYawCoulomb_m;
+  const DrivingLog fast = drive(t, 8, {.duration_s = 40.0, .rate_hz = 250.0});
   TrialData data;
-  data.logs = {measured_rows(fast, rubbing, 10)};
+  data.logs = {measured_rows(fast, rubbing, 13, 0.011)};
   const auto result = identify(robot(), data, {}, {});
   ASSERT_TRUE(result);
   EXPECT_TRUE(has_finding(*result, "changes-between-rows"));

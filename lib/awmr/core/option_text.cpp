@@ -46,6 +46,4 @@ std::string spell_options(std::string_view message, std::string_view prefix) {
   });
 }
 
-std::string plain_text(std::string_view message) { return spell_options(message, ""); }
-
 }  // namespace awmr

@@ -2,7 +2,6 @@
 /// marks option names in its messages, and the caller replaces the marks.
 ///
 ///     option_text("loss huber");                          // a marked name, for a message
-///     plain_text("use " + option_text("loss huber"));     // "use loss huber"
 ///     spell_options("use " + option_text("loss huber"), "--");  // "use --loss huber"
 #pragma once
 
@@ -26,10 +25,6 @@ std::string spell_options(std::string_view message, std::string_view prefix);
 /// is a name, possibly followed by its value.
 std::string replace_options(std::string_view message,
                             const std::function<std::string(std::string_view option)>& spelling);
-
-/// Removes the marks of option_text() from a message; the option names stay, spelt as in
-/// model.json.
-std::string plain_text(std::string_view message);
 
 /// The faults to show to a user. If more than three faults of a file have the same cause, only the
 /// first of them is kept, and its message gives the number of the others. Then only the first 20

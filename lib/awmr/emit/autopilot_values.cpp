@@ -35,12 +35,6 @@ double steady_or_never(const Resistance<double>& law, double force) {
   return steady_rate(law, force).value_or(kNever);
 }
 
-/// Returns the slope dg/dw of a resistance at the rate w > 0, by a central difference.
-double slope(const Resistance<double>& law, double w) {
-  const double h = 1e-5 * w;
-  return (law.at(w + h) - law.at(w - h)) / (2.0 * h);
-}
-
 /// Collects the values of an autopilot's parameters, and the parameters without a value.
 struct Autopilot {
   const ExportSource& source;

@@ -1,6 +1,7 @@
 /// Steady motion and stopping time for a resistance law.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "awmr/model/resistance.h"
@@ -26,6 +27,12 @@ std::optional<double> stop_time_s(const Resistance<double>& law, double mass_nor
 /// `inertia` is m' for surge and I'z for yaw.
 inline double relaxation_time_s(const Resistance<double>& law, double inertia, double w) {
   return inertia * w / law.at(w);
+}
+
+/// Slope of a resistance g at the speed or yaw rate w > 0:
+///   g'(w) = alpha beta w^(beta - 1) + 2 q w
+inline double slope(const Resistance<double>& g, double w) {
+  return g.alpha * g.beta * std::pow(w, g.beta - 1.0) + 2.0 * g.quadratic * w;
 }
 
 /// The speed, m/s or rad/s, below which a simulation with steps of h = step_s seconds replaces the

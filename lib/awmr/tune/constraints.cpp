@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "awmr/core/units.h"
+#include "awmr/model/steady.h"
 #include "awmr/tune/steering_rate.h"
 
 namespace awmr {
@@ -31,10 +32,6 @@ ConstraintReport at_least(std::string name, double value, double limit, std::str
           .margin = value - limit,
           .sense = Sense::kAtLeast,
           .meaning = std::move(meaning)};
-}
-
-double examined_rate_radps(double share, const ConstraintContext& context) {
-  return std::max(share * context.fastest_radps, kSlowest_radps);
 }
 
 /// Slope of the yaw resistance at the yaw rate r, divided by I'z, 1/s: g3'(r)/I'z.
@@ -190,10 +187,6 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
 
 }  // namespace
 
-double slope(const Resistance<double>& g, double w) {
-  return g.alpha * g.beta * std::pow(w, g.beta - 1.0) + 2.0 * g.quadratic * w;
-}
-
 Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle) {
   return forces_beyond_dead_zone(vehicle.wheel_force, vehicle.plant.wheel_dead_zone);
 }
@@ -271,6 +264,10 @@ SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintCont
           .sample_time_s = context.sample_time_s,
           .direct_share = 1.0 - steering_share<double>(mode),
           .observer_radps = gains.observer.bandwidth_radps};
+}
+
+double examined_rate_radps(double share, const ConstraintContext& context) {
+  return std::max(share * context.fastest_radps, kSlowest_radps);
 }
 
 Interval examined_rates_radps(const ConstraintContext& context) {

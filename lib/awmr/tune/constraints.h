@@ -151,9 +151,8 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
 SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintContext& context,
                                 const Plant<double>& plant, double rate_radps, YawMode mode);
 
-/// Slope of a resistance g at the speed or yaw rate w > 0:
-///   g'(w) = alpha beta w^(beta - 1) + 2 q w
-double slope(const Resistance<double>& g, double w);
+/// The yaw rate, rad/s, at which the heading loop is examined for one of kRateShares.
+double examined_rate_radps(double share, const ConstraintContext& context);
 
 /// The lowest and the highest yaw rate at which the heading loop is examined.
 Interval examined_rates_radps(const ConstraintContext& context);

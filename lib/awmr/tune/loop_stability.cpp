@@ -5,21 +5,15 @@
 #include <algorithm>
 
 #include "awmr/core/units.h"
+#include "awmr/model/steady.h"
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/scenario.h"
+#include "awmr/tune/certificate.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/tuning_context.h"
 
 namespace awmr {
 namespace {
-
-/// Returns the loop with motor lag and latency.
-SampledHeadingLoop with_lags(SampledHeadingLoop loop, double motor_time_constant_s,
-                             double latency_s) {
-  loop.motor_time_constant_s = motor_time_constant_s;
-  loop.command_delay_s = latency_s;
-  return loop;
-}
 
 /// True if the heading loop is stable. delay_margin_s() takes the same time for every latency; the
 /// poles of a loop with a latency of many samples take long.
@@ -32,10 +26,8 @@ bool is_stable(const SampledHeadingLoop& loop) {
 std::optional<UnstableLoop> unstable_heading(const Gains<double>& gains,
                                              const ConstraintContext& context, YawMode mode) {
   for (const double share : kRateShares) {
-    const double rate_radps = std::max(share * context.fastest_radps, kSlowest_radps);
-    const SampledHeadingLoop loop =
-        with_lags(heading_loop(gains, context, context.plant, rate_radps, mode),
-                  context.motor_time_constant_s, context.latency_s);
+    const double rate_radps = examined_rate_radps(share, context);
+    const SampledHeadingLoop loop = certified_loop(gains, context, context.plant, rate_radps, mode);
     if (is_stable(loop)) continue;
     return UnstableLoop{
         fmt::format("heading loop in mode {} at {:.3g} deg/s", name_of(mode), degrees(rate_radps)),
@@ -51,9 +43,9 @@ double surge_rate(const Plant<double>& plant, double speed_mps) {
          plant.mass_norm;
 }
 
-/// The speed loop at the speed of the context, without latency and motor lag.
-SampledHeadingLoop sampled_speed_loop(const Gains<double>& gains,
-                                      const ConstraintContext& context) {
+/// The speed loop at the speed of the context, with motor lag and the latency of the measured speed.
+SampledHeadingLoop sampled_speed_loop(const Gains<double>& gains, const ConstraintContext& context,
+                                      double latency_s) {
   const double resistance_rate = surge_rate(context.plant, context.speed_mps);
   return {.reaching_rate = gains.speed.mu / gains.speed.epsilon,
           .resistance_rate = resistance_rate,
@@ -61,7 +53,9 @@ SampledHeadingLoop sampled_speed_loop(const Gains<double>& gains,
           .servo_time_constant_s = context.plant.steering_time_constant_s,
           .sample_time_s = context.sample_time_s,
           .direct_share = 1.0,
-          .observer_radps = gains.observer.bandwidth_radps};
+          .motor_time_constant_s = context.motor_time_constant_s,
+          .observer_radps = gains.observer.bandwidth_radps,
+          .command_delay_s = latency_s};
 }
 
 }  // namespace
@@ -82,9 +76,7 @@ std::vector<UnstableLoop> unstable_loops(const Model& model, const Gains<double>
     unstable.push_back(*loop);
     break;
   }
-  const SampledHeadingLoop speed =
-      with_lags(sampled_speed_loop(gains, context), context.motor_time_constant_s,
-                conditions.speed_latency_s);
+  const SampledHeadingLoop speed = sampled_speed_loop(gains, context, conditions.speed_latency_s);
   if (!(speed_damping_ratio(speed) > 0.0)) {
     unstable.push_back({fmt::format("speed loop at {:.3g} m/s", context.speed_mps),
                         "mu_s/epsilon_s", speed.reaching_rate});

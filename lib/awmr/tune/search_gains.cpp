@@ -147,10 +147,7 @@ struct Searched {
 /// the results of the nominal vehicle. Usually one of them settles, and nothing needs to be
 /// simulated.
 Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
-  const auto settles = [](const ModeScore& one) {
-    return one.metrics.completed && !one.has_failed;
-  };
-  if (std::ranges::any_of(scores, settles)) return {};
+  if (std::ranges::any_of(scores, has_settled)) return {};
   const Gains<double>& gains = s.settled.gains;
   if (settled_share(s.setting, gains) > 0.0 ||
       settled_share_without_noise(s.setting, gains) > 0.0) {

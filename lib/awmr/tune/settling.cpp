@@ -70,11 +70,12 @@ bool any_settles(const ObjectiveSetting& setting, const std::vector<Gains<double
 
 }  // namespace
 
+bool has_settled(const ModeScore& run) { return run.metrics.completed && !run.has_failed; }
+
 double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains) {
   const auto all = run_all(setting, draw_noise(setting), std::span(&gains, 1));
   const std::vector<ModeScore>& scores = all.front();
-  const auto settled = std::ranges::count_if(
-      scores, [](const ModeScore& score) { return score.metrics.completed && !score.has_failed; });
+  const auto settled = std::ranges::count_if(scores, has_settled);
   return static_cast<double>(settled) / static_cast<double>(scores.size());
 }
 
@@ -254,10 +255,8 @@ std::string describe(const std::vector<SettlingChange>& changes, std::string_vie
 std::string no_change_settles(std::string_view runs) {
   return fmt::format(
       "No change was found that lets {} settle. Tried were four times the duration, no "
-      "heading-rate "
-      "limit and, with gains by pole placement in place of a search, an observer, gains for one "
-      "mode "
-      "only and relaxed limits",
+      "heading-rate limit and, with gains by pole placement in place of a search, an observer, "
+      "gains for one mode only and relaxed limits",
       runs);
 }
 

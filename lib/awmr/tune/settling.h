@@ -15,6 +15,9 @@
 
 namespace awmr {
 
+/// True if the simulation of a run did not fail and the vehicle settled on every commanded heading.
+bool has_settled(const ModeScore& run);
+
 /// Share of the runs of the setting that settle with these gains, [0, 1].
 double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
 

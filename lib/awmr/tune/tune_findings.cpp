@@ -215,7 +215,8 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   note_observer(options, tuning, findings);
   note_baseline(tuning, findings);
   note_modes(tuning, findings);
-  if (const auto plant = model.plant()) {
+  const auto plant = model.plant();
+  if (plant) {
     auto finding = unsigned_speed_finding(*plant, model.vehicle, tuning.gains, "");
     if (finding) findings.push_back(*std::move(finding));
   }
@@ -230,7 +231,7 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   };
   std::ranges::move(extrapolation_in(model, tuning.scores, name, commands),
                     std::back_inserter(findings));
-  if (const auto plant = model.plant()) {
+  if (plant) {
     auto finding = noise_beyond_servo(model.vehicle, *plant, tuning);
     if (finding) findings.push_back(*std::move(finding));
   }

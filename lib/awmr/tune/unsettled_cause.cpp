@@ -1,7 +1,6 @@
 #include "awmr/tune/unsettled_cause.h"
 
-#include <cstddef>
-#include <span>
+#include <algorithm>
 #include <string>
 
 #include "awmr/model/model.h"
@@ -56,23 +55,25 @@ constexpr DrawnQuantity kDrawnQuantities[] = {
     {"the scrub moment", ParameterId::kYawCoulomb,
      [](Plant<double>& drawn, const Plant<double>& p) { drawn.yaw_scrub_m = p.yaw_scrub_m; }}};
 
-/// Share of the runs that settle if each of the quantities has its identified value in all
-/// vehicles.
-double settled_share_with(ObjectiveSetting setting, const Gains<double>& gains,
-                          std::span<const DrawnQuantity> identified) {
+/// Returns the setting in which one quantity has its identified value in all vehicles.
+ObjectiveSetting with_identified(ObjectiveSetting setting, const DrawnQuantity& quantity) {
   const Plant<double> nominal = setting.vehicles.front().plant;
-  for (DrawnVehicle& vehicle : setting.vehicles) {
-    for (const DrawnQuantity& quantity : identified) quantity.identify(vehicle.plant, nominal);
-  }
-  return settled_share(setting, gains);
+  for (DrawnVehicle& vehicle : setting.vehicles) quantity.identify(vehicle.plant, nominal);
+  return setting;
+}
+
+/// Returns the setting in which all vehicles are the identified one.
+ObjectiveSetting all_identified(ObjectiveSetting setting) {
+  const DrawnVehicle nominal = setting.vehicles.front();
+  std::ranges::fill(setting.vehicles, nominal);
+  return setting;
 }
 
 }  // namespace
 
 std::optional<NoiseEffect> noise_effect_on_identified(const ObjectiveSetting& setting,
                                                       const Gains<double>& gains) {
-  ObjectiveSetting identified = setting;
-  for (DrawnVehicle& vehicle : identified.vehicles) vehicle = setting.vehicles.front();
+  const ObjectiveSetting identified = all_identified(setting);
   if (settled_share(identified, gains) >= kSettledShare) return std::nullopt;
   std::optional<NoiseEffect> effect = noise_effect(identified, gains);
   if (effect) effect->is_of_identified = true;
@@ -81,15 +82,14 @@ std::optional<NoiseEffect> noise_effect_on_identified(const ObjectiveSetting& se
 
 std::optional<UnsettlingError> unsettling_error(const ObjectiveSetting& setting,
                                                 const Gains<double>& gains) {
-  const std::span all(kDrawnQuantities);
   const double drawn = settled_share(setting, gains);
-  const double identified = settled_share_with(setting, gains, all);
+  const double identified = settled_share(all_identified(setting), gains);
   if (identified <= drawn + 0.5 * (1.0 - drawn)) return std::nullopt;
   std::optional<UnsettlingError> largest;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double share = settled_share_with(setting, gains, all.subspan(i, 1));
+  for (const DrawnQuantity& quantity : kDrawnQuantities) {
+    const double share = settled_share(with_identified(setting, quantity), gains);
     if (largest && share <= largest->settled_share) continue;
-    largest = {all[i].name, std::string(trial_of(setting.vehicle, all[i].parameter)), share,
+    largest = {quantity.name, std::string(trial_of(setting.vehicle, quantity.parameter)), share,
                identified};
   }
   return largest;

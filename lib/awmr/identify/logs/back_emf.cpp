@@ -62,12 +62,12 @@ LogFitOptions with_back_emf(LogFitOptions options) {
             options.vehicle.driven_wheels();
   }
   if (!options.frees(ParameterId::kBackEmf)) options.free.push_back(ParameterId::kBackEmf);
+  std::erase(options.candidate_terms, ParameterId::kBackEmf);
   return options;
 }
 
 LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options) {
   if (!fit.options.frees(ParameterId::kBackEmf)) return options;
-  std::erase(options.candidate_terms, ParameterId::kBackEmf);
   return with_back_emf(std::move(options));
 }
 

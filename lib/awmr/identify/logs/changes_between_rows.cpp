@@ -111,10 +111,7 @@ LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_
   LogFitOptions from = with_back_emf_as_in(at_rows, power_law);
   from.initial_guess = fitted_values(at_rows.options, at_rows.fit);
   from.guessed.clear();
-  for (const ParameterInfo& parameter : parameter_table()) {
-    if (!parameter.term || from.frees(parameter.id)) continue;
-    from.initial_guess[at(parameter.id)] = power_law.initial_guess[at(parameter.id)];
-  }
+  reset_terms(from.free, power_law.initial_guess, from.initial_guess);
   // With wrong times of the changes, the time constant of the servo can become almost 0. A search
   // that begins there would not leave it.
   constexpr std::size_t kServo = at(ParameterId::kSteeringTimeConstant);

@@ -52,14 +52,9 @@ LogFitOptions with_families(LogFitOptions options, Family surge_family, Family y
 LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inner, Family surge,
                             Family yaw) {
   LogFitOptions options = from_optimum(power_law, inner);
-  const std::vector<ParameterId> free = with_families(options, surge, yaw).free;
-  for (const ParameterInfo& parameter : parameter_table()) {
-    const bool is_free = std::ranges::find(free, parameter.id) != free.end();
-    double& value = options.initial_guess[at(parameter.id)];
-    if (parameter.term && !(is_free && value > 0.0)) {
-      value = power_law.initial_guess[at(parameter.id)];
-    }
-  }
+  std::vector<ParameterId> free = with_families(options, surge, yaw).free;
+  std::erase_if(free, [&](ParameterId id) { return !(options.initial_guess[at(id)] > 0.0); });
+  reset_terms(free, power_law.initial_guess, options.initial_guess);
   return options;
 }
 
@@ -127,6 +122,14 @@ bool is_over(const LogFitOptions& options) {
 std::string families_in_words(Family surge, Family yaw) {
   if (yaw == Family::kPower) return std::string(name_of(surge));
   return fmt::format("{}, yaw {}", name_of(surge), name_of(yaw));
+}
+
+void reset_terms(const std::vector<ParameterId>& free, const ParameterValues<double>& power_law,
+                 ParameterValues<double>& values) {
+  for (const ParameterInfo& parameter : parameter_table()) {
+    const bool is_free = std::ranges::find(free, parameter.id) != free.end();
+    if (parameter.term && !is_free) values[at(parameter.id)] = power_law[at(parameter.id)];
+  }
 }
 
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit) {

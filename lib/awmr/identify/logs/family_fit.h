@@ -25,6 +25,11 @@ bool is_over(const LogFitOptions& options);
 /// has the delays and command errors of `fit`, and does not search for others.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
+/// Sets each term of `values` that `free` does not contain to its value in `power_law`. A term that
+/// a fit does not estimate otherwise keeps the value of another fit.
+void reset_terms(const std::vector<ParameterId>& free, const ParameterValues<double>& power_law,
+                 ParameterValues<double>& values);
+
 /// Fits the logs under the families `surge` and `yaw`. Precondition: `options` already frees the
 /// terms of these families.
 FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, Family surge,

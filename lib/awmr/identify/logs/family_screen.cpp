@@ -81,10 +81,7 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
     parallel_for(fits.size(), power_law.threads, [&](std::size_t i) {
       const auto& [families, more, has_back_emf] = neighbours[i];
       LogFitOptions options = with_back_emf_as_in(best, power_law);
-      if (has_back_emf) {
-        options = with_back_emf(std::move(options));
-        std::erase(options.candidate_terms, ParameterId::kBackEmf);
-      }
+      if (has_back_emf) options = with_back_emf(std::move(options));
       fits[i] = fit_roughly_from(logs, options, best, families.surge, families.yaw, more);
       if (has_back_emf && !(kMuchLess * best.fit.relative_error > fits[i].fit.relative_error)) {
         fits[i].fit.relative_error = std::numeric_limits<double>::infinity();

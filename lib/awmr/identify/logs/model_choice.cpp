@@ -183,7 +183,6 @@ BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& 
                             const IdentifyOptions& options, BestFamily ideal) {
   show_step(options, "trying back-EMF of the motors");
   LogFitOptions freed = with_back_emf(power_law);
-  std::erase(freed.candidate_terms, ParameterId::kBackEmf);
   const FamilyFit same = fit_from(logs, freed, ideal.best, ideal.best.surge, ideal.best.yaw);
   if (shows_back_emf(same, ideal.best)) {
     ideal.best = searched_again(logs, power_law, std::move(ideal.best), same);
