@@ -22,10 +22,10 @@ class HostExecutor : public Executor {
 
   Result<std::uint8_t> start() override {
     const AutopilotParameters& p = *parameters_;
-    const bool good =
-        start_autopilot(autopilot_, &p.block, p.surge.lines.data(), p.surge.lines.size(),
-                        p.yaw.lines.data(), p.yaw.lines.size(), p.crc, p.rest ? &*p.rest : nullptr,
-                        p.observer ? &*p.observer : nullptr);
+    const bool good = start_autopilot(
+        autopilot_, &p.block, p.surge.lines.data(), p.surge.lines.size(), p.yaw.lines.data(),
+        p.yaw.lines.size(), p.crc, p.rest ? &*p.rest : nullptr, p.observer ? &*p.observer : nullptr,
+        p.mode_gains ? &*p.mode_gains : nullptr);
     set_up();
     return std::uint8_t{good ? kFaultNone : kFaultParameters};
   }

@@ -36,7 +36,7 @@ using cli::PilOptions;
 struct Inputs {
   Model model;
   EmitOptions emit;  ///< the options, with the parts that the scenario needs
-  Gains<double> gains;
+  ModeGains gains;
   EmitInputs names;
   LoopSetup setup;
   AutopilotParameters parameters;
@@ -249,7 +249,8 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   }
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, in.model.plant());
   const Run exact = simulate(
-      in.setup.plant, make_controller(plant, in.model.vehicle, in.gains, in.emit.split),
+      in.setup.plant,
+      make_controller(plant, in.model.vehicle, in.gains.in(in.setup.mode), in.emit.split),
       in.setup.scenario, in.setup.mode, {.sample_time_s = in.setup.sample_time_s, .substeps = {}});
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);

@@ -112,6 +112,7 @@ struct TuneCommand {
   std::optional<bool> observer = {};
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
+  bool one_set = false;                   ///< true: one set of gains for all modes
   std::optional<int> draws = {};          ///< replaces `draws` of tune.json
   HeadingRateChoice heading_rate_limit = {};
   InputNames names = {};

@@ -31,7 +31,7 @@ namespace {
 /// two file names are equal.
 Result<std::vector<NamedGains>> read_named_gains(const std::vector<fs::path>& paths,
                                                  const Model& model) {
-  AWMR_ASSIGN_OR_RETURN(const std::vector<Gains<double>> gains,
+  AWMR_ASSIGN_OR_RETURN(const std::vector<ModeGains> gains,
                         read_each(paths, [&](const fs::path& path) {
                           return read_gains_for(path, model.vehicle.sample_time_s);
                         }));
@@ -176,7 +176,8 @@ Result<std::vector<Finding>> findings_of(const CompareCommand& command,
   std::vector<Finding> findings = inputs.findings;
   for (std::size_t i = 0; i < command.gains.size(); ++i) {
     AWMR_RETURN_IF_ERROR(note_other_model(command.gains[i], command.model, findings));
-    note_unstable(inputs.model, inputs.gains[i].gains, command.gains[i], findings);
+    note_unstable(inputs.model, inputs.gains[i].gains, command.gains[i], inputs.scenarios,
+                  findings);
   }
   std::ranges::move(compare_findings(inputs.model, inputs.scenarios, command.compare, comparison,
                                      command.heading_rate_limit),

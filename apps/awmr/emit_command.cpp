@@ -104,7 +104,7 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
 /// Warns of a sample time that the firmware cannot use. It is shorter than the chip's longest step
 /// with the parts that are compiled in, longer than the permitted time between two steps, or longer
 /// than half of the heading timeout.
-std::vector<Finding> sample_time(double sample_time_s, const Gains<double>& gains,
+std::vector<Finding> sample_time(double sample_time_s, const ModeGains& gains,
                                  const EmitCommand& command) {
   const double longest_step_s =
       longest_step_cycles(parts_with(command.emit.parts, gains), command.emit.resistance) /
@@ -150,7 +150,7 @@ Status check_vehicle(const EmitCommand& command, const Vehicle& vehicle) {
 
 /// Warns of weak gains, and adds the accuracy of the resistance tables to the output. With
 /// --resistance powf there are no tables.
-Status add_parameters(const Model& model, const Gains<double>& gains, const EmitInputs& inputs,
+Status add_parameters(const Model& model, const ModeGains& gains, const EmitInputs& inputs,
                       const EmitCommand& command, Outcome& outcome) {
   AWMR_ASSIGN_OR_RETURN(const auto parameters,
                         autopilot_parameters(model, gains, inputs, command.emit));
@@ -186,7 +186,7 @@ Result<Outcome> execute(const EmitCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const Model model, command.as_is ? read_model_as_is(command.model)
                                                          : read_model(command.model));
   AWMR_RETURN_IF_ERROR(check_vehicle(command, model.vehicle));
-  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains,
+  AWMR_ASSIGN_OR_RETURN(const ModeGains gains,
                         read_gains_for(command.gains, model.vehicle.sample_time_s));
   AWMR_ASSIGN_OR_RETURN(const EmitInputs inputs, emit_inputs(command.model, command.gains));
   std::vector<EmittedFile> files;

@@ -39,6 +39,7 @@ constexpr ProjectKey kKeys[] = {
     {"tune", "nominal", "nominal"},
     {"tune", "no-observer", "no_observer"},
     {"tune", "observer", "observer"},
+    {"tune", "one-set", "one_set"},
     {"validate", "column", "columns"},
     {"validate", "log", "trials/logs"},
     {"emit", "as-is", "identify/as_is"},

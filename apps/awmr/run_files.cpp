@@ -30,7 +30,7 @@ constexpr const char* kPaper = "paper";
 /// A set of gains, and its name in the file name of a run: "tuned" or "paper".
 struct NamedSet {
   const char* name;
-  Gains<double> gains;
+  ModeGains gains;
 };
 
 std::string run_name(const fs::path& scenario, YawMode mode, const char* gains) {
@@ -47,7 +47,7 @@ Result<std::vector<fs::path>> write_run(const Model& model, const NamedSet& gain
                                         const Scenario& scenario, YawMode mode,
                                         const std::vector<fs::path>& inputs,
                                         const InputNames& names, const fs::path& csv) {
-  AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains.gains, scenario, mode));
+  AWMR_ASSIGN_OR_RETURN(const Run run, simulate(model, gains.gains.in(mode), scenario, mode));
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> files_read, input_files(inputs, names));
   const Provenance provenance{"simulate",
                               {{"mode", std::string(name_of(mode))}, {"gains", gains.name}},
@@ -66,7 +66,7 @@ Result<std::vector<fs::path>> write_runs(const Project& project, const InputName
                                          const fs::path& directory) {
   std::vector<fs::path> written;
   AWMR_ASSIGN_OR_RETURN(const Model model, read_model(directory / "model.json"));
-  AWMR_ASSIGN_OR_RETURN(const Gains<double> tuned, read_gains(directory / "gains.json"));
+  AWMR_ASSIGN_OR_RETURN(const ModeGains tuned, read_mode_gains(directory / "gains.json"));
   for (const fs::path& path : project.scenarios) {
     AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(path));
     scenario = equipped(model.vehicle, std::move(scenario));

@@ -147,7 +147,11 @@ Result<std::vector<fs::path>> checked_inputs(const SimulateCommand& command) {
 /// (input).
 Result<Gains<double>> gains_for(const SimulateCommand& command, const Scenario& scenario,
                                 const Model& model) {
-  if (command.gains) return read_gains_for(*command.gains, model.vehicle.sample_time_s);
+  if (command.gains) {
+    AWMR_ASSIGN_OR_RETURN(const ModeGains gains,
+                          read_gains_for(*command.gains, model.vehicle.sample_time_s));
+    return gains.in(command.mode);
+  }
   if (std::holds_alternative<OpenLoop>(scenario.guidance)) return kPaperGains;
   return input_error(ErrorCode::kMissing, "--gains",
                      "the controller of this scenario needs gains: give --gains GAINS.json");
@@ -160,7 +164,7 @@ Status note_run(const SimulateCommand& command, const Scenario& scenario, const 
                 std::vector<Finding>& findings) {
   if (command.gains) {
     AWMR_RETURN_IF_ERROR(note_other_model(*command.gains, command.model, findings, command.mode));
-    note_unstable(model, gains, *command.gains, findings, command.mode);
+    note_unstable(model, gains, *command.gains, {&scenario, 1}, findings, command.mode);
   }
   std::ranges::move(unattainable_requests(scenario, model), std::back_inserter(findings));
   if (auto finding = tyres_differ(scenario, model)) findings.push_back(*finding);

@@ -43,11 +43,12 @@ Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOpt
   }
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_mode(model.vehicle, command.mode));
-  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains,
+  AWMR_ASSIGN_OR_RETURN(const ModeGains gains,
                         read_gains_for(*command.gains, model.vehicle.sample_time_s));
   AWMR_ASSIGN_OR_RETURN(Scenario scenario, read_scenario(*command.scenario));
   scenario = equipped(model.vehicle, std::move(scenario));
-  const Controller<double> controller = make_controller(plant, model.vehicle, gains);
+  const Controller<double> controller =
+      make_controller(plant, model.vehicle, gains.in(command.mode));
   const awmr::Run own = simulate(plant, controller, scenario, command.mode,
                                  {.sample_time_s = model.vehicle.sample_time_s, .substeps = {}});
   const Metrics of_own = metrics_of(own, scenario, controller);

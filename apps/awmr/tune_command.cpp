@@ -27,7 +27,7 @@ Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
   Working working("searching for gains");
   std::size_t before = 0;
   options.progress = [&](std::size_t done, std::size_t total) {
-    if (done < before) working.doing("searching for gains with an observer");
+    if (done < before) working.doing("searching for gains again");
     before = done;
     working(done, total);
   };
@@ -105,6 +105,7 @@ Result<ChosenConfig> config_of(const TuneCommand& command, Model& model) {
   AWMR_RETURN_IF_ERROR(limit_heading_rate(command.heading_rate_limit, model, options.scenarios));
   if (command.nominal) options.nominal = true;
   if (command.mode) options.mode = command.mode;
+  if (command.one_set) options.one_set = true;
   if (command.draws) options.draws = *command.draws;
   if (command.baseline) {
     AWMR_ASSIGN_OR_RETURN(options.baseline, baseline_named(*command.baseline));
@@ -133,6 +134,7 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
   }
   if (command.baseline) options.emplace_back("baseline", command.baseline->string());
   if (command.mode) options.emplace_back("mode", std::string(name_of(*command.mode)));
+  if (command.one_set) options.emplace_back("one-set", "true");
   if (command.draws) options.emplace_back("draws", std::to_string(*command.draws));
   for (auto& option : options_of_rate(command.heading_rate_limit)) {
     options.push_back(std::move(option));
@@ -157,11 +159,16 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
                  "Baseline gains, whose objective is 1 by definition: pole-placement (default), "
                  "paper or a gains.json")
       ->type_name("NAME|FILE");
+  auto* one_set =
+      sub.add_flag("--one-set", command.one_set,
+                   "Tune one set of gains for all modes (default: a set for each mode if gains for "
+                   "one mode alone settle much faster)");
   sub.add_option_function<std::string>(
          "--mode",
          [&command](const std::string& name) { command.mode = value_in(kYawModeNames, name); },
-         "Tune for this mode only (default: one set of gains for all modes)")
-      ->check(one_of(names_in(kYawModeNames)));
+         "Tune for this mode only (default: for all modes)")
+      ->check(one_of(names_in(kYawModeNames)))
+      ->excludes(one_set);
   return nominal;
 }
 
@@ -209,7 +216,8 @@ void add_tune(CLI::App& app, Session& session) {
                               [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
-           "tune.json, with any of the keys mode, form, margin, limits, baseline, weights, goals, "
+           "tune.json, with any of the keys mode, one_set, form, margin, limits, baseline, "
+           "weights, goals, "
            "open, observer, no_observer, global_evaluations, local_evaluations, seed, scenarios");
   CLI::Option* nominal = add_search(*sub, *command);
   add_draws(*sub, *command, nominal);

@@ -158,7 +158,10 @@ std::string goals_text(const std::vector<EvaluatedGoal>& all) {
 
 }  // namespace
 
-std::string gains_table(const Tuning& tuning) {
+namespace {
+
+/// gains_table() of one search.
+std::string table_of(const Tuning& tuning) {
   std::string text =
       fmt::format("  {:<14} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>10}\n", "gains", "lambda",
                   "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
@@ -174,17 +177,37 @@ std::string gains_table(const Tuning& tuning) {
   return text;
 }
 
-std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
-  std::string text = gains_table(tuning) + active_text(tuning) +
-                     certificate_text(*tuning.certificate) + open_text(options.open);
-  if (tuning.robust) {
-    text += evaluation_table(tuning.robust->evaluated, tuning.robust->evaluated_by_scenario) +
-            goals_text(tuning.robust->goals);
+/// Text of each search: of all modes, or of one mode after the other with its name as a heading.
+template <class Text>
+std::string by_search(const Tuning& tuning, const Text& text) {
+  if (tuning.own.empty()) return text(tuning);
+  std::string all;
+  for (const Tuning& one : tuning.own) {
+    all += fmt::format("{} mode\n{}", name_of(*one.mode), text(one));
   }
-  return text;
+  return all + fmt::format("{} mode\n{}", name_of(*tuning.mode), text(tuning));
 }
 
-std::string tuning_details(const Tuning& tuning) {
+}  // namespace
+
+std::string gains_table(const Tuning& tuning) { return by_search(tuning, table_of); }
+
+std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
+  return by_search(tuning, [&](const Tuning& one) {
+    std::string text = table_of(one) + active_text(one);
+    if (&one == &tuning) text += certificate_text(*one.certificate) + open_text(options.open);
+    if (one.robust) {
+      text += evaluation_table(one.robust->evaluated, one.robust->evaluated_by_scenario) +
+              goals_text(one.robust->goals);
+    }
+    return text;
+  });
+}
+
+namespace {
+
+/// tuning_details() of one search.
+std::string details_of(const Tuning& tuning) {
   std::string text = "objective by scenario and mode\n";
   for (const ModeScore& score : tuning.scores) {
     text += fmt::format("  {:<22} {:<13} {:.4f} times the baseline's\n", score.scenario,
@@ -199,5 +222,9 @@ std::string tuning_details(const Tuning& tuning) {
   return text + fmt::format("search\n  {} after {} evaluations: {}\n", tuning.algorithm,
                             tuning.evaluations, tuning.stop_reason);
 }
+
+}  // namespace
+
+std::string tuning_details(const Tuning& tuning) { return by_search(tuning, details_of); }
 
 }  // namespace awmr::cli

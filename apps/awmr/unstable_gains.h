@@ -3,19 +3,26 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "awmr/control/yaw_mode.h"
-#include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/model.h"
 #include "awmr/model/record.h"
+#include "awmr/simulate/scenario.h"
 
 namespace awmr::cli {
 
 /// Adds the warning `unstable-gains` for each loop (heading, speed) of unstable_loops()
-/// (tune/loop_stability.h). `gains_file`: name of the file in the warnings.
-void note_unstable(const Model& model, const Gains<double>& gains,
-                   const std::filesystem::path& gains_file, std::vector<Finding>& findings,
-                   std::optional<YawMode> mode = {});
+/// (tune/loop_stability.h), with the latency and the motor lag of vehicle.json. `gains_file`: name
+/// of the file in the warnings.
+void note_unstable(const Model& model, const ModeGains& gains,
+                   const std::filesystem::path& gains_file, std::vector<Finding>& findings);
+
+/// The same with the latency and the motor lag of the closed-loop scenarios, which are equipped()
+/// (simulate/conditions.h). Of several scenarios with unstable loops, only the first is reported.
+void note_unstable(const Model& model, const ModeGains& gains,
+                   const std::filesystem::path& gains_file, std::span<const Scenario> scenarios,
+                   std::vector<Finding>& findings, std::optional<YawMode> mode = {});
 
 }  // namespace awmr::cli

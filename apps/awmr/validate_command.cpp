@@ -25,8 +25,7 @@
 namespace awmr::cli {
 namespace {
 
-Result<Validation> validate_with_progress(const Model& model,
-                                          const std::optional<Gains<double>>& gains,
+Result<Validation> validate_with_progress(const Model& model, const std::optional<ModeGains>& gains,
                                           ValidateOptions options) {
   Working working("checking the claims");
   options.progress = [&](std::size_t done, std::size_t total) { working(done, total); };
@@ -77,7 +76,7 @@ auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const
 /// Evaluates the logs. Without a scenario, the model predicts their motion. With a scenario, they
 /// are compared with simulated drives of this scenario under the controller.
 Status add_evaluated_logs(const ValidateCommand& command, const Model& model,
-                          const std::optional<Gains<double>>& gains, Validation& validation,
+                          const std::optional<ModeGains>& gains, Validation& validation,
                           std::vector<Finding>& findings) {
   if (!command.scenario) {
     std::vector<DrivingLog> read;
@@ -105,7 +104,7 @@ Status add_evaluated_logs(const ValidateCommand& command, const Model& model,
 
 /// Returns the gains in the file of `--gains`. Without that option, returns the paper's gains if
 /// claims are checked, else none.
-Result<std::optional<Gains<double>>> gains_of(const ValidateCommand& command, const Model& model) {
+Result<std::optional<ModeGains>> gains_of(const ValidateCommand& command, const Model& model) {
   if (command.gains) return read_gains_for(*command.gains, model.vehicle.sample_time_s);
   if (command.claims) return kPaperGains;
   return std::nullopt;
@@ -236,7 +235,7 @@ void add_claims_options(CLI::App& sub, ValidateCommand& command) {
 Result<Outcome> execute(const ValidateCommand& command) {
   AWMR_ASSIGN_OR_RETURN(Model model, read_model(command.model));
   choose(command.allocation, model, {});
-  AWMR_ASSIGN_OR_RETURN(const std::optional<Gains<double>> gains, gains_of(command, model));
+  AWMR_ASSIGN_OR_RETURN(const std::optional<ModeGains> gains, gains_of(command, model));
   AWMR_RETURN_IF_ERROR(check_outputs(command));
   AWMR_ASSIGN_OR_RETURN(
       Validation validation,

@@ -12,7 +12,7 @@ struct NamedComparison {
   CompareOptions options;
 };
 
-NamedComparison compared(const Model& model, const Gains<double>& gains,
+NamedComparison compared(const Model& model, const ModeGains& gains,
                          std::vector<Scenario> scenarios, int samples, std::uint64_t seed,
                          int threads, const py::object& heading_rate_limit) {
   CompareOptions options{.samples = samples, .seed = seed, .threads = threads};

@@ -215,6 +215,24 @@ void bind_gain_values(py::class_<Gains<double>>& gains) {
       .def_property_readonly("observer_surge_max", [](const G& g) { return g.observer.surge_max; });
 }
 
+void bind_mode_gains(py::module_& module) {
+  py::class_<ModeGains>(module, "ModeGains",
+                        "The gains of each mode: one set for all modes, or a set of its own for "
+                        "some. Functions that need it also accept a `Gains`.")
+      .def(py::init<const Gains<double>&>(), py::arg("gains"))
+      .def(
+          "in_mode",
+          [](const ModeGains& gains, const std::string& mode) {
+            return gains.in(value_of(kYawModeNames, mode, "mode"));
+          },
+          py::arg("mode"),
+          "The gains to use in the mode \"differential\", \"steering\" or \"combined\".");
+  py::implicitly_convertible<Gains<double>, ModeGains>();
+  bind_read(
+      module, "read_mode_gains", [](const auto& path) { return read_mode_gains(path); },
+      "Reads a gains.json with the gains of each mode. Raises InputError.");
+}
+
 void bind_gains(py::module_& module) {
   using G = Gains<double>;
   py::class_<G> bound(
@@ -239,7 +257,8 @@ void bind_gains(py::module_& module) {
   bind_gain_values(bound);
   bind_read(
       module, "read_gains", [](const auto& path) { return read_gains(path); },
-      "Reads a gains.json. Raises InputError.");
+      "Reads the gains of a gains.json for the modes that have none of their own (the others: "
+      "read_mode_gains). Raises InputError.");
   module.def(
       "write_gains",
       [](const G& gains, const std::filesystem::path& path) {
@@ -257,6 +276,7 @@ void bind_model(py::module_& module) {
   bind_estimate(module);
   bind_model_class(module);
   bind_gains(module);
+  bind_mode_gains(module);
   py::dict units;
   for (const ParameterInfo& parameter : parameter_table()) {
     units[py::str(std::string(parameter.name))] = parameter.unit;

@@ -20,9 +20,10 @@ struct EvaluatedRun {
   Metrics metrics;
 };
 
-EvaluatedRun simulated(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+EvaluatedRun simulated(const Model& model, const ModeGains& by_mode, const Scenario& scenario,
                        const std::string& mode_name) {
   const YawMode mode = value_of(kYawModeNames, mode_name, "mode");
+  const Gains<double>& gains = by_mode.in(mode);
   const py::gil_scoped_release released;
   EvaluatedRun evaluated{.run = value_or_raise(simulate(model, gains, scenario, mode)),
                          .scenario = equipped(model.vehicle, scenario),

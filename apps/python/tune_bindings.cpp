@@ -105,6 +105,8 @@ py::list goals_of(const Tuning& tuning) {
 void bind_tune(py::module_& module) {
   py::class_<Tuning>(module, "Tuning", "Result of tune(): the gains and how they perform.")
       .def_readonly("gains", &Tuning::gains)
+      .def_property_readonly("mode_gains", &Tuning::mode_gains,
+                             "ModeGains: the gains to use in each mode")
       .def_readonly("objective", &Tuning::objective,
                     "objective of the gains, lower is better; the baseline gains have 1")
       .def_readonly("evaluations", &Tuning::evaluations)

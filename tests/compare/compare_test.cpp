@@ -49,6 +49,22 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
+TEST(Compare, UsesTheGainsOfEachMode) {
+  const Gains<double> slow{{1.5, 20.0, 8.0}, {2.0, 1.0}};
+  ModeGains by_mode(kPaperGains);
+  by_mode.set(YawMode::kSteering, slow);
+  const auto rows = [](const ModeGains& gains) {
+    return compare(uncertain_model(), gains, {short_heading()}, {.samples = 2, .seed = 11})->rows;
+  };
+  const auto own = rows(by_mode), common = rows(kPaperGains), all_slow = rows(slow);
+  ASSERT_EQ(own.size(), common.size());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const auto& expected = own[i].mode == YawMode::kSteering ? all_slow[i] : common[i];
+    EXPECT_EQ(own[i].metrics.heading_iae_degs, expected.metrics.heading_iae_degs);
+  }
+  EXPECT_NE(all_slow[3].metrics.heading_iae_degs, common[3].metrics.heading_iae_degs);
+}
+
 TEST(Compare, TheSameBytesWhateverTheNumberOfThreads) {
   const std::vector<Scenario> scenarios = {short_heading(), short_open_loop()};
   const CompareOptions one{.samples = 4, .seed = 11, .threads = 1};

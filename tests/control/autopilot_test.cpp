@@ -277,6 +277,44 @@ TEST_F(AutopilotLeads, AnObserverTunedWithTheGainsIsOnFromTheStart) {
       << "the check sum must cover the observer";
 }
 
+TEST_F(AutopilotLeads, WithTheGainsOfTheMode) {
+  ModeGainsBlock by_mode{};
+  for (int mode = 0; mode < kYawModeCount; ++mode) {
+    const float f = 0.5F + 0.25F * static_cast<float>(mode);
+    const ControlConstants<float>& c = block_.constants;
+    by_mode.in[mode] = {f * c.lambda,        f * c.heading_rate, f * c.heading_slope,
+                        f * c.heading_limit, f * c.speed_slope,  f * c.speed_limit};
+  }
+  const std::uint32_t crc =
+      crc32_of_parameters(&block_, nullptr, 0, nullptr, 0, nullptr, nullptr, &by_mode);
+  ASSERT_TRUE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc, nullptr, nullptr,
+                              &by_mode));
+  for (const int mode : {2, 0, 1, 1, 0, 2}) {
+    ParameterBlock own = block_;
+    const GainsBlock& gains = by_mode.in[mode];
+    ControlConstants<float>& c = own.constants;
+    c.lambda = gains.lambda;
+    c.heading_rate = gains.heading_rate;
+    c.heading_slope = gains.heading_slope;
+    c.heading_limit = gains.heading_limit;
+    c.speed_slope = gains.speed_slope;
+    c.speed_limit = gains.speed_limit;
+    decltype(autopilot_) other{};
+    ASSERT_TRUE(start_autopilot(other, &own, nullptr, 0, nullptr, 0,
+                                crc32_of_parameters(&own, nullptr, 0, nullptr, 0)));
+    in_.mode = static_cast<std::uint8_t>(mode);
+    const AutopilotOutput out = step_at({0.0F, 0.0F});
+    AutopilotOutput expected{};
+    autopilot_step(other, in_, expected);
+    EXPECT_EQ(out.tau_turn_m, expected.tau_turn_m) << mode;
+    EXPECT_EQ(out.tau_speed, expected.tau_speed) << mode;
+    EXPECT_EQ(out.command.steering_rad, expected.command.steering_rad) << mode;
+  }
+  EXPECT_FALSE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_, nullptr, nullptr,
+                               &by_mode))
+      << "the check sum must cover the gains of the modes";
+}
+
 TEST_F(AutopilotLeads, WithForcesThatMakeUpForADeadZone) {
   RestBlock rest{};
   rest.dead_zone = 0.1F;

@@ -92,6 +92,20 @@ TEST(Export, ArduPilotsSpeedLoopClosesWithTheTimeConstantOfTheSpeedLaw) {
   EXPECT_NEAR(values.at("ATC_SPEED_I") / values.at("ATC_SPEED_P"), slope / plant.mass_norm, 1e-3);
 }
 
+TEST(Export, TheGainsOfAModeAreListedAndUsedByAnAutopilotOfThatMode) {
+  ModeGains gains(kGains);
+  const SpeedGains<double> steering{2.0, 1.0};
+  gains.set(YawMode::kSteering, {{1.5, 20.0, 8.0}, steering});
+  const Model model = paper_robot();
+  const ExportSource source{.model = model, .gains = gains};
+  const std::string csv = export_text(source, ExportFormat::kCsv).value();
+  EXPECT_THAT(csv, AllOf(HasSubstr("heading_lambda,3"), HasSubstr("heading_lambda_steering,1.5")));
+  const auto values = parameters_of(export_text(source, ExportFormat::kArduPilot).value());
+  const Plant<double> plant = *model.plant();
+  EXPECT_NEAR(4.0 * values.at("ATC_SPEED_P") / plant.mass_norm, steering.mu / steering.epsilon,
+              1e-3);
+}
+
 TEST(Export, ArduPilotsSteeringFeedForwardTurnsSteeredWheelsAtTheRateRequested) {
   const Model model = paper_robot();
   const auto values = parameters_of(text_of(model, ExportFormat::kArduPilot));
@@ -144,8 +158,9 @@ TEST(Export, LeavesOutAndReportsValuesThatDoNotFollowFromTheModel) {
 
 TEST(Export, AnObserverIsAValueOfTheGainsAndLeftOutOfAnAutopilots) {
   ExportSource source{.model = paper_robot()};
-  source.gains = kGains;
-  source.gains->observer = {2.5, 0.04, 1.3};
+  Gains<double> observed = kGains;
+  observed.observer = {2.5, 0.04, 1.3};
+  source.gains = observed;
   for (const ExportFormat format : {ExportFormat::kArduPilot, ExportFormat::kPx4}) {
     EXPECT_THAT(export_text(source, format).value(), HasSubstr("the disturbance observer"));
     EXPECT_THAT(text_of(source.model, format), Not(HasSubstr("the disturbance observer")));

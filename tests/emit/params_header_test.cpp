@@ -57,6 +57,28 @@ TEST(ParamsHeader, WritesWholeNumbersAsFloatsAndNegativeOnesInParentheses) {
   EXPECT_EQ(macro_text(header, "AWMR_SURGE_ALPHA"), "1.32679999f");  // printf("%.9g", 1.3268f)
 }
 
+/// The paper's gains, with others in steering mode.
+ModeGains with_own_steering(double epsilon) {
+  ModeGains gains(kPaperGains);
+  gains.set(YawMode::kSteering, {{1.5, 20.0, epsilon}, {2.0, 1.0}});
+  return gains;
+}
+
+TEST(ParamsHeader, HasTheGainsOfEachMode) {
+  const std::string header =
+      params_header(paper_robot(), with_own_steering(8.0), paper_inputs()).value();
+  EXPECT_EQ(macro_text(header, "AWMR_HEADING_LAMBDA"), "3.0f");
+  EXPECT_EQ(macro_text(header, "AWMR_HEADING_LAMBDA_DIFFERENTIAL"), "3.0f");
+  EXPECT_EQ(macro_text(header, "AWMR_HEADING_LAMBDA_STEERING"), "1.5f");
+  EXPECT_EQ(macro_text(header, "AWMR_SPEED_MU_STEERING"), "2.0f");
+  EXPECT_EQ(macro_text(header, "AWMR_HEADING_LAMBDA_COMBINED"), "3.0f");
+  EXPECT_THAT(header, HasSubstr("AWMR_PARAMS_CHECK(AWMR_T2_IS_BELOW_T1_STEERING,"));
+  // T2 = epsilon/(2 mu) = 0.75 s, T1 = 1/lambda = 0.67 s
+  const auto slow = params_header(paper_robot(), with_own_steering(30.0), paper_inputs());
+  ASSERT_FALSE(slow);
+  EXPECT_EQ(slow.error().faults.front().code, ErrorCode::kSlowReaching);
+}
+
 TEST(ParamsHeader, HasNoNegativeZero) {
   Model model = paper_robot();
   model[ParameterId::kYawBeta].value = -0.0;

@@ -78,6 +78,24 @@ TEST(GainsFile, WritesAndReadsAFrictionWidthWhereItIsNotTheDefault) {
   EXPECT_EQ(read_gains(file.path())->friction_width_at(0.5), 0.04);
 }
 
+TEST(GainsFile, ReadsTheGainsOfSingleModes) {
+  Json json = Json::parse(kText);
+  json["observer"] = {{"bandwidth_radps", 2.5}, {"yaw_max_m", 0.04}, {"surge_max", 1.3}};
+  json["modes"]["steering"] = {{"heading", {{"lambda", 1}, {"mu", 20}, {"epsilon", 8}}},
+                               {"speed", {{"mu", 2}, {"epsilon", 1}}},
+                               {"objective", {{"value", 0.9}}}};
+  const ScratchFile file("gains.json", json.dump());
+  const auto gains = read_mode_gains(file.path());
+  ASSERT_TRUE(gains) << to_text(gains.error());
+  EXPECT_EQ(gains->in(YawMode::kSteering).heading.lambda, 1.0);
+  EXPECT_EQ(gains->in(YawMode::kSteering).speed.mu, 2.0);
+  EXPECT_EQ(gains->in(YawMode::kSteering).observer.bandwidth_radps, 2.5);
+  EXPECT_TRUE(gains->has_own(YawMode::kSteering));
+  EXPECT_FALSE(gains->has_own(YawMode::kDifferential));
+  EXPECT_EQ(gains->in(YawMode::kDifferential).heading.lambda, 3.0);
+  EXPECT_EQ(read_gains(file.path())->heading.lambda, 3.0);
+}
+
 TEST(GainsFile, IgnoresTheOtherKeysOfTheFormat) {
   Json json = Json::parse(kText);
   for (const char* key : {"command", "version", "options", "inputs", "time_constants",

@@ -367,6 +367,26 @@ TEST_F(Pil, AnObserverTunedWithTheGainsWorksOnTheChip) {
   }
 }
 
+TEST_F(Pil, EachModeHasItsOwnGainsOnTheChip) {
+  Json gains = Json::parse(read_all(path("gains.json")));
+  gains["modes"]["differential"] = {{"heading", {{"lambda", 1.5}, {"mu", 20}, {"epsilon", 8}}},
+                                    {"speed", {{"mu", 2}, {"epsilon", 1}}}};
+  write_all(path("by_mode.json"), gains.dump());
+  gains["heading"] = gains["modes"]["differential"]["heading"];
+  gains["speed"] = gains["modes"]["differential"]["speed"];
+  gains.erase("modes");
+  write_all(path("slow.json"), gains.dump());
+  const auto difference = [&](const std::string& file, const std::string& mode) {
+    const ProcessResult run = pil_on("model.json", file, kC3, mode, kShortSearch);
+    EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+    EXPECT_EQ(largest(result()["difference"]), 0.0) << mode;
+    EXPECT_LE(result()["difference_double"]["heading_deg"].get<double>(), 0.05) << mode;
+    return result()["difference_double"];
+  };
+  EXPECT_EQ(difference("by_mode.json", "combined"), difference("gains.json", "combined"));
+  EXPECT_EQ(difference("by_mode.json", "differential"), difference("slow.json", "differential"));
+}
+
 TEST_F(Pil, ALineOverTheUartIsTheSameRun) {
   const std::string line = shortened("configs/paper/scenarios/c9_line.json", 8.0);
   // The serial line takes 1.5 kB more than the memory link, which stays within 16 KiB.

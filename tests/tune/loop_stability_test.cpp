@@ -75,7 +75,7 @@ TEST(SpeedLoop, IsStableExactlyWhereItsLateMotionDecays) {
 }
 
 TEST(UnstableLoops, AreNoneWithThePapersGains) {
-  EXPECT_THAT(unstable_loops(paper_model(), kPaperGains), IsEmpty());
+  EXPECT_THAT(unstable_loops(paper_model(), kPaperGains, kIdealConditions), IsEmpty());
 }
 
 /// A slow vehicle of 60 kg whose yaw resistance decays within a fifth of the sample time.
@@ -100,27 +100,29 @@ TEST(UnstableLoops, CountTheResistanceOfTheVehicle) {
   // sampled loop without lags is stable up to 2 a/(1 - exp(-a T_s)) = 98 1/s.
   const Gains<double> fast{{0.4849, 37.0 * 0.1446, 0.1446}, {0.807, 0.7822}};
   Model model = creeper();
-  EXPECT_THAT(unstable_loops(model, fast), IsEmpty());
+  EXPECT_THAT(unstable_loops(model, fast, kIdealConditions), IsEmpty());
   const Gains<double> faster{{0.4849, 150.0 * 0.1446, 0.1446}, {0.807, 0.7822}};
-  const auto unstable = unstable_loops(model, faster);
+  const auto unstable = unstable_loops(model, faster, kIdealConditions);
   ASSERT_THAT(unstable, SizeIs(1));
   EXPECT_THAT(unstable.front().name, HasSubstr("heading loop in mode"));
   EXPECT_NEAR(unstable.front().rate_per_s, 150.4849, 1e-9);
   const Gains<double> fast_speed{{0.4849, 5.0, 1.0}, {150.0, 1.0}};
-  const auto speed = unstable_loops(model, fast_speed);
+  const auto speed = unstable_loops(model, fast_speed, kIdealConditions);
   ASSERT_THAT(speed, SizeIs(1));
   EXPECT_THAT(speed.front().name, HasSubstr("speed loop at"));
 }
 
-TEST(UnstableLoops, CountTheLatencyOfTheVehicle) {
+TEST(UnstableLoops, CountTheLatencyOfTheSensors) {
   // With little resistance, the open heading loop is (7.2 s + 12.5)/s^2: lambda + k = 7.2 1/s and
   // lambda k = 12.5 1/s^2. Its gain is 1 at 7.4 rad/s, with a phase margin of 1.34 rad, so its
   // delay margin is 0.18 s, less half a sample of 0.01 s.
   Model model = paper_model();
   model[ParameterId::kYawAlpha].value = 0.0003;
   const auto unstable_at = [&](double heading_s, double speed_s) {
-    model.vehicle.sensors = {.heading_latency_s = heading_s, .speed_latency_s = speed_s};
-    return unstable_loops(model, kPaperGains, YawMode::kDifferential);
+    LoopConditions late = kIdealConditions;
+    late.heading_latency_s = heading_s;
+    late.speed_latency_s = speed_s;
+    return unstable_loops(model, kPaperGains, late, YawMode::kDifferential);
   };
   EXPECT_THAT(unstable_at(0.16, 0.0), IsEmpty());
   const auto heading = unstable_at(0.19, 0.0);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -30,7 +31,7 @@ struct ModeSetting {
   const Scenario* scenario;
   YawMode mode;
   Plant<double> plant;
-  Controller<double> controller;
+  std::array<Controller<double>, kYawModeCount> controllers;  ///< by mode
   double sample_time_s;
   BatchArithmetic arithmetic;
 };
@@ -43,7 +44,7 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
   for (const double moment_m : moments_m) {
     Plant<double> plant = setting.plant;
     plant.yaw_scrub_m = moment_m;
-    runs.push_back({plant, setting.controller, mode, 0, 0});
+    runs.push_back({plant, setting.controllers[static_cast<std::size_t>(mode)], mode, 0, 0});
   }
   std::vector<std::optional<Metrics>> driven;
   for (const Result<Metrics>& metrics :
@@ -116,8 +117,7 @@ std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
 
 /// Returns the runs of the nominal model (sample 0) without tyre scrub. If the model has scrub, the
 /// runs are repeated without it.
-Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model,
-                                                      const Gains<double>& gains,
+Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model, const ModeGains& gains,
                                                       const std::vector<Scenario>& scenarios,
                                                       const Comparison& comparison, int threads) {
   if (model.yaw_scrub) {
@@ -221,14 +221,14 @@ void add_measured(const Model& model, BreakEven& entry) {
 /// Returns the pairs of modes to examine, in all scenarios. `without`: the runs of the nominal
 /// model (sample 0) without scrub. `entry`: a BreakEven with most_m and sliding_m, which are the
 /// same for all pairs.
-Result<std::vector<Question>> all_questions(const Model& model, const Gains<double>& gains,
+Result<std::vector<Question>> all_questions(const Model& model, const ModeGains& gains,
                                             const std::vector<Scenario>& scenarios,
                                             const std::vector<ComparisonRow>& without,
                                             const Preferences& preferences,
                                             const BreakEven& entry) {
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
-  const Controller<double> controller = make_controller(nominal, model.vehicle, gains);
+  const auto controllers = make_controllers(nominal, model.vehicle, gains);
   std::vector<Question> questions;
   for (const Scenario& scenario : scenarios) {
     AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));
@@ -237,8 +237,8 @@ Result<std::vector<Question>> all_questions(const Model& model, const Gains<doub
     if (!has_a_goal(rows) || scoring.empty()) continue;
     for (const ModeRows& one : rows.modes) {
       if (one.contender.mode == YawMode::kSteering) continue;
-      const ModeSetting setting{&scenario,  one.contender.mode,          plant,
-                                controller, model.vehicle.sample_time_s, arithmetic};
+      const ModeSetting setting{&scenario,   one.contender.mode,          plant,
+                                controllers, model.vehicle.sample_time_s, arithmetic};
       std::ranges::move(questions_of(setting, rows, scoring, entry), std::back_inserter(questions));
     }
   }
@@ -247,7 +247,7 @@ Result<std::vector<Question>> all_questions(const Model& model, const Gains<doub
 
 }  // namespace
 
-Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
+Result<std::vector<BreakEven>> break_even_of(const Model& model, const ModeGains& gains,
                                              const std::vector<Scenario>& scenarios,
                                              const Comparison& comparison,
                                              const CompareOptions& options) {

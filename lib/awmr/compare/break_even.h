@@ -18,7 +18,7 @@ namespace awmr {
 /// The controller does not compensate the scrub. `comparison` must contain the runs of sample 0
 /// (the nominal model) with one set of gains. Errors (input): yaw resistance was identified from
 /// differential turns and therefore already includes scrub; the errors of compare().
-Result<std::vector<BreakEven>> break_even_of(const Model& model, const Gains<double>& gains,
+Result<std::vector<BreakEven>> break_even_of(const Model& model, const ModeGains& gains,
                                              const std::vector<Scenario>& scenarios,
                                              const Comparison& comparison,
                                              const CompareOptions& options);

@@ -103,7 +103,9 @@ Status check_comparison(const Model& model, const std::vector<NamedGains>& gains
   if (!faults.empty()) return input_errors(std::move(faults));
   AWMR_RETURN_IF_ERROR(check_runs(scenarios.size() * gains.size() * yaw_modes(model.vehicle).size(),
                                   options.samples));
-  for (const NamedGains& set : gains) AWMR_RETURN_IF_ERROR(controller_for(model, set.gains));
+  for (const NamedGains& set : gains) {
+    AWMR_RETURN_IF_ERROR(controller_for(model, set.gains.common()));
+  }
   return {};
 }
 

@@ -160,8 +160,8 @@ void run_block(const RunSetup& setup, const Block& block, Slots& slots,
   const Scenario& scenario = setup.scenarios[block.scenario];
   const NamedGains& set = setup.gains[block.gains];
   // The controller uses the parameters of the nominal plant, not those of the drawn one.
-  const auto controller = make_controller(setup.plants.nominal, vehicle, set.gains);
   const YawMode mode = kYawModes[block.mode];
+  const auto controller = make_controller(setup.plants.nominal, vehicle, set.gains.in(mode));
   std::vector<BatchRun> runs = runs_of(setup.plants, controller, block, mode, setup.options.seed);
   share_noise(scenario, vehicle.sample_time_s, block, runs);
   auto metrics = simulate_batch(runs, scenario, vehicle.sample_time_s, setup.arithmetic);
@@ -257,7 +257,7 @@ Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& ga
   return comparison;
 }
 
-Result<Comparison> compare(const Model& model, const Gains<double>& gains,
+Result<Comparison> compare(const Model& model, const ModeGains& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options) {
   return compare(model, std::vector<NamedGains>{{"", gains}}, scenarios, options);
 }

@@ -19,7 +19,7 @@
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/core/shard.h"
-#include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/scenario.h"
@@ -30,7 +30,7 @@ namespace awmr {
 /// A set of controller gains, with its name in the rows of the comparison.
 struct NamedGains {
   std::string name;  ///< name of the set; empty if there is only one set
-  Gains<double> gains;
+  ModeGains gains;
 };
 
 /// Result of one run: a row of comparison.csv.
@@ -198,7 +198,7 @@ struct Comparison {
 /// controller_for() and break_even_of(). Also the error of a run that fails.
 Result<Comparison> compare(const Model& model, const std::vector<NamedGains>& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
-Result<Comparison> compare(const Model& model, const Gains<double>& gains,
+Result<Comparison> compare(const Model& model, const ModeGains& gains,
                            const std::vector<Scenario>& scenarios, const CompareOptions& options);
 
 /// The metrics of a run with their names, in the order of comparison.csv.

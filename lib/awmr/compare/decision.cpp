@@ -123,11 +123,18 @@ void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& opti
 
 /// Multiplies the bandwidths of both closed loops by a factor: lambda and mu/epsilon of the heading
 /// loop, and mu_s/epsilon_s of the speed loop.
-NamedGains with_rates_times(double factor, NamedGains set) {
-  set.gains.heading.lambda *= factor;
-  set.gains.heading.mu *= factor;
-  set.gains.speed.mu *= factor;
-  return set;
+NamedGains with_rates_times(double factor, const NamedGains& set) {
+  const auto changed = [factor](Gains<double> gains) {
+    gains.heading.lambda *= factor;
+    gains.heading.mu *= factor;
+    gains.speed.mu *= factor;
+    return gains;
+  };
+  ModeGains all(changed(set.gains.common()));
+  for (const YawMode mode : kYawModes) {
+    if (set.gains.has_own(mode)) all.set(mode, changed(set.gains.in(mode)));
+  }
+  return {set.name, all};
 }
 
 /// The first fault of an error as one line of text.

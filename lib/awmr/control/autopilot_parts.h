@@ -1,5 +1,5 @@
 /// Optional parts of a firmware: disturbance observer, compensation of the motors' dead zone and
-/// back-EMF, and position estimate. The optional parts of the guidance are in guidance/parts.h.
+/// back-EMF, gains by mode, and position estimate. The optional parts of the guidance are in guidance/parts.h.
 /// Freestanding C++14.
 #pragma once
 
@@ -36,6 +36,12 @@ struct MotorCurve {
   uint8_t mode;  ///< YawMode to which the friction width of the yaw resistance g3 is set
 };
 
+/// Uses other gains in each mode.
+struct GainsByMode {
+  const ModeGainsBlock* gains;  ///< in flash on an AVR. Null: the same gains in every mode
+  uint8_t mode;                 ///< YawMode whose gains are in use; kYawModeCount: none yet
+};
+
 /// Estimates the position from the fixes of a GPS receiver. `Filter` is the type of the constants,
 /// see PositionEstimate.
 template <class Filter = PositionFilter<float>>
@@ -54,6 +60,7 @@ struct NoParts {
   typedef Disabled<Shaper<float>> Shaping;
   typedef Disabled<Observer> Observation;
   typedef Disabled<MotorCurve> Motors;
+  typedef Disabled<GainsByMode> Gains;
   typedef Disabled<Positioner<>> Positioning;
   static constexpr CombinedSplit kSplit = CombinedSplit::kRedistribute;
   /// True: speed sensors without a sign are supported (AutopilotInput::speed_unsigned).
@@ -71,6 +78,7 @@ struct AllParts {
   typedef Shaper<float> Shaping;
   typedef Observer Observation;
   typedef MotorCurve Motors;
+  typedef GainsByMode Gains;
   typedef Positioner<> Positioning;
   static constexpr CombinedSplit kSplit = split;
   static constexpr bool kIsDirected = true;
@@ -142,6 +150,23 @@ void use_friction_width(MotorCurve& part, uint8_t mode, G& yaw) {
   if (mode == part.mode) return;
   part.mode = mode;
   if (part.rest != 0) set_friction_width(part.rest, mode, yaw);
+}
+
+/// Replaces the gains in `constants` by those of `mode`, if the mode has changed. No-op if GainsByMode
+/// is not compiled in.
+AWMR_INLINE void use_gains(Disabled<GainsByMode>&, uint8_t, ControlConstants<float>&) {}
+inline void use_gains(GainsByMode& part, uint8_t mode, ControlConstants<float>& constants) {
+  if (mode == part.mode) return;
+  part.mode = mode;
+  if (part.gains == 0) return;
+  GainsBlock own;
+  read_flash(&part.gains->in[mode], own);
+  constants.lambda = own.lambda;
+  constants.heading_rate = own.heading_rate;
+  constants.heading_slope = own.heading_slope;
+  constants.heading_limit = own.heading_limit;
+  constants.speed_slope = own.speed_slope;
+  constants.speed_limit = own.speed_limit;
 }
 
 /// Returns the allocation limits at the speed u, m/s. They are those at rest, `c`, reduced by

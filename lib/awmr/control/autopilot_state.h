@@ -17,7 +17,7 @@ namespace awmr {
 /// State of the autopilot between two steps. G is the type of the resistances g1 and g3, as in
 /// Controller. P lists the optional parts that are compiled in (autopilot_parts.h).
 template <class G, class P = NoParts>
-struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Positioning {
+struct Autopilot : GuidanceLaws<float, P>, P::Observation, P::Motors, P::Gains, P::Positioning {
   PreparedController<float, G> controller;
   SafetyLimits limits;
   uint32_t last_step_ms;           ///< time of the last step, valid if has_stepped
@@ -37,6 +37,13 @@ inline void set_motors(const RestBlock* rest, MotorCurve& part) {
   part.back_emf_s_per_m = rest != 0 ? flash_float(&rest->back_emf_s_per_m) : 0.0F;
 }
 
+/// Sets the gains of the modes. No-op if GainsByMode is not compiled in.
+inline void set_gains(const ModeGainsBlock*, Disabled<GainsByMode>&) {}
+inline void set_gains(const ModeGainsBlock* gains, GainsByMode& part) {
+  part.gains = gains;
+  part.mode = kYawModeCount;
+}
+
 /// Enables the disturbance observer with the parameters `tuned`. No-op if the observer is not
 /// compiled in or `tuned` is null.
 inline void set_observer(const ObserverBlock*, Disabled<Observer>&) {}
@@ -51,13 +58,14 @@ inline void set_observer(const ObserverBlock* tuned, Observer& part) {
 
 /// Reads the parameters. Returns true if their check sum equals `crc`, which the header of the
 /// emitted library defines. If not, every step outputs the safe command. `rest` has the parameters
-/// of RestingTable and MotorCurve, `observer` those of Observer; null: no such parameters. On an
-/// AVR, all pointers are addresses in flash.
+/// of RestingTable and MotorCurve, `observer` those of Observer, `gains` those of GainsByMode; null:
+/// no such parameters. On an AVR, all pointers are addresses in flash.
 template <class G, class P>
 bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
                      const ResistanceLine* surge_lines, size_t surge_count,
                      const ResistanceLine* yaw_lines, size_t yaw_count, uint32_t crc,
-                     const RestBlock* rest = 0, const ObserverBlock* observer = 0) {
+                     const RestBlock* rest = 0, const ObserverBlock* observer = 0,
+                     const ModeGainsBlock* gains = 0) {
   PreparedController<float, G>& c = a.controller;
   read_flash(&block->constants, c.constants);
   set_resistance(&block->surge_table, block->surge_alpha_beta, surge_lines, c.surge);
@@ -67,6 +75,7 @@ bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
     set_friction_width(rest, 0, c.yaw);
   }
   set_motors(rest, part_of<typename P::Motors>(a));
+  set_gains(gains, part_of<typename P::Gains>(a));
   read_flash(&block->safety, a.limits);
   disable_guidance(a);
   disable(part_of<typename P::Observation>(a));
@@ -77,7 +86,7 @@ bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
   a.direction_ms = 0;
   a.mass_inverse = 1.0F / c.constants.mass_norm;
   a.are_parameters_good = crc32_of_parameters(block, surge_lines, surge_count, yaw_lines, yaw_count,
-                                              rest, observer) == crc;
+                                              rest, observer, gains) == crc;
   return a.are_parameters_good;
 }
 

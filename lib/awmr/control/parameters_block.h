@@ -55,6 +55,20 @@ struct ObserverBlock {
   float sample_time_s;    ///< T_s, s: time between two steps
 };
 
+/// Gains of one mode, in the form of the members of ControlConstants with these names.
+struct GainsBlock {
+  float lambda;         ///< 1/s
+  float heading_rate;   ///< s m
+  float heading_slope;  ///< s m
+  float heading_limit;  ///< m
+  float speed_slope;    ///< s/m
+  float speed_limit;    ///< dimensionless
+};
+/// Additional parameters if the modes have gains of their own. All members have 32 bits.
+struct ModeGainsBlock {
+  GainsBlock in[kYawModeCount];  ///< for each YawMode
+};
+
 /// Continues the CRC-32 `crc` with `size` bytes. On an AVR, `address` is an address in flash.
 inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
   const uint8_t* bytes = static_cast<const uint8_t*>(address);
@@ -63,16 +77,18 @@ inline uint32_t crc32_of_flash(uint32_t crc, const void* address, size_t size) {
 }
 
 /// Computes the check sum of the firmware's parameters: CRC-32 of the block, of the lines of the
-/// surge table and of the yaw table, then of `rest` and `observer` if present.
+/// surge table and of the yaw table, then of `rest`, `observer` and `gains` if present.
 inline uint32_t crc32_of_parameters(const ParameterBlock* block, const ResistanceLine* surge_lines,
                                     size_t surge_count, const ResistanceLine* yaw_lines,
                                     size_t yaw_count, const RestBlock* rest = 0,
-                                    const ObserverBlock* observer = 0) {
+                                    const ObserverBlock* observer = 0,
+                                    const ModeGainsBlock* gains = 0) {
   uint32_t crc = crc32_of_flash(kCrc32Start, block, sizeof *block);
   crc = crc32_of_flash(crc, surge_lines, surge_count * sizeof(ResistanceLine));
   crc = crc32_of_flash(crc, yaw_lines, yaw_count * sizeof(ResistanceLine));
   if (rest != 0) crc = crc32_of_flash(crc, rest, sizeof *rest);
-  return ~(observer != 0 ? crc32_of_flash(crc, observer, sizeof *observer) : crc);
+  if (observer != 0) crc = crc32_of_flash(crc, observer, sizeof *observer);
+  return ~(gains != 0 ? crc32_of_flash(crc, gains, sizeof *gains) : crc);
 }
 
 /// Sets a resistance from the parameters in flash. The overloads are for the forms in which a

@@ -1,19 +1,11 @@
-/// The three modes of yaw control, and how each mode distributes the yaw moment to steering and
+/// How each mode of yaw control (model/yaw_mode.h) distributes the yaw moment to steering and
 /// wheel forces. Freestanding C++14.
 #pragma once
 
 #include "awmr/model/scalar_math.h"
+#include "awmr/model/yaw_mode.h"
 
 namespace awmr {
-
-/// Modes of yaw control, by the actuators that make the yaw moment.
-enum class YawMode {
-  kDifferential,  ///< difference of right and left wheel forces, wheels straight
-  kSteering,      ///< steered front wheels, right and left wheel forces equal
-  kCombined,      ///< half of the moment by wheel forces, half by steering
-};
-
-constexpr int kYawModeCount = 3;  ///< number of modes, numbered from 0
 
 /// How combined mode distributes the yaw moment when the steering or the wheel forces are at a
 /// limit.

@@ -46,7 +46,7 @@ bool is_power_law(const Plant<double>& plant) {
 
 /// Parameters of the friction at rest, the motors' dead zone and their back-EMF; absent if the
 /// model has none of these.
-std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>& gains) {
+std::optional<RestBlock> rest_of(const Plant<double>& plant, const ModeGains& gains) {
   const bool jumps = plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0;
   if (!jumps && !(plant.wheel_dead_zone > 0.0) && !(plant.back_emf_s_per_m > 0.0)) return {};
   const auto at_rest = [](const Resistance<double>& law) {
@@ -60,8 +60,9 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const Gains<double>
                  .yaw_at_rest = {},
                  .back_emf_s_per_m = single(plant.back_emf_s_per_m)};
   for (int mode = 0; mode < kYawModeCount; ++mode) {
-    const double share = steering_share<double>(static_cast<YawMode>(mode));
-    const Resistance<double> yaw = feed_forward(plant.yaw, gains.friction_width_at(share));
+    const auto of_mode = static_cast<YawMode>(mode);
+    const double width_radps = gains.in(of_mode).friction_width_at(steering_share<double>(of_mode));
+    const Resistance<double> yaw = feed_forward(plant.yaw, width_radps);
     rest.yaw_rest_speed[mode] = single(yaw.rest_speed);
     rest.yaw_at_rest[mode] = at_rest(yaw);
   }
@@ -91,7 +92,7 @@ Controller<float> float_controller(const Plant<double>& plant, const Model& mode
 
 /// Returns the parameter block without the shapes of the resistance tables and without the largest
 /// speeds, which depend on the tables. add_tables() adds both.
-ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Gains<double>& gains,
+ParameterBlock block_of(const Plant<double>& plant, const Model& model, const ModeGains& gains,
                         const EmitOptions& options) {
   const auto estimate = [&](ParameterId id) { return single(*model[id].value); };
   ParameterBlock block{};
@@ -99,7 +100,7 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Ga
   block.surge_alpha_beta[1] = estimate(ParameterId::kSurgeBeta);
   block.yaw_alpha_beta[0] = estimate(ParameterId::kYawAlpha);
   block.yaw_alpha_beta[1] = estimate(ParameterId::kYawBeta);
-  block.constants = prepared(float_controller(plant, model, gains)).constants;
+  block.constants = prepared(float_controller(plant, model, gains.common())).constants;
   block.safety.heading_timeout_ms = options.heading_timeout_ms;
   block.safety.speed_timeout_ms = options.speed_timeout_ms;
   block.safety.command_timeout_ms = options.command_timeout_ms;
@@ -191,17 +192,36 @@ std::optional<ObserverBlock> observer_of(const ObserverGains<double>& observer,
                        single(observer.surge_max), sample_time_s};
 }
 
+/// The gains of each mode; absent if all modes have the same.
+std::optional<ModeGainsBlock> mode_gains_of(const Plant<double>& plant, const Model& model,
+                                            const ModeGains& gains) {
+  if (!gains.has_any_own()) return {};
+  ModeGainsBlock block{};
+  for (const YawMode mode : kYawModes) {
+    const ControlConstants<float> c =
+        prepared(float_controller(plant, model, gains.in(mode))).constants;
+    block.in[static_cast<int>(mode)] = {.lambda = c.lambda,
+                                        .heading_rate = c.heading_rate,
+                                        .heading_slope = c.heading_slope,
+                                        .heading_limit = c.heading_limit,
+                                        .speed_slope = c.speed_slope,
+                                        .speed_limit = c.speed_limit};
+  }
+  return block;
+}
+
 std::uint32_t crc_of(const AutopilotParameters& parameters) {
   return crc32_of_parameters(&parameters.block, parameters.surge.lines.data(),
                              parameters.surge.lines.size(), parameters.yaw.lines.data(),
                              parameters.yaw.lines.size(),
                              parameters.rest ? &*parameters.rest : nullptr,
-                             parameters.observer ? &*parameters.observer : nullptr);
+                             parameters.observer ? &*parameters.observer : nullptr,
+                             parameters.mode_gains ? &*parameters.mode_gains : nullptr);
 }
 
 }  // namespace
 
-Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
+Result<AutopilotParameters> autopilot_parameters(const Model& model, const ModeGains& gains,
                                                  const EmitInputs& inputs,
                                                  const EmitOptions& options) {
   AWMR_RETURN_IF_ERROR(params_header(model, gains, inputs));
@@ -217,14 +237,14 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
   AutopilotParameters parameters;
   parameters.resistance = options.resistance;
   parameters.sample_time_s = single(model.vehicle.sample_time_s);
-  const SketchValues sketch = sketch_values(plant, model.vehicle, gains.heading, full_force);
+  const SketchValues sketch = sketch_values(plant, model.vehicle, gains, full_force);
   parameters.route_speed_mps = single(sketch.route_mps);
   parameters.steady_error_rad = sketch.steady_error_rad;
   parameters.on_course_rad = single(sketch.on_course_rad);
   parameters.off_course_mrad = single(sketch.off_course_mrad);
   set_position_filter(model.vehicle, parameters);
   parameters.parts = parts_with(options.parts, gains);
-  parameters.observer = observer_of(gains.observer, parameters.sample_time_s);
+  parameters.observer = observer_of(gains.common().observer, parameters.sample_time_s);
   parameters.split = options.split;
   parameters.line_law = options.line_law;
   parameters.block = block_of(plant, model, gains, options);
@@ -235,6 +255,7 @@ Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains
     AWMR_RETURN_IF_ERROR(add_tables(surge, yaw, options.table_error, parameters));
   }
   parameters.rest = rest_of(plant, gains);
+  parameters.mode_gains = mode_gains_of(plant, model, gains);
   parameters.crc = crc_of(parameters);
   return parameters;
 }

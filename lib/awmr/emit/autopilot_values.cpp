@@ -41,6 +41,10 @@ struct Autopilot {
   AutopilotValues found = {};
 
   const Vehicle& vehicle() const { return source.model.vehicle; }
+  /// The mode in which the autopilot turns the vehicle.
+  YawMode mode() const {
+    return vehicle().has_steering() ? YawMode::kSteering : YawMode::kDifferential;
+  }
   bool knows(ParameterId id) const { return source.model[id].value.has_value(); }
 
   /// Adds a positive number computed from the plant, with an interval that is symmetric in the
@@ -104,7 +108,7 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
     pilot.leave_out(p, why);
     return pilot.leave_out(i, why);
   }
-  const SpeedGains<double> gains = pilot.source.gains->speed;
+  const SpeedGains<double> gains = pilot.source.gains->in(pilot.mode()).speed;
   const double closed_s = gains.epsilon / gains.mu;
   pilot.add(
       p, "1/(m/s)",
@@ -125,7 +129,7 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
 
 /// If the gains were tuned with a disturbance observer, lists it among the parameters left out.
 void leave_out_observer(Autopilot& pilot) {
-  if (!pilot.source.gains || !pilot.source.gains->observer.is_on()) return;
+  if (!pilot.source.gains || !pilot.source.gains->common().observer.is_on()) return;
   pilot.leave_out("the disturbance observer",
                   "the gains were tuned with this observer, which the autopilot does not have; its "
                   "integrators replace it");
@@ -211,7 +215,7 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
     pilot.leave_out("RO_YAW_RATE_P", why);
     return pilot.leave_out("RO_YAW_RATE_I", why);
   }
-  const HeadingGains<double> gains = pilot.source.gains->heading;
+  const HeadingGains<double> gains = pilot.source.gains->in(YawMode::kDifferential).heading;
   const double closed_s = 1.0 / (gains.lambda + gains.mu / gains.epsilon);
   pilot.add("RO_YAW_RATE_P", "1/(rad/s)",
             fmt::format("I'z/(4 d T); I'z: yaw inertia over F_max, d: half track, T = 1/(lambda + "

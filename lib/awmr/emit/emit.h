@@ -16,7 +16,7 @@
 #include "awmr/core/result.h"
 #include "awmr/core/units.h"
 #include "awmr/model/certificate.h"
-#include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/model.h"
 
 namespace awmr {
@@ -40,7 +40,7 @@ std::string params_sha256(const EmitInputs& inputs);
 /// are reported); the smallest wheel force is not below the largest; the steering stop is not below
 /// 90 deg; the observer's bandwidth times the sample time is not below 1. Errors (refused): in
 /// float32, T2 = epsilon/(2 mu) is not below T1 = 1/lambda.
-Result<std::string> params_header(const Model& model, const Gains<double>& gains,
+Result<std::string> params_header(const Model& model, const ModeGains& gains,
                                   const EmitInputs& inputs);
 
 /// Method by which the firmware computes the resistances g1 (surge) and g3 (yaw).
@@ -69,7 +69,7 @@ inline constexpr NameTable<FirmwarePart, 6> kFirmwarePartNames{
      {"observer", FirmwarePart::kObserver}}};
 
 /// The optional features of the firmware: `parts`, and kObserver if the gains have an observer.
-std::set<FirmwarePart> parts_with(std::set<FirmwarePart> parts, const Gains<double>& gains);
+std::set<FirmwarePart> parts_with(std::set<FirmwarePart> parts, const ModeGains& gains);
 
 /// Largest number of clock cycles that a control step with these parts takes on the ATmega2560: the
 /// slowest guidance, plus the parts that are computed in addition. Source: the largest
@@ -147,6 +147,8 @@ struct AutopilotParameters {
   /// The observer that the gains were tuned with. Absent: there is no observer, unless the sketch
   /// enables one.
   std::optional<ObserverBlock> observer;
+  /// Gains of each mode; absent if all modes have the same.
+  std::optional<ModeGainsBlock> mode_gains;
   float steering_max_tan_half = 0.0F;                  ///< tan(d_max/2), d_max: steering stop
   EmittedTable surge;                                  ///< table of g1; empty for kPowf
   EmittedTable yaw;                                    ///< table of g3; empty for kPowf
@@ -164,14 +166,14 @@ struct AutopilotParameters {
   std::set<FirmwarePart> parts;           ///< result of parts_with() for the gains
   std::size_t line_law = 0;               ///< as in EmitOptions
   CombinedSplit split = CombinedSplit::kRedistribute;  ///< as in EmitOptions
-  std::uint32_t crc = 0;  ///< check sum over block, tables, rest and observer
+  std::uint32_t crc = 0;  ///< check sum over block, tables, rest, observer and mode_gains
 };
 
 /// Computes the numbers of the firmware from the model and the gains. Errors: those of
 /// params_header(); (input) small-angle allocation, front-wheel drive, or kPowf for a resistance
 /// other than the power law; (refused) options.table_error is given, and no table has an error
 /// within it.
-Result<AutopilotParameters> autopilot_parameters(const Model& model, const Gains<double>& gains,
+Result<AutopilotParameters> autopilot_parameters(const Model& model, const ModeGains& gains,
                                                  const EmitInputs& inputs,
                                                  const EmitOptions& options);
 
@@ -188,7 +190,7 @@ struct EmittedFile {
 /// Creates an Arduino library: awmr_params.h, library.properties, src/ with the C interface and the
 /// unchanged control sources, examples/. It also works with PlatformIO and with plain avr-gcc and
 /// -I src. The same inputs give the same bytes. Errors: those of autopilot_parameters().
-Result<std::vector<EmittedFile>> firmware_library(const Model& model, const Gains<double>& gains,
+Result<std::vector<EmittedFile>> firmware_library(const Model& model, const ModeGains& gains,
                                                   const EmitInputs& inputs,
                                                   const EmitOptions& options);
 

@@ -33,7 +33,7 @@ inline constexpr NameTable<ExportFormat, 6> kExportFormatNames{
 /// Inputs of an exported file.
 struct ExportSource {
   const Model& model;
-  std::optional<Gains<double>> gains = {};
+  std::optional<ModeGains> gains = {};
   std::span<const InputFile> inputs = {};  ///< files of model and gains, named with their hashes
 };
 

@@ -73,11 +73,15 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
   add("sample_time_s", vehicle.sample_time_s, "s", "T_s: time between two steps of the controller");
 }
 
-void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values) {
-  const auto add = [&values](const char* name, double value, const char* unit,
-                             const char* meaning) {
-    values.push_back(
-        {.name = name, .value = value, .unit = unit, .meaning = meaning, .origin = "gains"});
+/// Adds a set of gains. `suffix`: end of the names; `of_mode`: end of the meanings.
+void export_gains(const Gains<double>& gains, const std::string& suffix, const std::string& of_mode,
+                  std::vector<ExportedValue>& values) {
+  const auto add = [&](const char* name, double value, const char* unit, const char* meaning) {
+    values.push_back({.name = name + suffix,
+                      .value = value,
+                      .unit = unit,
+                      .meaning = meaning + of_mode,
+                      .origin = "gains"});
   };
   add("heading_lambda", gains.heading.lambda, "1/s", "lambda: slope of the sliding surface");
   add("heading_mu", gains.heading.mu, "rad/s^2", "mu: largest corrective yaw acceleration");
@@ -96,7 +100,7 @@ void export_gains(const Gains<double>& gains, std::vector<ExportedValue>& values
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
   add("speed_epsilon", gains.speed.epsilon, "m/s",
       "eps_s: half width of the speed law's boundary layer");
-  if (!gains.observer.is_on()) return;
+  if (!gains.observer.is_on() || !suffix.empty()) return;
   add("observer_bandwidth_radps", gains.observer.bandwidth_radps, "rad/s",
       "L: bandwidth of the disturbance observer");
   add("observer_yaw_max_m", gains.observer.yaw_max_m, "m",
@@ -111,7 +115,13 @@ std::vector<ExportedValue> exported_values(const ExportSource& source) {
   std::vector<ExportedValue> values;
   export_parameters(source.model, values);
   export_vehicle(source.model.vehicle, values);
-  if (source.gains) export_gains(*source.gains, values);
+  if (!source.gains) return values;
+  export_gains(source.gains->common(), "", "", values);
+  for (const YawMode mode : kYawModes) {
+    if (!source.gains->has_own(mode)) continue;
+    export_gains(source.gains->in(mode), fmt::format("_{}", name_of(mode)),
+                 fmt::format(", in {} mode", name_of(mode)), values);
+  }
   return values;
 }
 

@@ -36,7 +36,7 @@ constexpr std::string_view kLibraryJson = R"({{
 
 }  // namespace
 
-Result<std::vector<EmittedFile>> firmware_library(const Model& model, const Gains<double>& gains,
+Result<std::vector<EmittedFile>> firmware_library(const Model& model, const ModeGains& gains,
                                                   const EmitInputs& inputs,
                                                   const EmitOptions& options) {
   AWMR_ASSIGN_OR_RETURN(const AutopilotParameters parameters,

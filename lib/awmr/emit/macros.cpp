@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -75,42 +77,72 @@ void add_vehicle(std::vector<Macro>& macros, const Vehicle& vehicle, const std::
       "sample_time_s");
 }
 
-void add_gains(std::vector<Macro>& macros, const Gains<double>& gains, const std::string& file) {
+/// Place of a mode's gains in the gains file: "gains.json:" or "gains.json:/modes/steering".
+std::string place_of(const ModeGains& gains, YawMode mode, const std::string& file) {
+  return gains.has_own(mode) ? fmt::format("{}:/modes/{}", file, name_of(mode)) : file + ":";
+}
+
+/// Adds the friction widths of the modes steering and combined that are above the smallest.
+void add_friction_widths(std::vector<Macro>& macros, const ModeGains& gains,
+                         const std::string& file) {
+  const auto add = [&](std::string name, YawMode mode, double value, std::string_view comment,
+                       std::string_view pointer) {
+    if (!(value > feed_forward_rest_speed<double>())) return;
+    macros.push_back({std::move(name), value, fmt::format("{}; gains", comment),
+                      place_of(gains, mode, file) + std::string(pointer), MacroRange::kPositive});
+  };
+  const Gains<double>& combined = gains.in(YawMode::kCombined);
+  add("AWMR_HEADING_FRICTION_WIDTH_RADPS", YawMode::kSteering,
+      gains.in(YawMode::kSteering).heading.friction_width_radps,
+      "w0, rad/s: in steering mode the fed-forward Coulomb friction is proportional to "
+      "psi_d_dot + lambda e while the magnitude of this sum is below w0; in differential mode "
+      "the limit is 0.02 rad/s without and w0 with an observer",
+      "/heading/friction_width_radps");
+  add("AWMR_HEADING_COMBINED_FRICTION_WIDTH_RADPS", YawMode::kCombined,
+      combined.friction_width_at(0.5), "rad/s: w0 of the combined mode",
+      combined.heading.combined_friction_width_radps > 0.0
+          ? "/heading/combined_friction_width_radps"
+          : "/heading/friction_width_radps");
+}
+
+/// Adds the gains of both laws for one mode (`mode`), or for all modes without gains of their own.
+void add_laws(std::vector<Macro>& macros, const ModeGains& gains, std::optional<YawMode> mode,
+              const std::string& file) {
+  const Gains<double>& set = mode ? gains.in(*mode) : gains.common();
+  const std::string place = mode ? place_of(gains, *mode, file) : file + ":";
+  const std::string suffix = mode ? mode_suffix(*mode) : "";
+  const std::string of_mode = mode ? fmt::format(", in {} mode", name_of(*mode)) : "";
+  const auto add = [&](const char* name, double value, std::string_view comment,
+                       std::string_view pointer) {
+    macros.push_back({name + suffix, value, fmt::format("{}{}; gains", comment, of_mode),
+                      place + std::string(pointer), MacroRange::kPositive});
+  };
+  add("AWMR_HEADING_LAMBDA", set.heading.lambda,
+      "lambda, 1/s: slope of the sliding surface S = e_dot + lambda e", "/heading/lambda");
+  add("AWMR_HEADING_MU", set.heading.mu, "mu, rad/s^2: corrective yaw acceleration", "/heading/mu");
+  add("AWMR_HEADING_EPSILON", set.heading.epsilon,
+      "epsilon, rad/s: half width of the boundary layer of S", "/heading/epsilon");
+  if (!mode) add_friction_widths(macros, gains, file);
+  add("AWMR_SPEED_MU", set.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
+  add("AWMR_SPEED_EPSILON", set.speed.epsilon,
+      "epsilon_s, m/s: half width of the boundary layer of the speed error u_d - u",
+      "/speed/epsilon");
+}
+
+void add_observer(std::vector<Macro>& macros, const ObserverGains<double>& observer,
+                  const std::string& file) {
+  if (!observer.is_on()) return;
   const auto add = [&](std::string name, double value, std::string_view comment,
                        std::string_view pointer) {
     macros.push_back({std::move(name), value, fmt::format("{}; gains", comment),
                       fmt::format("{}:{}", file, pointer), MacroRange::kPositive});
   };
-  add("AWMR_HEADING_LAMBDA", gains.heading.lambda,
-      "lambda, 1/s: slope of the sliding surface S = e_dot + lambda e", "/heading/lambda");
-  add("AWMR_HEADING_MU", gains.heading.mu, "mu, rad/s^2: corrective yaw acceleration",
-      "/heading/mu");
-  add("AWMR_HEADING_EPSILON", gains.heading.epsilon,
-      "epsilon, rad/s: half width of the boundary layer of S", "/heading/epsilon");
-  if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
-    add("AWMR_HEADING_FRICTION_WIDTH_RADPS", gains.heading.friction_width_radps,
-        "w0, rad/s: in steering mode the fed-forward Coulomb friction is proportional to "
-        "psi_d_dot + lambda e while the magnitude of this sum is below w0; in differential mode "
-        "the limit is 0.02 rad/s without and w0 with an observer",
-        "/heading/friction_width_radps");
-  }
-  if (gains.friction_width_at(0.5) > feed_forward_rest_speed<double>()) {
-    add("AWMR_HEADING_COMBINED_FRICTION_WIDTH_RADPS", gains.friction_width_at(0.5),
-        "rad/s: w0 of the combined mode",
-        gains.heading.combined_friction_width_radps > 0.0 ? "/heading/combined_friction_width_radps"
-                                                          : "/heading/friction_width_radps");
-  }
-  add("AWMR_SPEED_MU", gains.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
-  add("AWMR_SPEED_EPSILON", gains.speed.epsilon,
-      "epsilon_s, m/s: half width of the boundary layer of the speed error u_d - u",
-      "/speed/epsilon");
-  if (!gains.observer.is_on()) return;
-  add("AWMR_OBSERVER_BANDWIDTH_RADPS", gains.observer.bandwidth_radps,
+  add("AWMR_OBSERVER_BANDWIDTH_RADPS", observer.bandwidth_radps,
       "L, rad/s: bandwidth of the disturbance observer", "/observer/bandwidth_radps");
-  add("AWMR_OBSERVER_YAW_MAX_M", gains.observer.yaw_max_m,
+  add("AWMR_OBSERVER_YAW_MAX_M", observer.yaw_max_m,
       "m: largest yaw moment that the observer compensates, divided by F_max",
       "/observer/yaw_max_m");
-  add("AWMR_OBSERVER_SURGE_MAX", gains.observer.surge_max,
+  add("AWMR_OBSERVER_SURGE_MAX", observer.surge_max,
       "1: largest surge force that the observer compensates, divided by F_max",
       "/observer/surge_max");
 }
@@ -130,12 +162,21 @@ std::string file_name(const Model& model) {
   return std::filesystem::path(model.file).filename().string();
 }
 
-std::vector<Macro> macros_of(const Model& model, const Gains<double>& gains,
-                             const EmitInputs& inputs) {
+std::string mode_suffix(YawMode mode) {
+  std::string suffix = fmt::format("_{}", name_of(mode));
+  for (char& c : suffix) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return suffix;
+}
+
+std::vector<Macro> macros_of(const Model& model, const ModeGains& gains, const EmitInputs& inputs) {
   std::vector<Macro> macros;
   add_parameters(macros, model, file_name(model));
   add_vehicle(macros, model.vehicle, file_name(model));
-  add_gains(macros, gains, inputs.gains_file);
+  add_laws(macros, gains, std::nullopt, inputs.gains_file);
+  add_observer(macros, gains.common().observer, inputs.gains_file);
+  for (const YawMode mode : kYawModes) {
+    if (gains.has_any_own()) add_laws(macros, gains, mode, inputs.gains_file);
+  }
   return macros;
 }
 

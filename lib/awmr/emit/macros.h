@@ -1,6 +1,7 @@
 /// The macros of awmr_params.h before formatting. Private to emit/.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,11 @@ struct Macro {
 /// Name of the model's file without its directory, for comments of emitted files and for errors.
 std::string file_name(const Model& model);
 
+/// End of the names of the macros with the gains of a mode, such as "_STEERING".
+std::string mode_suffix(YawMode mode);
+
 /// The macros, in the order of the header. Precondition: the model has a value for each of them.
-std::vector<Macro> macros_of(const Model& model, const Gains<double>& gains,
-                             const EmitInputs& inputs);
+std::vector<Macro> macros_of(const Model& model, const ModeGains& gains, const EmitInputs& inputs);
 
 /// Checks the values. Errors (input), for each value: it is neither 0 nor a normal float32, or it
 /// is outside its range.

@@ -33,12 +33,16 @@ constexpr std::string_view kCheckMacro = R"(
 /// The constraint T2 < T1 of tune/: the sliding surface is reached faster than the heading error
 /// decays on it. The form without a division can be checked by a compiler:
 ///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
-constexpr std::string_view kRelations =
+constexpr std::string_view kReaching =
+    R"(AWMR_PARAMS_CHECK(AWMR_T2_IS_BELOW_T1{0},
+                  0.5f * AWMR_HEADING_EPSILON{0} * AWMR_HEADING_LAMBDA{0} < AWMR_HEADING_MU{0});
+)";
+constexpr std::string_view kReachingComment =
     R"(/* T2 = epsilon/(2 mu) < T1 = 1/lambda: the sliding surface is reached faster than the
    heading error decays on it */
-AWMR_PARAMS_CHECK(AWMR_T2_IS_BELOW_T1,
-                  0.5f * AWMR_HEADING_EPSILON * AWMR_HEADING_LAMBDA < AWMR_HEADING_MU);
-AWMR_PARAMS_CHECK(AWMR_WHEEL_FORCE_MIN_IS_BELOW_MAX, AWMR_WHEEL_FORCE_MIN < AWMR_WHEEL_FORCE_MAX);
+)";
+constexpr std::string_view kRelations =
+    R"(AWMR_PARAMS_CHECK(AWMR_WHEEL_FORCE_MIN_IS_BELOW_MAX, AWMR_WHEEL_FORCE_MIN < AWMR_WHEEL_FORCE_MAX);
 AWMR_PARAMS_CHECK(AWMR_STEERING_MAX_RAD_IS_BELOW_HALF_PI, AWMR_STEERING_MAX_RAD < 1.57079633f);
 )";
 
@@ -47,7 +51,7 @@ constexpr std::string_view kObserverRelation =
                   AWMR_OBSERVER_BANDWIDTH_RADPS * AWMR_SAMPLE_TIME_S < 1.0f);
 )";
 
-std::string checks_text(const std::vector<Macro>& macros, bool has_observer) {
+std::string checks_text(const std::vector<Macro>& macros, const ModeGains& gains) {
   std::string text(kCheckMacro);
   for (const Macro& macro : macros) {
     if (macro.range == MacroRange::kPositive) {
@@ -56,8 +60,13 @@ std::string checks_text(const std::vector<Macro>& macros, bool has_observer) {
       text += fmt::format("AWMR_PARAMS_CHECK({0}_IS_NOT_NEGATIVE, {0} >= 0.0f);\n", macro.name);
     }
   }
+  text += kReachingComment;
+  text += fmt::format(kReaching, "");
+  for (const YawMode mode : kYawModes) {
+    if (gains.has_any_own()) text += fmt::format(kReaching, mode_suffix(mode));
+  }
   text += kRelations;
-  if (has_observer) text += kObserverRelation;
+  if (gains.common().observer.is_on()) text += kObserverRelation;
   return text + "#undef AWMR_PARAMS_CHECK\n";
 }
 
@@ -102,9 +111,26 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
              params_sha256(inputs));
 }
 
-/// Checks F'min < F'max (wheel force), d_max < 90 deg (steering stop) and T2 < T1 (heading law).
-/// The values are compared after rounding to float32, because rounding can make two of them equal.
-Status check_relations(const Model& model, const Gains<double>& gains, const EmitInputs& inputs) {
+/// Checks T2 < T1 (heading law). The values are compared after rounding to float32, because rounding
+/// can make the two equal.
+Status check_reaching(const HeadingGains<double>& gains, const std::string& file) {
+  // The user's compiler may evaluate the product epsilon lambda in float or exactly. T2 < T1 must
+  // hold in both cases.
+  const float epsilon = static_cast<float>(gains.epsilon);
+  const float lambda = static_cast<float>(gains.lambda);
+  const float mu = static_cast<float>(gains.mu);
+  const double exact = 0.5 * static_cast<double>(epsilon) * static_cast<double>(lambda);
+  if (0.5F * epsilon * lambda < mu && exact < static_cast<double>(mu)) return {};
+  return refusal(
+      ErrorCode::kSlowReaching,
+      fmt::format("T2 = epsilon/(2 mu) = {:g} s is not below T1 = 1/lambda = {:g} s in {}: the "
+                  "sliding surface has to be reached faster than the error decays on it; lower "
+                  "epsilon or lambda, raise mu, or tune again",
+                  gains.reaching_time_constant_s(), gains.sliding_time_constant_s(), file));
+}
+
+/// Checks F'min < F'max (wheel force) and d_max < 90 deg (steering stop), after rounding to float32.
+Status check_vehicle(const Model& model) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
   if (!(static_cast<float>(vehicle.wheel_force.lo) < static_cast<float>(vehicle.wheel_force.hi))) {
@@ -121,23 +147,6 @@ Status check_relations(const Model& model, const Gains<double>& gains, const Emi
                                   vehicle.steering_max_deg)});
   }
   if (!faults.empty()) return input_errors(std::move(faults));
-
-  // The user's compiler may evaluate the product epsilon lambda in float or exactly. T2 < T1 must
-  // hold in both cases.
-  const float epsilon = static_cast<float>(gains.heading.epsilon);
-  const float lambda = static_cast<float>(gains.heading.lambda);
-  const float mu = static_cast<float>(gains.heading.mu);
-  const double exact = 0.5 * static_cast<double>(epsilon) * static_cast<double>(lambda);
-  if (!(0.5F * epsilon * lambda < mu) || !(exact < static_cast<double>(mu))) {
-    return refusal(
-        ErrorCode::kSlowReaching,
-        fmt::format(
-            "T2 = epsilon/(2 mu) = {:g} s is not below T1 = 1/lambda = {:g} s in {}: the sliding "
-            "surface has to be reached faster than the error decays on it; lower epsilon or "
-            "lambda, raise mu, or tune again",
-            gains.heading.reaching_time_constant_s(), gains.heading.sliding_time_constant_s(),
-            inputs.gains_file));
-  }
   return {};
 }
 
@@ -170,17 +179,20 @@ std::string params_sha256(const EmitInputs& inputs) {
   return sha256_hex(inputs.model_sha256 + inputs.gains_sha256);
 }
 
-Result<std::string> params_header(const Model& model, const Gains<double>& gains,
+Result<std::string> params_header(const Model& model, const ModeGains& gains,
                                   const EmitInputs& inputs) {
   AWMR_RETURN_IF_ERROR(model.plant());
   const std::vector<Macro> macros = macros_of(model, gains, inputs);
   AWMR_RETURN_IF_ERROR(check_macros(macros));
-  AWMR_RETURN_IF_ERROR(check_relations(model, gains, inputs));
-  AWMR_RETURN_IF_ERROR(check_observer_rate(gains.observer.bandwidth_radps,
+  AWMR_RETURN_IF_ERROR(check_vehicle(model));
+  for (const YawMode mode : kYawModes) {
+    AWMR_RETURN_IF_ERROR(check_reaching(gains.in(mode).heading, inputs.gains_file));
+  }
+  AWMR_RETURN_IF_ERROR(check_observer_rate(gains.common().observer.bandwidth_radps,
                                            model.vehicle.sample_time_s,
                                            inputs.gains_file + ":/observer/bandwidth_radps"));
-  return intro_text(model, inputs) + defines_text(macros, inputs) +
-         checks_text(macros, gains.observer.is_on()) + "\n#endif /* AWMR_PARAMS_H */\n";
+  return intro_text(model, inputs) + defines_text(macros, inputs) + checks_text(macros, gains) +
+         "\n#endif /* AWMR_PARAMS_H */\n";
 }
 
 }  // namespace awmr

@@ -96,15 +96,19 @@ double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
 }  // namespace
 
 SketchValues sketch_values(const Plant<double>& plant, const Vehicle& vehicle,
-                           const HeadingGains<double>& gains, double full_force) {
-  const double route_mps = route_speed_mps(plant, full_force);
-  const double error_rad = steady_error_rad(plant, gains, route_mps);
-  const double course_rad = on_course_rad(error_rad);
-  return {
-      .route_mps = route_mps,
-      .steady_error_rad = error_rad,
-      .on_course_rad = course_rad,
-      .off_course_mrad = off_course_mrad(plant, vehicle, gains, full_force, route_mps, course_rad)};
+                           const ModeGains& gains, double full_force) {
+  SketchValues values{.route_mps = route_speed_mps(plant, full_force)};
+  for (const YawMode mode : kYawModes) {
+    const double error_rad = steady_error_rad(plant, gains.in(mode).heading, values.route_mps);
+    values.steady_error_rad = std::max(values.steady_error_rad, error_rad);
+  }
+  values.on_course_rad = on_course_rad(values.steady_error_rad);
+  for (const YawMode mode : kYawModes) {
+    const double limit_mrad = off_course_mrad(plant, vehicle, gains.in(mode).heading, full_force,
+                                              values.route_mps, values.on_course_rad);
+    values.off_course_mrad = std::max(values.off_course_mrad, limit_mrad);
+  }
+  return values;
 }
 
 }  // namespace awmr

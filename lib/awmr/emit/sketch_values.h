@@ -2,20 +2,21 @@
 #pragma once
 
 #include "awmr/model/dynamics.h"
-#include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/vehicle.h"
 
 namespace awmr {
 
 struct SketchValues {
-  double route_mps;         ///< AWMR_ROUTE_SPEED_MPS, m/s
-  double steady_error_rad;  ///< heading error, rad, if the forces of the motors differ by 16 %
-  double on_course_rad;     ///< AWMR_ON_COURSE_RAD, rad
-  double off_course_mrad;   ///< AWMR_OFF_COURSE_MRAD, m rad
+  double route_mps = 0.0;  ///< AWMR_ROUTE_SPEED_MPS, m/s
+  double steady_error_rad =
+      0.0;                       ///< heading error, rad, if the forces of the motors differ by 16 %
+  double on_course_rad = 0.0;    ///< AWMR_ON_COURSE_RAD, rad
+  double off_course_mrad = 0.0;  ///< AWMR_OFF_COURSE_MRAD, m rad
 };
 
-/// `full_force`: sum of the largest F' of the four wheels, beyond the dead zone.
+/// The values suit every mode: each is the largest that a mode needs with its gains. `full_force`: sum of the largest F' of the four wheels, beyond the dead zone.
 SketchValues sketch_values(const Plant<double>& plant, const Vehicle& vehicle,
-                           const HeadingGains<double>& gains, double full_force);
+                           const ModeGains& gains, double full_force);
 
 }  // namespace awmr

@@ -40,8 +40,8 @@ std::uint32_t added_cycles(FirmwarePart part) {
 
 }  // namespace
 
-std::set<FirmwarePart> parts_with(std::set<FirmwarePart> parts, const Gains<double>& gains) {
-  if (gains.observer.is_on()) parts.insert(FirmwarePart::kObserver);
+std::set<FirmwarePart> parts_with(std::set<FirmwarePart> parts, const ModeGains& gains) {
+  if (gains.common().observer.is_on()) parts.insert(FirmwarePart::kObserver);
   return parts;
 }
 

@@ -38,30 +38,57 @@ Gains<double> gains_from_json(JsonObject& root) {
 
 namespace {
 
-/// Reads the gains and rejects keys that are not part of the format.
-Gains<double> gains_from_file(JsonObject& root) {
-  root.schema(kGainsSchema);
-  const Gains<double> gains = gains_from_json(root);
+/// Reads one set of gains. The results of its tuning are ignored; other keys are rejected.
+Gains<double> gains_with_results(JsonObject& json) {
+  const Gains<double> gains = gains_from_json(json);
   for (const std::string_view key :
-       {"command", "version", "mode", "options", "inputs", "time_constants", "constraints",
-        "limits", "certificate", "trade_off", "examined", "objective", "metrics", "robust", "goals",
-        "search", "baseline", "findings",
-        "sensitivity"}) {  // the last key: only in files of older versions
+       {"time_constants", "constraints", "limits", "certificate", "trade_off", "examined",
+        "objective", "metrics", "robust", "goals", "search", "baseline"}) {
+    json.ignore(key);
+  }
+  json.reject_unknown_keys();
+  return gains;
+}
+
+/// Reads the gains of all modes. Keys that are not part of the format are rejected.
+ModeGains gains_from_file(JsonObject& root) {
+  root.schema(kGainsSchema);
+  std::optional<JsonObject> modes = root.optional_object("modes");
+  for (const std::string_view key : {"command", "version", "mode", "options", "inputs", "findings",
+                                     "sensitivity"}) {  // the last key: only in older files
     root.ignore(key);
   }
-  root.reject_unknown_keys();
+  ModeGains gains = gains_with_results(root);
+  for (const YawMode mode : kYawModes) {
+    if (!modes || !modes->has(name_of(mode))) continue;
+    JsonObject own = modes->object(name_of(mode));
+    Gains<double> set = gains_with_results(own);
+    if (set.observer.is_on()) {
+      own.fault(ErrorCode::kUnsupported, "observer",
+                "a mode cannot have an observer of its own; give /observer, which is used in all "
+                "modes");
+    }
+    set.observer = gains.common().observer;
+    gains.set(mode, set);
+  }
+  if (modes) modes->reject_unknown_keys();
   return gains;
 }
 
 }  // namespace
 
-Result<Gains<double>> read_gains(const std::filesystem::path& path) {
+Result<ModeGains> read_mode_gains(const std::filesystem::path& path) {
   AWMR_ASSIGN_OR_RETURN(const Json json, read_json_file(path));
   std::vector<Fault> faults;
   JsonObject root(json, path.string(), "", faults);
-  const Gains<double> gains = gains_from_file(root);
+  const ModeGains gains = gains_from_file(root);
   if (!faults.empty()) return input_errors(std::move(faults));
   return gains;
+}
+
+Result<Gains<double>> read_gains(const std::filesystem::path& path) {
+  AWMR_ASSIGN_OR_RETURN(const ModeGains gains, read_mode_gains(path));
+  return gains.common();
 }
 
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path) {
@@ -91,9 +118,9 @@ Status check_gains_text(std::string_view text, const std::string& file) {
   return check_json_object(text, file, gains_from_file);
 }
 
-Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s) {
-  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, read_gains(path));
-  AWMR_RETURN_IF_ERROR(check_observer_rate(gains.observer.bandwidth_radps, sample_time_s,
+Result<ModeGains> read_gains_for(const std::filesystem::path& path, double sample_time_s) {
+  AWMR_ASSIGN_OR_RETURN(const ModeGains gains, read_mode_gains(path));
+  AWMR_RETURN_IF_ERROR(check_observer_rate(gains.common().observer.bandwidth_radps, sample_time_s,
                                            path.string() + ":/observer/bandwidth_radps"));
   return gains;
 }

@@ -10,27 +10,32 @@
 #include "awmr/core/result.h"
 #include "awmr/model/certificate.h"
 #include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/paper_gains.h"
 
 namespace awmr {
 
-/// Reads `/heading`, `/speed` and, if present, `/observer`; other keys of the format are ignored.
-/// Errors: those of read_json_file(); unknown keys; gains that are missing or out of range
-/// (ranges.h).
+/// Reads `/heading`, `/speed` and, if present, `/observer`: the gains of the modes without gains of
+/// their own. Errors: those of read_json_file(); unknown keys; gains that are missing or out of
+/// range (ranges.h), also in `/modes`.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
 /// Reads `/certificate`; absent in files without tuning results and in older files. Errors: as
 /// read_json_file; a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
+/// As read_gains(), but also reads the gains of single modes (`/modes`), if there are any. A mode
+/// with gains of its own uses the observer of `/observer`.
+Result<ModeGains> read_mode_gains(const std::filesystem::path& path);
+
 /// Checks a text of gains.json before it is written, as ReadBack (core/file.h). Errors: those of
 /// read_gains().
 Status check_gains_text(std::string_view text, const std::string& file);
 
-/// As read_gains(), but also checks that the gains suit a controller with this sample time. Errors:
-/// as read_gains(); the bandwidth of the observer is too large for the sample time
+/// As read_mode_gains(), but also checks that the gains suit a controller with this sample time.
+/// Errors: as read_mode_gains(); the bandwidth of the observer is too large for the sample time
 /// (check_observer_rate()).
-Result<Gains<double>> read_gains_for(const std::filesystem::path& path, double sample_time_s);
+Result<ModeGains> read_gains_for(const std::filesystem::path& path, double sample_time_s);
 
 /// Writes a file with gains only. Tuned gains are written by gains_text() in tune/tune.h.
 /// Errors: those of write_file().

@@ -34,6 +34,21 @@ LoopConditions conditions_of(const Vehicle& vehicle, const LoopConditions& missi
   return c;
 }
 
+LoopConditions conditions_of(const Scenario& scenario) {
+  const Sensors sensors = scenario.sensors.value_or(Sensors{});
+  const Actuators actuators = scenario.actuators.value_or(Actuators{});
+  return {.heading_noise_deg = degrees(sensors.heading.noise),
+          .yaw_rate_noise_degps = degrees(sensors.yaw_rate.noise),
+          .speed_noise_mps = sensors.speed.noise,
+          .heading_correlation_s = sensors.heading.correlation_s,
+          .yaw_rate_correlation_s = sensors.yaw_rate.correlation_s,
+          .speed_correlation_s = sensors.speed.correlation_s,
+          .heading_latency_s = sensors.heading.latency_s,
+          .yaw_rate_latency_s = sensors.yaw_rate.latency_s,
+          .speed_latency_s = sensors.speed.latency_s,
+          .motor_time_constant_s = actuators.motor_time_constant_s};
+}
+
 Scenario under(const LoopConditions& c, Scenario scenario) {
   const auto channel = [](double noise, double latency_s, double correlation_s) {
     return Channel{.noise = noise, .latency_s = latency_s, .correlation_s = correlation_s};

@@ -26,6 +26,8 @@ struct LoopConditions {
   double yaw_rate_latency_s = 0.02;
   double speed_latency_s = 0.02;
   double motor_time_constant_s = 0.02;
+
+  friend bool operator==(const LoopConditions&, const LoopConditions&) = default;
 };
 
 /// Exact sensors without latency, and motors without lag.
@@ -39,6 +41,9 @@ inline constexpr LoopConditions kIdealConditions{.heading_noise_deg = 0.0,
 
 /// Returns the conditions that vehicle.json gives. A missing condition is that of `missing`.
 LoopConditions conditions_of(const Vehicle& vehicle, const LoopConditions& missing = {});
+
+/// Returns the conditions of a scenario. Sensors or motors that it lacks are ideal.
+LoopConditions conditions_of(const Scenario& scenario);
 
 /// Returns the scenario with sensors and actuators that have these conditions. Sensors or actuators
 /// that the scenario already has are kept unchanged.

@@ -16,6 +16,7 @@
 #include "awmr/control/yaw_mode.h"
 #include "awmr/core/name_table.h"
 #include "awmr/core/result.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/model.h"
 #include "awmr/model/state.h"
 #include "awmr/model/tyres.h"
@@ -182,14 +183,8 @@ Result<Model> model_at_corner(Model model, const Scenario& scenario);
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 
-inline constexpr NameTable<YawMode, 3> kYawModeNames{{{"differential", YawMode::kDifferential},
-                                                      {"steering", YawMode::kSteering},
-                                                      {"combined", YawMode::kCombined}}};
 inline constexpr NameTable<CombinedSplit, 2> kCombinedSplitNames{
     {{"redistribute", CombinedSplit::kRedistribute}, {"fixed_half", CombinedSplit::kFixedHalf}}};
-constexpr std::string_view name_of(YawMode mode) { return name_in(kYawModeNames, mode); }
-inline constexpr YawMode kYawModes[] = {YawMode::kDifferential, YawMode::kSteering,
-                                        YawMode::kCombined};
 /// Returns the yaw modes that the vehicle can use, in the order of kYawModes. A vehicle without
 /// steering has differential mode only.
 std::span<const YawMode> yaw_modes(const Vehicle& vehicle);

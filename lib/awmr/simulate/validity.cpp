@@ -282,10 +282,9 @@ double backward_push(const Plant<double>& plant, double force_min, const SpeedGa
   return drive < 0.0 ? wheels * (-drive - lost) : 0.0;
 }
 
-}  // namespace
-
-std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
-                                              const Gains<double>& gains, const std::string& file) {
+/// unsigned_speed_finding() for the gains of one mode.
+std::optional<Finding> runs_away(const Plant<double>& plant, const Vehicle& vehicle,
+                                 const SpeedGains<double>& gains, const std::string& file) {
   const double force_min = forces_beyond_dead_zone(vehicle.wheel_force, plant.wheel_dead_zone).lo;
   const double wheels = driven_wheels(plant);
   const double top_mps =
@@ -294,7 +293,7 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const 
   for (int i = kSpeeds; i >= 0; --i) {
     const double u_mps = i > 0 ? top_mps * i / kSpeeds : feed_forward_rest_speed<double>();
     if (!(u_mps <= top_mps)) continue;
-    const double push = backward_push(plant, force_min, gains.speed, u_mps);
+    const double push = backward_push(plant, force_min, gains, u_mps);
     if (!(push > plant.surge(u_mps))) continue;
     return Finding{
         file, 0, Severity::kWarning, "unsigned-speed-runs-away",
@@ -303,6 +302,16 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const 
                     "more than the resistance g1(u) = {:.3g}. Set speed_unsigned in the sketch, as "
                     "the examples do",
                     u_mps, push, plant.surge(u_mps))};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
+                                              const ModeGains& gains, const std::string& file) {
+  for (const YawMode mode : yaw_modes(vehicle)) {
+    if (auto finding = runs_away(plant, vehicle, gains.in(mode).speed, file)) return finding;
   }
   return {};
 }

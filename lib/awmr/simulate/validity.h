@@ -43,7 +43,7 @@ std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model
 /// run away. The message has the highest speed at which this happens. Absent if it happens at no
 /// speed that the vehicle can reach backward. `file`: the file of the gains.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
-                                              const Gains<double>& gains, const std::string& file);
+                                              const ModeGains& gains, const std::string& file);
 
 /// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth
 /// kShapingBandwidth_radps (control/guidance/heading_shaping.h). If the scenario already has a

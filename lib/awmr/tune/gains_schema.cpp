@@ -225,13 +225,9 @@ void describe_baseline(JsonObject json) {
   json.reject_unknown_keys();
 }
 
-void describe_gains(JsonObject& json) {
-  json.schema(kGainsSchema);
-  read_provenance(json);
-  json.ignore("version");
+/// Gains and the results of their tuning.
+void describe_tuning(JsonObject& json) {
   gains_from_json(json);
-  // Without `mode`, the gains are for every mode of the vehicle.
-  if (json.has("mode")) json.choice("mode", kYawModeNames);
   if (auto times = json.optional_object("time_constants")) {
     describe_numbers(*times, {"T1_s", "T2_s"});
   }
@@ -245,8 +241,27 @@ void describe_gains(JsonObject& json) {
   if (auto search = json.optional_object("search")) describe_search(*search);
   if (auto robust = json.optional_object("robust")) describe_robust(*robust);
   describe_goals(json);
-  json.ignore("sensitivity");  // of older files
   if (auto baseline = json.optional_object("baseline")) describe_baseline(*baseline);
+}
+
+void describe_gains(JsonObject& json) {
+  json.schema(kGainsSchema);
+  read_provenance(json);
+  json.ignore("version");
+  describe_tuning(json);
+  // Without `mode` and `modes`, the gains are for every mode of the vehicle.
+  if (json.has("mode")) json.choice("mode", kYawModeNames);
+  // Modes with gains of their own.
+  if (auto modes = json.optional_object("modes")) {
+    for (const YawMode mode : kYawModes) {
+      auto own = modes->optional_object(name_of(mode));
+      if (!own) continue;
+      describe_tuning(*own);
+      own->reject_unknown_keys();
+    }
+    modes->reject_unknown_keys();
+  }
+  json.ignore("sensitivity");  // of older files
   read_findings(json);
   json.reject_unknown_keys();
 }

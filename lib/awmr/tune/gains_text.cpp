@@ -182,14 +182,9 @@ Json baseline_json(const Tuning& tuning) {
   return json;
 }
 
-}  // namespace
-
-std::string gains_text(const Tuning& tuning, const TuneOptions& options,
-                       const Provenance& provenance) {
-  Json json;
-  json["schema"] = kGainsSchema;
-  json.update(gains_to_json(tuning.gains));
-  if (options.mode) json["mode"] = name_of(*options.mode);
+/// The gains and the results of their tuning.
+Json tuning_json(const Tuning& tuning, const TuneOptions& options) {
+  Json json = gains_to_json(tuning.gains);
   json["time_constants"] = {{"T1_s", tuning.gains.heading.sliding_time_constant_s()},
                             {"T2_s", tuning.gains.heading.reaching_time_constant_s()}};
   json["constraints"] = constraints_json(tuning.constraints);
@@ -203,6 +198,21 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
   if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
   if (!options.goals.empty()) json["goals"] = goals_json(tuning.robust->goals);
   json["baseline"] = baseline_json(tuning);
+  return json;
+}
+
+}  // namespace
+
+std::string gains_text(const Tuning& tuning, const TuneOptions& options,
+                       const Provenance& provenance) {
+  Json json;
+  json["schema"] = kGainsSchema;
+  json.update(gains_to_json(tuning.gains));
+  if (options.mode) json["mode"] = name_of(*options.mode);
+  json.update(tuning_json(tuning, options));
+  for (const Tuning& one : tuning.own) {
+    json["modes"][std::string(name_of(*one.mode))] = tuning_json(one, options);
+  }
   put_provenance(json, provenance);
   return to_text(json);
 }

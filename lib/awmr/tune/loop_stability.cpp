@@ -6,7 +6,6 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/steady.h"
-#include "awmr/simulate/conditions.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/tune/certificate.h"
 #include "awmr/tune/constraints.h"
@@ -58,29 +57,35 @@ SampledHeadingLoop sampled_speed_loop(const Gains<double>& gains, const Constrai
           .command_delay_s = latency_s};
 }
 
+std::optional<UnstableLoop> unstable_speed(const Gains<double>& gains,
+                                           const ConstraintContext& context, double latency_s) {
+  const SampledHeadingLoop loop = sampled_speed_loop(gains, context, latency_s);
+  if (speed_damping_ratio(loop) > 0.0) return std::nullopt;
+  return UnstableLoop{fmt::format("speed loop at {:.3g} m/s", context.speed_mps), "mu_s/epsilon_s",
+                      loop.reaching_rate};
+}
+
 }  // namespace
 
-std::vector<UnstableLoop> unstable_loops(const Model& model, const Gains<double>& gains,
+std::vector<UnstableLoop> unstable_loops(const Model& model, const ModeGains& gains,
+                                         const LoopConditions& conditions,
                                          std::optional<YawMode> mode) {
   const auto plant = model.plant();
   const auto scenario = examined_scenario(model);
   if (!plant || !scenario) return {};
-  const LoopConditions conditions = conditions_of(model.vehicle, kIdealConditions);
   ConstraintContext context = context_of({}, *plant, model.vehicle, {*scenario});
   add_conditions(conditions, context);
-  std::vector<UnstableLoop> unstable;
+  std::optional<UnstableLoop> heading;
+  std::optional<UnstableLoop> speed;
   for (const YawMode one : yaw_modes(model.vehicle)) {
     if (mode && one != *mode) continue;
-    const auto loop = unstable_heading(gains, context, one);
-    if (!loop) continue;
-    unstable.push_back(*loop);
-    break;
+    const Gains<double>& own = gains.in(one);
+    if (!heading) heading = unstable_heading(own, context, one);
+    if (!speed) speed = unstable_speed(own, context, conditions.speed_latency_s);
   }
-  const SampledHeadingLoop speed = sampled_speed_loop(gains, context, conditions.speed_latency_s);
-  if (!(speed_damping_ratio(speed) > 0.0)) {
-    unstable.push_back({fmt::format("speed loop at {:.3g} m/s", context.speed_mps),
-                        "mu_s/epsilon_s", speed.reaching_rate});
-  }
+  std::vector<UnstableLoop> unstable;
+  if (heading) unstable.push_back(*heading);
+  if (speed) unstable.push_back(*speed);
   return unstable;
 }
 

@@ -18,6 +18,7 @@
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/goals.h"
 #include "awmr/tune/objective.h"
+#include "awmr/tune/own_gains.h"
 #include "awmr/tune/robust.h"
 #include "awmr/tune/search_gains.h"
 #include "awmr/tune/settling.h"
@@ -136,29 +137,47 @@ Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const T
   return {};
 }
 
-/// Tunes robust gains. Adds drawn vehicles, sensor noise, latency and motor lag to the `setting`
-/// and `context`, which are those of a nominal search.
-Result<Tuning> tune_robustly(const Model& model, ObjectiveSetting setting,
-                             ConstraintContext context, const TuneOptions& options,
-                             const Scenario& held_out) {
-  RobustTuning robust{.conditions = conditions_of(model.vehicle),
-                      .from_covariance = !model.covariance.parameters.empty(),
-                      .evaluated = {},
-                      .evaluated_by_scenario = {},
-                      .goals = {}};
-  const LoopConditions& c = robust.conditions;
+/// Inputs of the search: the setting of the runs and the context of the constraints, both for all
+/// modes.
+struct TuningProblem {
+  ObjectiveSetting setting;
+  ConstraintContext context;
+  std::optional<RobustTuning> robust;  ///< without results; absent for nominal gains
+};
+
+/// Adds drawn vehicles, sensor noise, latency and motor lag to a nominal problem.
+Status add_draws(const Model& model, const TuneOptions& options, TuningProblem& problem) {
+  auto& [setting, context, robust] = problem;
+  robust = RobustTuning{.conditions = conditions_of(model.vehicle),
+                        .from_covariance = !model.covariance.parameters.empty(),
+                        .evaluated = {},
+                        .evaluated_by_scenario = {},
+                        .goals = {}};
+  const LoopConditions& c = robust->conditions;
   AWMR_ASSIGN_OR_RETURN(setting.vehicles, vehicles_of(model, options.draws, options.seed,
                                                       options.open, Spread::kEven));
   for (Scenario& scenario : setting.scenarios) scenario = under(c, std::move(scenario));
   setting.goals = options.goals;
   context.draws.assign(setting.vehicles.begin() + 1, setting.vehicles.end());
   add_conditions(c, context);
-  limit_steering_rate(context);
-  AWMR_RETURN_IF_ERROR(check_latency(context, model.file));
+  return check_latency(context, model.file);
+}
+
+/// Tunes for one mode, or for all modes if `mode` is absent.
+Result<Tuning> tune_for(std::optional<YawMode> mode, const Model& model, TuningProblem problem,
+                        TuneOptions options, const Scenario& held_out) {
+  auto& [setting, context, robust] = problem;
+  options.mode = setting.mode = context.mode = mode;
+  if (robust) limit_steering_rate(context);
   AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
-  AWMR_RETURN_IF_ERROR(evaluate_candidates(model, setting, options, candidates_of(tuning), robust));
-  tuning.robust = std::move(robust);
-  tuning.unsettled = unsettled_runs(tuning, setting, context, options.open.combinations() > 1);
+  tuning.mode = mode;
+  if (robust) {
+    AWMR_RETURN_IF_ERROR(
+        evaluate_candidates(model, setting, options, candidates_of(tuning), *robust));
+    tuning.robust = std::move(robust);
+  }
+  const bool is_varied = tuning.robust && options.open.combinations() > 1;
+  tuning.unsettled = unsettled_runs(tuning, setting, context, is_varied);
   return tuning;
 }
 
@@ -234,6 +253,12 @@ void choose_observer(std::optional<bool> observer, TuneOptions& options) {
   }
 }
 
+ModeGains Tuning::mode_gains() const {
+  ModeGains all(gains);
+  for (const Tuning& one : own) all.set(*one.mode, one.gains);
+  return all;
+}
+
 Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   TuneOptions options = requested;
   AWMR_RETURN_IF_ERROR(check_options(options, model.vehicle));
@@ -248,22 +273,30 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   AWMR_RETURN_IF_ERROR(
       check_turning(nominal, tuned_modes(model.vehicle, options.mode), scenarios, model.file));
   AWMR_RETURN_IF_ERROR(check_search_work(options, scenarios, plant, model));
-  ObjectiveSetting setting{.vehicles = {nominal},
-                           .vehicle = model.vehicle,
-                           .weights = options.weights,
-                           .scenarios = std::move(scenarios),
-                           .tail_share = options.tail_share,
-                           .seed = options.seed,
-                           .arithmetic = arithmetic,
-                           .mode = options.mode};
-  ConstraintContext context = context_of(options, plant, model.vehicle, setting.scenarios);
-  AWMR_RETURN_IF_ERROR(limit_observer(context, options.observer));
-  if (options.nominal) {
-    AWMR_ASSIGN_OR_RETURN(Tuning tuning, search_gains(model, setting, context, options, held_out));
-    tuning.unsettled = unsettled_runs(tuning, setting, context, false);
-    return tuning;
+  TuningProblem problem{.setting = {.vehicles = {nominal},
+                                    .vehicle = model.vehicle,
+                                    .weights = options.weights,
+                                    .scenarios = std::move(scenarios),
+                                    .tail_share = options.tail_share,
+                                    .seed = options.seed,
+                                    .arithmetic = arithmetic,
+                                    .mode = options.mode},
+                        .context = {},
+                        .robust = {}};
+  problem.context = context_of(options, plant, model.vehicle, problem.setting.scenarios);
+  AWMR_RETURN_IF_ERROR(limit_observer(problem.context, options.observer));
+  if (!options.nominal) AWMR_RETURN_IF_ERROR(add_draws(model, options, problem));
+  AWMR_ASSIGN_OR_RETURN(Tuning common, tune_for(options.mode, model, problem, options, held_out));
+  if (options.one_set || common.alone.empty() || common.gains.observer.is_on()) return common;
+  if (options.notice) {
+    options.notice(
+        "gains for one mode alone settle much faster, so gains are searched for each mode, which "
+        "takes about as long again");
   }
-  return tune_robustly(model, std::move(setting), std::move(context), options, held_out);
+  auto own = with_own_gains(problem.setting, common, [&](YawMode mode) {
+    return tune_for(mode, model, problem, options, held_out);
+  });
+  return own ? *std::move(own) : std::move(common);
 }
 
 }  // namespace awmr

@@ -15,7 +15,7 @@
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/core/units.h"
-#include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/metrics.h"
@@ -215,13 +215,17 @@ struct TuneOptions {
   /// used if `observer` is present.
   bool adds_observer = true;
   std::vector<TuningGoal> goals = {};  ///< robust search only
+  /// false: if gains for one mode alone settle much faster (ModeAlone), each mode gets gains of its
+  /// own (with_own_gains() in own_gains.h). true: one set of gains for all modes. Not used if `mode`
+  /// is present.
+  bool one_set = false;
   /// Called with the number of evaluated sets of gains and with the budget, which is
   /// global_evaluations + local_evaluations. The last stage of the search, on all draws, is not
-  /// counted. If the search is repeated with an observer (adds_observer), the number begins at 0
-  /// again.
+  /// counted. If the search is repeated with an observer (adds_observer) or for each mode (one_set),
+  /// the number begins at 0 again.
   Progress progress = {};
   /// Called with the expected duration before a search of more than about 10 s, and with the reason
-  /// before the search is repeated with an observer (adds_observer).
+  /// before the search is repeated with an observer (adds_observer) or for each mode (one_set).
   std::function<void(std::string_view)> notice = {};
 };
 
@@ -449,6 +453,12 @@ struct ModeAlone {
 /// Result of tune().
 struct Tuning {
   Gains<double> gains{};
+  /// The only mode that the gains are for; absent: all modes of the vehicle.
+  std::optional<YawMode> mode = {};
+  /// If the modes have gains of their own: the tunings of the other modes, while `gains` and the
+  /// other members are those of combined mode (`certificate`: of all modes). Empty: `gains` are for
+  /// all modes.
+  std::vector<Tuning> own = {};
   std::vector<ConstraintReport> constraints;
   double objective = 0.0;         ///< objective over all modes, scenarios and plants
   std::vector<ModeScore> scores;  ///< scores on the nominal plant, by mode, then scenario
@@ -488,6 +498,9 @@ struct Tuning {
   std::vector<UnsettledRuns> unsettled;
   std::vector<ModeAlone> alone;        ///< see ModeAlone; empty if only one mode is tuned
   std::optional<RobustTuning> robust;  ///< absent for nominal gains
+
+  /// The gains to use in each mode.
+  ModeGains mode_gains() const;
 };
 
 /// Returns the default tuning scenario: starting from rest, the vehicle is commanded a heading and

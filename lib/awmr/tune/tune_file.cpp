@@ -50,6 +50,7 @@ void reject_draws(JsonObject& json, const TuneOptions& options) {
 void read_search(JsonObject& json, TuneOptions& options) {
   if (json.has("mode")) options.mode = json.choice("mode", kYawModeNames);
   if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
+  options.one_set = json.optional_boolean("one_set").value_or(options.one_set);
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
   options.adds_observer = !json.optional_boolean("no_observer").value_or(!options.adds_observer);
   if (json.has("goals")) options.evaluation_draws = kGoalDraws;

@@ -27,7 +27,7 @@ struct TuneConfig {
 Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name);
 
 /// Reads tune.json (`awmr.tune/1`). Unknown keys are errors, and every key is optional:
-///   schema, mode (the only one tuned for), form ("paper" | "strict"), margin,
+///   schema, mode (the only one tuned for), one_set (true: one set of gains for all modes), form ("paper" | "strict"), margin,
 ///   weights {settling, itae, overshoot, control_variation, effort, speed_itae},
 ///   bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   observer {bandwidth_radps [lo, hi], yaw_max_m, surge_max},

@@ -74,16 +74,42 @@ std::string advice_for(const std::string& scenario, YawMode mode,
          (found->changes.empty() ? no_change_settles(share) : describe(found->changes, share));
 }
 
-void note_unsettled(const std::string& scenario, YawMode mode, double completed_share,
-                    std::span<const UnsettledRuns> unsettled, std::vector<Finding>& findings) {
-  if (completed_share >= kSettledShare) return;
-  findings.push_back(
-      {"", 0, Severity::kWarning, "unsettled",
-       fmt::format(
-           "{}{}: only {:.0f} % of the runs with the tuned gains settle after every heading "
-           "step{}",
-           scenario.empty() ? "" : scenario + ", ", name_of(mode), 100.0 * completed_share,
-           advice_for(scenario, mode, unsettled))});
+/// Runs of one scenario and mode of which fewer than 95 % settle.
+struct FewSettled {
+  std::string runs;    ///< "SCENARIO, MODE", or "MODE" with a single scenario
+  double share = 0.0;  ///< share of the runs that settle
+  std::string advice;  ///< advice_for()
+};
+
+/// Adds one scenario and mode to `few`, unless enough of its runs settle.
+void add_unsettled(const std::string& scenario, YawMode mode, double share,
+                   std::span<const UnsettledRuns> unsettled, std::vector<FewSettled>& few) {
+  if (share >= kSettledShare) return;
+  few.push_back({fmt::format("{}{}{}", scenario, scenario.empty() ? "" : ", ", name_of(mode)),
+                 share, advice_for(scenario, mode, unsettled)});
+}
+
+/// The warnings `unsettled`: one for all runs with the same advice.
+std::vector<Finding> unsettled_findings(std::span<const FewSettled> few) {
+  std::vector<std::pair<std::string, std::string>> runs_by_advice;
+  for (const FewSettled& one : few) {
+    const std::string runs = fmt::format("{:.0f} % ({})", 100.0 * one.share, one.runs);
+    const auto known =
+        std::ranges::find(runs_by_advice, one.advice, &std::pair<std::string, std::string>::first);
+    if (known == runs_by_advice.end()) {
+      runs_by_advice.emplace_back(one.advice, runs);
+    } else {
+      known->second += ", " + runs;
+    }
+  }
+  std::vector<Finding> findings;
+  for (const auto& [advice, runs] : runs_by_advice) {
+    findings.push_back(
+        {"", 0, Severity::kWarning, "unsettled",
+         fmt::format("of the runs with the tuned gains, {} settle after every heading step{}", runs,
+                     advice)});
+  }
+  return findings;
 }
 
 /// Adds a warning if the heading loop is unstable for some parameters in the model's confidence
@@ -144,8 +170,18 @@ void note_baseline(const Tuning& tuning, std::vector<Finding>& findings) {
                    option_text("baseline"))});
 }
 
-/// Adds a note if gains for one mode alone settle much faster than gains for all modes.
+/// Adds a note if the modes have gains of their own, or if gains for one mode alone settle much
+/// faster than gains for all modes.
 void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
+  if (!tuning.own.empty()) {
+    findings.push_back(
+        {"", 0, Severity::kNote, "gains-by-mode",
+         fmt::format("each mode has gains of its own, because one set for all modes settles much "
+                     "later. simulate, compare, pil and the firmware use those of the mode. For "
+                     "one set: {}",
+                     option_text("one_set"))});
+    return;
+  }
   if (tuning.alone.empty()) return;
   std::string modes;
   for (const ModeAlone& one : tuning.alone) {
@@ -176,51 +212,45 @@ void note_scenarios(const Model& model, const TuneOptions& options, const Tuning
 /// Returns findings from the runs of the nominal vehicle. They are used if there are no runs of
 /// newly drawn vehicles.
 std::vector<Finding> nominal_findings(const Tuning& tuning) {
-  std::vector<Finding> findings;
+  std::vector<FewSettled> few;
   for (const ModeScore& score : tuning.scores) {
-    note_unsettled(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0,
-                   tuning.unsettled, findings);
+    add_unsettled(score.scenario, score.mode, score.metrics.completed ? 1.0 : 0.0, tuning.unsettled,
+                  few);
   }
-  return findings;
+  return unsettled_findings(few);
 }
 
 /// Returns findings from the runs of newly drawn vehicles, which the search did not use: a warning
-/// for each goal that these vehicles do not confirm (`goal-missed`, `goal-open`), and one for each
-/// mode in which fewer than 95 % of the runs settle after every step (`unsettled`). If there are
-/// several scenarios, the latter is given for each of them.
+/// for each goal that these vehicles do not confirm (`goal-missed`, `goal-open`), and warnings if
+/// fewer than 95 % of the runs of a scenario and mode settle after every step (`unsettled`).
 std::vector<Finding> evaluation_findings(const RobustTuning& robust,
                                          std::span<const UnsettledRuns> unsettled) {
   std::vector<Finding> findings;
   for (const EvaluatedGoal& goal : robust.goals) {
     if (goal.gains == kRobustGains) note_goal(goal, findings);
   }
+  std::vector<FewSettled> few;
   for (const EvaluatedGains& one :
        robust.evaluated_by_scenario.empty() ? robust.evaluated : robust.evaluated_by_scenario) {
     if (one.gains == kRobustGains) {
-      note_unsettled(one.scenario, one.mode, one.completed_share, unsettled, findings);
+      add_unsettled(one.scenario, one.mode, one.completed_share, unsettled, few);
     }
   }
+  std::ranges::move(unsettled_findings(few), std::back_inserter(findings));
   return findings;
 }
 
 }  // namespace
 
-std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
-                                   const Tuning& tuning) {
+namespace {
+
+/// Findings about one search: of one mode or of all modes.
+std::vector<Finding> search_findings(const Model& model, const TuneOptions& options,
+                                     const Tuning& tuning) {
   std::vector<Finding> findings = tuning.robust && !tuning.robust->evaluated.empty()
                                       ? evaluation_findings(*tuning.robust, tuning.unsettled)
                                       : nominal_findings(tuning);
-  if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
-  for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
-  note_observer(options, tuning, findings);
   note_baseline(tuning, findings);
-  note_modes(tuning, findings);
-  const auto plant = model.plant();
-  if (plant) {
-    auto finding = unsigned_speed_finding(*plant, model.vehicle, tuning.gains, "");
-    if (finding) findings.push_back(*std::move(finding));
-  }
-  note_scenarios(model, options, tuning, findings);
   const auto name = [](const ModeScore& score) {
     return fmt::format("{}, {}", score.scenario, name_of(score.mode));
   };
@@ -231,10 +261,31 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   };
   std::ranges::move(extrapolation_in(model, tuning.scores, name, commands),
                     std::back_inserter(findings));
-  if (plant) {
+  if (const auto plant = model.plant()) {
     auto finding = noise_beyond_servo(model.vehicle, *plant, tuning);
     if (finding) findings.push_back(*std::move(finding));
   }
+  return findings;
+}
+
+}  // namespace
+
+std::vector<Finding> tune_findings(const Model& model, const TuneOptions& options,
+                                   const Tuning& tuning) {
+  std::vector<Finding> findings;
+  for (const Tuning& one : tuning.own) {
+    std::ranges::move(search_findings(model, options, one), std::back_inserter(findings));
+  }
+  std::ranges::move(search_findings(model, options, tuning), std::back_inserter(findings));
+  if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
+  for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
+  note_observer(options, tuning, findings);
+  note_modes(tuning, findings);
+  if (const auto plant = model.plant()) {
+    auto finding = unsigned_speed_finding(*plant, model.vehicle, tuning.mode_gains(), "");
+    if (finding) findings.push_back(*std::move(finding));
+  }
+  note_scenarios(model, options, tuning, findings);
   if (tuning.robust) {
     std::ranges::move(imprecise_parameters(model), std::back_inserter(findings));
   }

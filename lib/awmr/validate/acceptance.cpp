@@ -290,14 +290,14 @@ Result<LoggedDrive> logged_drive(const DrivingLog& log, const Model& model,
 
 }  // namespace
 
-Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
-                                const Gains<double>& gains, const Scenario& as_given,
-                                const AcceptanceOptions& options) {
+Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model, const ModeGains& gains,
+                                const Scenario& as_given, const AcceptanceOptions& options) {
   AWMR_RETURN_IF_ERROR(check_options(options));
   AWMR_RETURN_IF_ERROR(check_mode(model.vehicle, options.mode));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
   AWMR_RETURN_IF_ERROR(check_work(plant, model.file, as_given, model.vehicle.sample_time_s));
-  AWMR_ASSIGN_OR_RETURN(const Controller<double> controller, controller_for(model, gains));
+  AWMR_ASSIGN_OR_RETURN(const Controller<double> controller,
+                        controller_for(model, gains.in(options.mode)));
   AWMR_ASSIGN_OR_RETURN(const LoggedDrive drive,
                         logged_drive(log, model, as_given, options.from_s));
   AWMR_ASSIGN_OR_RETURN(const std::vector<PredictedDrive> predicted,

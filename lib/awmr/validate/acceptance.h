@@ -9,7 +9,7 @@
 
 #include "awmr/core/interval.h"
 #include "awmr/core/result.h"
-#include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/trials/log.h"
@@ -84,9 +84,8 @@ struct Acceptance {
 /// Errors (input): the vehicle does not have the yaw mode of the options; the log has no command,
 /// or less than 2 s of the scenario; from_s is not within the log; options.draws is out of range;
 /// the errors of simulate(), controller_for() and PlantSampler.
-Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model,
-                                const Gains<double>& gains, const Scenario& scenario,
-                                const AcceptanceOptions& options);
+Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model, const ModeGains& gains,
+                                const Scenario& scenario, const AcceptanceOptions& options);
 
 /// Text table for a terminal.
 std::string acceptance_table(const Acceptance& acceptance);

@@ -28,12 +28,12 @@ double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits
 
 }  // namespace
 
-Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+Run run_or_failed(const Model& model, const ModeGains& gains, const Scenario& scenario,
                   YawMode mode) {
   Run failed;
   failed.rows.emplace_back();
   failed.end = RunEnd::kFailed;
-  return simulate(model, gains, scenario, mode).value_or(std::move(failed));
+  return simulate(model, gains.in(mode), scenario, mode).value_or(std::move(failed));
 }
 
 ModeRuns ClaimSetting::run(const Scenario& scenario) const {
@@ -44,12 +44,11 @@ std::vector<ModeRuns> run_all(std::span<const ClaimSetting> settings, Scenario s
   scenario.control = settings.front().control;
   std::vector<BatchRun> batch;
   for (const ClaimSetting& setting : settings) {
-    BatchRun run{.plant = plant_for(scenario, setting.model).value(),
-                 .controller = controller_for(setting.model, setting.gains).value(),
-                 .mode = {}};
+    const Plant<double> plant = plant_for(scenario, setting.model).value();
     for (const YawMode mode : kYawModes) {
-      run.mode = mode;
-      batch.push_back(run);
+      batch.push_back({.plant = plant,
+                       .controller = controller_for(setting.model, setting.gains.in(mode)).value(),
+                       .mode = mode});
     }
   }
   std::vector<DrivenRun> driven = drive_batch(
@@ -100,7 +99,7 @@ int reversals(std::span<const double> signal, double band) {
 }
 
 std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
-                                                const std::optional<Gains<double>>& gains,
+                                                const std::optional<ModeGains>& gains,
                                                 const BatchArithmetic& arithmetic,
                                                 const ControlOptions& control) {
   std::vector<Plant<double>> plants;
@@ -129,7 +128,7 @@ std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
   return claims;
 }
 
-std::vector<Claim> check_claims(const Model& model, const std::optional<Gains<double>>& gains,
+std::vector<Claim> check_claims(const Model& model, const std::optional<ModeGains>& gains,
                                 const BatchArithmetic& arithmetic) {
   return std::move(check_claims_of({&model, 1}, gains, arithmetic, {}).front());
 }

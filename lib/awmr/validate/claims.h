@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/batch.h"
 #include "awmr/simulate/metrics.h"
@@ -36,13 +36,13 @@ using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 
 /// Calls simulate(). If simulate() returns an error, the result is a run of one row that ends as
 /// kFailed, so that the claim is not reproduced.
-Run run_or_failed(const Model& model, const Gains<double>& gains, const Scenario& scenario,
+Run run_or_failed(const Model& model, const ModeGains& gains, const Scenario& scenario,
                   YawMode mode);
 /// Common inputs of the claims' simulations.
 struct ClaimSetting {
   const Model& model;
   const Plant<double>& plant;  ///< plant of `model`
-  const Gains<double>& gains;
+  ModeGains gains;
   BatchArithmetic arithmetic;   ///< arithmetic of the runs
   ControlOptions control = {};  ///< control options of every scenario
 
@@ -75,7 +75,7 @@ Claim check_circle(const Model& model, const Plant<double>& plant,
                    const ControlOptions& control = {});
 /// Checks C14: the gains lambda 3, mu 50, epsilon 12 of the heading law give the time constants
 /// T1 = 0.33 s and T2 = 0.12 s.                                                  [paper 4.1]
-Claim check_time_constants(const std::optional<Gains<double>>& gains);
+Claim check_time_constants(const std::optional<ModeGains>& gains);
 /// Checks C3 to C7 with common runs of heading steps, and C13 with its own run.
 ///                                                                 [paper 4.3, section 6]
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
@@ -98,12 +98,12 @@ double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, Ya
 int reversals(std::span<const double> signal, double band);
 
 /// Checks all claims, in the paper's order; without gains, only those that need no gains.
-std::vector<Claim> check_claims(const Model& model, const std::optional<Gains<double>>& gains,
+std::vector<Claim> check_claims(const Model& model, const std::optional<ModeGains>& gains,
                                 const BatchArithmetic& arithmetic);
 /// Checks all claims for each model, with the given control, as check_claims() does for one.
 /// Precondition: each model has every parameter, and all have the same sample time.
 std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
-                                                const std::optional<Gains<double>>& gains,
+                                                const std::optional<ModeGains>& gains,
                                                 const BatchArithmetic& arithmetic,
                                                 const ControlOptions& control);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "awmr/core/units.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/paper_gains.h"
 #include "awmr/validate/heading_runs.h"
 
@@ -84,9 +85,16 @@ Claim heading_converges(const HeadingSetting& setting, const ModeRuns& runs) {
           runs, [&](const ModeRun& run) { return fast(run) && without_overshoot(run); })};
 }
 
-bool same_heading_gains(const HeadingGains<double>& a, const HeadingGains<double>& b) {
-  return std::abs(a.lambda - b.lambda) + std::abs(a.mu - b.mu) + std::abs(a.epsilon - b.epsilon) <
-         1e-9;
+/// True if every mode has the paper's heading gains and no observer.
+bool are_the_papers(const ModeGains& gains) {
+  const HeadingGains<double>& paper = kPaperGains.heading;
+  return std::ranges::all_of(kYawModes, [&](YawMode mode) {
+    const auto& [heading, speed, observer] = gains.in(mode);
+    return !observer.is_on() && std::abs(heading.lambda - paper.lambda) +
+                                        std::abs(heading.mu - paper.mu) +
+                                        std::abs(heading.epsilon - paper.epsilon) <
+                                    1e-9;
+  });
 }
 
 /// Checks C6. The sideslip in differential mode depends on the yaw rate, and therefore on the
@@ -121,8 +129,7 @@ Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
                 "tau_steering/l_f of the steering, the inertial term m' r u (normalised mass m', "
                 "yaw rate r, surge speed u) and the sway resistance a_s. Differential mode has no "
                 "steering force, but turns so fast that m' r u alone causes more sideslip"};
-  if (setting.gains.observer.is_on() ||
-      !same_heading_gains(setting.gains.heading, kPaperGains.heading)) {
+  if (!are_the_papers(setting.gains)) {
     const HeadingSetting paper{
         {setting.model, setting.plant, kPaperGains, setting.arithmetic, setting.control}};
     claim.figure += "; largest sideslip angle with the paper's gains: " +

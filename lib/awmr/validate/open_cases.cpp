@@ -114,7 +114,7 @@ std::vector<ClaimCase> open_cases(const Model& model) {
   return cases;
 }
 
-void add_open_cases(const Model& model, const std::optional<Gains<double>>& gains,
+void add_open_cases(const Model& model, const std::optional<ModeGains>& gains,
                     const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
                     const Progress& progress) {
   const std::vector<ClaimCase> cases = open_cases(model);

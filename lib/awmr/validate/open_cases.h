@@ -27,7 +27,7 @@ std::vector<ClaimCase> open_cases(const Model& model);
 /// Adds to each claim its verdict in all cases, and the settings on which the verdict depends.
 /// `claims` must be the result of check_claims() with the same gains. The result does not depend on
 /// the number of cores.
-void add_open_cases(const Model& model, const std::optional<Gains<double>>& gains,
+void add_open_cases(const Model& model, const std::optional<ModeGains>& gains,
                     const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
                     const Progress& progress = {});
 

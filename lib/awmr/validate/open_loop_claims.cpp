@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "awmr/control/allocation.h"
@@ -209,7 +210,7 @@ Claim check_circle(const Model& model, const Plant<double>& plant, const Control
   return claim;
 }
 
-Claim check_time_constants(const std::optional<Gains<double>>& gains) {
+Claim check_time_constants(const std::optional<ModeGains>& gains) {
   const HeadingGains<double>& paper = kPaperGains.heading;
   const double t1_s = paper.sliding_time_constant_s();
   const double t2_s = paper.reaching_time_constant_s();
@@ -227,10 +228,16 @@ Claim check_time_constants(const std::optional<Gains<double>>& gains) {
                          "with T2 and S itself with 2 T2 = {:.2f} s, which is {} T1",
                          2.0 * t2_s, 2.0 * t2_s < t1_s ? "also below" : "not below")};
   claim.reproduced = std::abs(t1_s - 0.33) <= 0.005 && std::abs(t2_s - 0.12) <= 0.005;
-  if (gains) {
-    claim.figure += fmt::format("; with the gains in use: T1 {:.4f} s, T2 {:.4f} s",
-                                gains->heading.sliding_time_constant_s(),
-                                gains->heading.reaching_time_constant_s());
+  const auto add = [&](std::string_view which, const HeadingGains<double>& heading) {
+    claim.figure +=
+        fmt::format("; with {}: T1 {:.4f} s, T2 {:.4f} s", which, heading.sliding_time_constant_s(),
+                    heading.reaching_time_constant_s());
+  };
+  if (gains) add("the gains in use", gains->common().heading);
+  for (const YawMode mode : kYawModes) {
+    if (gains && gains->has_own(mode)) {
+      add(fmt::format("those of mode {}", name_of(mode)), gains->in(mode).heading);
+    }
   }
   return claim;
 }

@@ -106,7 +106,7 @@ void set_verdict(Validation& validation, double tolerance) {
 /// straight motion, C14 needs none. All others compare the three modes and need every parameter,
 /// four driven wheels and steering. Errors (input): with gains, the model lacks a parameter; the
 /// errors of batch_arithmetic().
-Status add_claims(const Model& model, const std::optional<Gains<double>>& gains,
+Status add_claims(const Model& model, const std::optional<ModeGains>& gains,
                   const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();
   const bool all_modes = model.vehicle.drive == Drive::kFourWheel;
@@ -184,7 +184,7 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
   return std::nullopt;
 }
 
-Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
+Result<Validation> validate(const Model& model, const std::optional<ModeGains>& gains,
                             const ValidateOptions& options) {
   if (!(options.tolerance > 0.0)) {
     return input_error(ErrorCode::kOutOfRange, "",

@@ -8,7 +8,7 @@
 #include "awmr/core/progress.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
-#include "awmr/model/gains.h"
+#include "awmr/model/mode_gains.h"
 #include "awmr/model/model.h"
 #include "awmr/simulate/scenario.h"
 #include "awmr/validate/acceptance.h"
@@ -104,7 +104,7 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
 /// Errors (input): the model lacks a parameter that its trials measure or, with gains, any
 /// parameter; the input or the measurement of a trial is not above 0; the tolerance is not above 0;
 /// the errors of batch_arithmetic().
-Result<Validation> validate(const Model& model, const std::optional<Gains<double>>& gains,
+Result<Validation> validate(const Model& model, const std::optional<ModeGains>& gains,
                             const ValidateOptions& options);
 
 /// Adds the results for logs and includes them in `passed` and in the verdict. `tolerance`: the

@@ -209,12 +209,11 @@ function objectiveWords(gains) {
       `${count("missed")} missed.` : "");
 }
 
-function tuningSection(data) {
-  const {gains} = data;
-  if (!gains) return;
+/// Results of one search, for all modes or for one. `name`: of the mode; empty for all modes.
+function tuningOf(gains, name) {
   const {search, objective, constraints = []} = gains;
   if (!search && !objective && !constraints.length && !gains.robust && !gains.metrics) return;
-  const box = section("Tuning", objectiveWords(gains));
+  const box = section(name ? `Tuning, ${name}` : "Tuning", objectiveWords(gains));
   if (constraints.length) add(box, "h3", "Constraints");
   constraintsTable(box, constraints);
   certificateTable(box, gains.certificate);
@@ -226,6 +225,16 @@ function tuningSection(data) {
   goalsTable(box, gains.goals);
   robustCharts(box, gains.robust);
   metricsTable(box, gains);
+}
+
+/// Results of the tuning. Modes with gains of their own have a section each; the other results are
+/// then those of combined mode.
+function tuningSection(data) {
+  const {gains} = data;
+  if (!gains) return;
+  const modes = Object.entries(gains.modes || {});
+  for (const [mode, own] of modes) tuningOf(own, mode);
+  tuningOf(gains, modes.length ? "combined" : "");
 }
 
 /// Table of the metrics in the objective, by mode and scenario. Each cell has the value with the

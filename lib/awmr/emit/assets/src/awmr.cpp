@@ -90,6 +90,24 @@ const awmr::ObserverBlock awmr_tuned_observer AWMR_IN_FLASH = {
 #define AWMR_TUNED_OBSERVER 0
 #endif
 
+#ifdef AWMR_HEADING_LAMBDA_DIFFERENTIAL
+#define AWMR_GAINS_IN(mode)                                                           \
+  {AWMR_HEADING_LAMBDA_##mode,                                                        \
+   AWMR_INERTIA_NORM * AWMR_HEADING_LAMBDA_##mode,                                    \
+   AWMR_INERTIA_NORM * (AWMR_HEADING_MU_##mode / AWMR_HEADING_EPSILON_##mode),        \
+   AWMR_INERTIA_NORM * AWMR_HEADING_MU_##mode,                                        \
+   AWMR_MASS_NORM * (AWMR_SPEED_MU_##mode / AWMR_SPEED_EPSILON_##mode),               \
+   AWMR_MASS_NORM * AWMR_SPEED_MU_##mode}
+extern const awmr::ModeGainsBlock awmr_mode_gains;
+const awmr::ModeGainsBlock awmr_mode_gains AWMR_IN_FLASH = {
+    {AWMR_GAINS_IN(DIFFERENTIAL), AWMR_GAINS_IN(STEERING), AWMR_GAINS_IN(COMBINED)}};
+#define AWMR_GAINS_BY_MODE 1
+#define AWMR_MODE_GAINS &awmr_mode_gains
+#else
+#define AWMR_GAINS_BY_MODE 0
+#define AWMR_MODE_GAINS 0
+#endif
+
 namespace {
 
 typedef awmr::LineLaws<awmr::LineLawAt<AWMR_LINE_LAW>::Of, float>::Law LineLaw;
@@ -116,6 +134,7 @@ struct Parts {
   typedef awmr::Optional<AWMR_WITH_SHAPING, awmr::Shaper<float>>::type Shaping;
   typedef awmr::Optional<AWMR_WITH_OBSERVER, awmr::Observer>::type Observation;
   typedef awmr::Optional<AWMR_FRICTION_AT_REST, awmr::MotorCurve>::type Motors;
+  typedef awmr::Optional<AWMR_GAINS_BY_MODE, awmr::GainsByMode>::type Gains;
   typedef awmr::Optional<AWMR_WITH_POSITION_ESTIMATE, awmr::Positioner<PositionFilter>>::type
       Positioning;
   static constexpr bool kIsDirected = AWMR_WITH_DIRECTION;
@@ -147,7 +166,8 @@ __attribute__((noinline)) void follow(const awmr_point* points, int16_t count, f
 uint8_t awmr_init(void) {
   const bool good =
       awmr::start_autopilot(autopilot, &awmr_parameters, kSurgeLines, kSurgeCount, kYawLines,
-                            kYawCount, AWMR_PARAMETERS_CRC32, AWMR_REST, AWMR_TUNED_OBSERVER);
+                            kYawCount, AWMR_PARAMETERS_CRC32, AWMR_REST, AWMR_TUNED_OBSERVER,
+                            AWMR_MODE_GAINS);
   return good ? AWMR_FAULT_NONE : AWMR_FAULT_PARAMETERS;
 }
 
