@@ -282,9 +282,18 @@ TEST_F(AutopilotLeads, WithTheGainsOfTheMode) {
   for (int mode = 0; mode < kYawModeCount; ++mode) {
     const float f = 0.5F + 0.25F * static_cast<float>(mode);
     const ControlConstants<float>& c = block_.constants;
-    by_mode.in[mode] = {f * c.lambda,        f * c.heading_rate, f * c.heading_slope,
-                        f * c.heading_limit, f * c.speed_slope,  f * c.speed_limit};
+    const bool is_observed = mode == 1;
+    by_mode.in[mode] = {f * c.lambda,
+                        f * c.heading_rate,
+                        f * c.heading_slope,
+                        f * c.heading_limit,
+                        f * c.speed_slope,
+                        f * c.speed_limit,
+                        is_observed ? 3.0F : 0.0F,
+                        is_observed ? 0.2F : 0.0F,
+                        is_observed ? 0.3F : 0.0F};
   }
+  by_mode.observer_sample_time_s = kSampleTime_s;
   const std::uint32_t crc =
       crc32_of_parameters(&block_, nullptr, 0, nullptr, 0, nullptr, nullptr, &by_mode);
   ASSERT_TRUE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc, nullptr, nullptr,
@@ -299,16 +308,27 @@ TEST_F(AutopilotLeads, WithTheGainsOfTheMode) {
     c.heading_limit = gains.heading_limit;
     c.speed_slope = gains.speed_slope;
     c.speed_limit = gains.speed_limit;
+    const ObserverBlock observer{3.0F, 0.2F, 0.3F, kSampleTime_s};
+    const ObserverBlock* const tuned = mode == 1 ? &observer : nullptr;
     decltype(autopilot_) other{};
     ASSERT_TRUE(start_autopilot(other, &own, nullptr, 0, nullptr, 0,
-                                crc32_of_parameters(&own, nullptr, 0, nullptr, 0)));
+                                crc32_of_parameters(&own, nullptr, 0, nullptr, 0, nullptr, tuned),
+                                nullptr, tuned));
     in_.mode = static_cast<std::uint8_t>(mode);
-    const AutopilotOutput out = step_at({0.0F, 0.0F});
-    AutopilotOutput expected{};
-    autopilot_step(other, in_, expected);
-    EXPECT_EQ(out.tau_turn_m, expected.tau_turn_m) << mode;
-    EXPECT_EQ(out.tau_speed, expected.tau_speed) << mode;
-    EXPECT_EQ(out.command.steering_rad, expected.command.steering_rad) << mode;
+    for (int i = 0; i < 5; ++i) {
+      in_.measured.r_radps = 0.2F - 0.04F * static_cast<float>(i);
+      const AutopilotOutput out = step_at({0.0F, 0.0F});
+      AutopilotOutput expected{};
+      autopilot_step(other, in_, expected);
+      EXPECT_EQ(out.tau_turn_m, expected.tau_turn_m) << mode;
+      EXPECT_EQ(out.tau_speed, expected.tau_speed) << mode;
+      EXPECT_EQ(out.command.steering_rad, expected.command.steering_rad) << mode;
+      EXPECT_EQ(out.command.force.left, expected.command.force.left) << mode;
+    }
+    if (mode == 1) {  // starts anew when the mode is used again
+      in_.mode = 0;
+      step_at({0.0F, 0.0F});
+    }
   }
   EXPECT_FALSE(start_autopilot(autopilot_, &block_, nullptr, 0, nullptr, 0, crc_, nullptr, nullptr,
                                &by_mode))

@@ -89,7 +89,9 @@ TEST(GainsFile, ReadsTheGainsOfSingleModes) {
   ASSERT_TRUE(gains) << to_text(gains.error());
   EXPECT_EQ(gains->in(YawMode::kSteering).heading.lambda, 1.0);
   EXPECT_EQ(gains->in(YawMode::kSteering).speed.mu, 2.0);
-  EXPECT_EQ(gains->in(YawMode::kSteering).observer.bandwidth_radps, 2.5);
+  EXPECT_FALSE(gains->in(YawMode::kSteering).observer.is_on());
+  EXPECT_EQ(gains->in(YawMode::kCombined).observer.bandwidth_radps, 2.5);
+  EXPECT_TRUE(gains->has_observer());
   EXPECT_TRUE(gains->has_own(YawMode::kSteering));
   EXPECT_FALSE(gains->has_own(YawMode::kDifferential));
   EXPECT_EQ(gains->in(YawMode::kDifferential).heading.lambda, 3.0);

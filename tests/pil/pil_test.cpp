@@ -367,13 +367,16 @@ TEST_F(Pil, AnObserverTunedWithTheGainsWorksOnTheChip) {
   }
 }
 
-TEST_F(Pil, EachModeHasItsOwnGainsOnTheChip) {
+TEST_F(Pil, EachModeHasItsOwnGainsAndObserverOnTheChip) {
   Json gains = Json::parse(read_all(path("gains.json")));
-  gains["modes"]["differential"] = {{"heading", {{"lambda", 1.5}, {"mu", 20}, {"epsilon", 8}}},
-                                    {"speed", {{"mu", 2}, {"epsilon", 1}}}};
+  gains["modes"]["differential"] = {
+      {"heading", {{"lambda", 1.5}, {"mu", 20}, {"epsilon", 8}}},
+      {"speed", {{"mu", 2}, {"epsilon", 1}}},
+      {"observer", {{"bandwidth_radps", 2.0}, {"yaw_max_m", 0.04}, {"surge_max", 1.3}}}};
   write_all(path("by_mode.json"), gains.dump());
-  gains["heading"] = gains["modes"]["differential"]["heading"];
-  gains["speed"] = gains["modes"]["differential"]["speed"];
+  for (const char* key : {"heading", "speed", "observer"}) {
+    gains[key] = gains["modes"]["differential"][key];
+  }
   gains.erase("modes");
   write_all(path("slow.json"), gains.dump());
   const auto difference = [&](const std::string& file, const std::string& mode) {

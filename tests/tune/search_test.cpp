@@ -32,6 +32,7 @@ namespace {
 TuneOptions short_options() {
   TuneOptions options;
   options.nominal = true;
+  options.one_set = true;
   options.global_evaluations = 80;
   options.local_evaluations = 30;
   Scenario scenario = default_tuning_scenario(paper_model()).value();

@@ -104,7 +104,9 @@ Status check_comparison(const Model& model, const std::vector<NamedGains>& gains
   AWMR_RETURN_IF_ERROR(check_runs(scenarios.size() * gains.size() * yaw_modes(model.vehicle).size(),
                                   options.samples));
   for (const NamedGains& set : gains) {
-    AWMR_RETURN_IF_ERROR(controller_for(model, set.gains.common()));
+    for (const YawMode mode : kYawModes) {
+      AWMR_RETURN_IF_ERROR(controller_for(model, set.gains.in(mode)));
+    }
   }
   return {};
 }

@@ -105,7 +105,8 @@ AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
                          AutopilotOutput& out) {
   auto& motors = part_of<typename P::Motors>(a);
   use_friction_width(motors, in.mode, a.controller.yaw);
-  use_gains(part_of<typename P::Gains>(a), in.mode, a.controller.constants);
+  use_gains(part_of<typename P::Gains>(a), in.mode, a.controller.constants,
+            part_of<typename P::Observation>(a));
   out.psi_ref_rad = ref.psi_rad;
   out.tau_speed = speed_law(a.controller, measured, ref);
   out.tau_turn_m = heading_law(a.controller, measured, ref);

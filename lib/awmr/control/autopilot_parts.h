@@ -152,10 +152,27 @@ void use_friction_width(MotorCurve& part, uint8_t mode, G& yaw) {
   if (part.rest != 0) set_friction_width(part.rest, mode, yaw);
 }
 
-/// Replaces the gains in `constants` by those of `mode`, if the mode has changed. No-op if GainsByMode
-/// is not compiled in.
-AWMR_INLINE void use_gains(Disabled<GainsByMode>&, uint8_t, ControlConstants<float>&) {}
-inline void use_gains(GainsByMode& part, uint8_t mode, ControlConstants<float>& constants) {
+/// Switches the observer to that of a mode, which may have none. No-op if the observer is not
+/// compiled in.
+inline void use_observer(const GainsBlock&, float, Disabled<Observer>&) {}
+inline void use_observer(const GainsBlock& own, float sample_time_s, Observer& part) {
+  disable(part);
+  if (!(own.observer_radps > 0.0F)) return;
+  enable(part,
+         {{own.observer_radps, own.observer_yaw_max_m},
+          {own.observer_radps, own.observer_surge_max},
+          true},
+         sample_time_s);
+}
+
+/// Replaces the gains in `constants` and the observer by those of `mode`, if the mode has changed.
+/// No-op if GainsByMode is not compiled in.
+template <class Observation>
+AWMR_INLINE void use_gains(Disabled<GainsByMode>&, uint8_t, ControlConstants<float>&,
+                           Observation&) {}
+template <class Observation>
+void use_gains(GainsByMode& part, uint8_t mode, ControlConstants<float>& constants,
+               Observation& observation) {
   if (mode == part.mode) return;
   part.mode = mode;
   if (part.gains == 0) return;
@@ -167,6 +184,8 @@ inline void use_gains(GainsByMode& part, uint8_t mode, ControlConstants<float>& 
   constants.heading_limit = own.heading_limit;
   constants.speed_slope = own.speed_slope;
   constants.speed_limit = own.speed_limit;
+  const float sample_time_s = flash_float(&part.gains->observer_sample_time_s);
+  if (sample_time_s > 0.0F) use_observer(own, sample_time_s, observation);
 }
 
 /// Returns the allocation limits at the speed u, m/s. They are those at rest, `c`, reduced by

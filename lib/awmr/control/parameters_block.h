@@ -55,18 +55,24 @@ struct ObserverBlock {
   float sample_time_s;    ///< T_s, s: time between two steps
 };
 
-/// Gains of one mode, in the form of the members of ControlConstants with these names.
+/// Gains of one mode, in the form of the members of ControlConstants with these names, and its
+/// observer.
 struct GainsBlock {
-  float lambda;         ///< 1/s
-  float heading_rate;   ///< s m
-  float heading_slope;  ///< s m
-  float heading_limit;  ///< m
-  float speed_slope;    ///< s/m
-  float speed_limit;    ///< dimensionless
+  float lambda;              ///< 1/s
+  float heading_rate;        ///< s m
+  float heading_slope;       ///< s m
+  float heading_limit;       ///< m
+  float speed_slope;         ///< s/m
+  float speed_limit;         ///< dimensionless
+  float observer_radps;      ///< ObserverBlock::bandwidth_radps; 0: no observer in this mode
+  float observer_yaw_max_m;  ///< ObserverBlock::yaw_max_m
+  float observer_surge_max;  ///< ObserverBlock::surge_max
 };
 /// Additional parameters if the modes have gains of their own. All members have 32 bits.
 struct ModeGainsBlock {
   GainsBlock in[kYawModeCount];  ///< for each YawMode
+  /// T_s, s: time between two steps; 0: no mode has an observer.
+  float observer_sample_time_s;
 };
 
 /// Continues the CRC-32 `crc` with `size` bytes. On an AVR, `address` is an address in flash.

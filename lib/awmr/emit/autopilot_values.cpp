@@ -129,7 +129,7 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
 
 /// If the gains were tuned with a disturbance observer, lists it among the parameters left out.
 void leave_out_observer(Autopilot& pilot) {
-  if (!pilot.source.gains || !pilot.source.gains->common().observer.is_on()) return;
+  if (!pilot.source.gains || !pilot.source.gains->in(pilot.mode()).observer.is_on()) return;
   pilot.leave_out("the disturbance observer",
                   "the gains were tuned with this observer, which the autopilot does not have; its "
                   "integrators replace it");

@@ -100,7 +100,7 @@ void export_gains(const Gains<double>& gains, const std::string& suffix, const s
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
   add("speed_epsilon", gains.speed.epsilon, "m/s",
       "eps_s: half width of the speed law's boundary layer");
-  if (!gains.observer.is_on() || !suffix.empty()) return;
+  if (!gains.observer.is_on()) return;
   add("observer_bandwidth_radps", gains.observer.bandwidth_radps, "rad/s",
       "L: bandwidth of the disturbance observer");
   add("observer_yaw_max_m", gains.observer.yaw_max_m, "m",

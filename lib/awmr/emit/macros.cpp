@@ -78,8 +78,14 @@ void add_vehicle(std::vector<Macro>& macros, const Vehicle& vehicle, const std::
 }
 
 /// Place of a mode's gains in the gains file: "gains.json:" or "gains.json:/modes/steering".
-std::string place_of(const ModeGains& gains, YawMode mode, const std::string& file) {
-  return gains.has_own(mode) ? fmt::format("{}:/modes/{}", file, name_of(mode)) : file + ":";
+std::string place_of(const ModeGains& gains, std::optional<YawMode> mode, const std::string& file) {
+  const bool is_own = mode && gains.has_own(*mode);
+  return is_own ? fmt::format("{}:/modes/{}", file, name_of(*mode)) : file + ":";
+}
+
+/// Addition to the comment of a gain of one mode: ", in steering mode".
+std::string of_mode(std::optional<YawMode> mode) {
+  return mode ? fmt::format(", in {} mode", name_of(*mode)) : "";
 }
 
 /// Adds the friction widths of the modes steering and combined that are above the smallest.
@@ -109,13 +115,11 @@ void add_friction_widths(std::vector<Macro>& macros, const ModeGains& gains,
 void add_laws(std::vector<Macro>& macros, const ModeGains& gains, std::optional<YawMode> mode,
               const std::string& file) {
   const Gains<double>& set = mode ? gains.in(*mode) : gains.common();
-  const std::string place = mode ? place_of(gains, *mode, file) : file + ":";
   const std::string suffix = mode ? mode_suffix(*mode) : "";
-  const std::string of_mode = mode ? fmt::format(", in {} mode", name_of(*mode)) : "";
   const auto add = [&](const char* name, double value, std::string_view comment,
                        std::string_view pointer) {
-    macros.push_back({name + suffix, value, fmt::format("{}{}; gains", comment, of_mode),
-                      place + std::string(pointer), MacroRange::kPositive});
+    macros.push_back({name + suffix, value, fmt::format("{}{}; gains", comment, of_mode(mode)),
+                      place_of(gains, mode, file) + std::string(pointer), MacroRange::kPositive});
   };
   add("AWMR_HEADING_LAMBDA", set.heading.lambda,
       "lambda, 1/s: slope of the sliding surface S = e_dot + lambda e", "/heading/lambda");
@@ -129,13 +133,17 @@ void add_laws(std::vector<Macro>& macros, const ModeGains& gains, std::optional<
       "/speed/epsilon");
 }
 
-void add_observer(std::vector<Macro>& macros, const ObserverGains<double>& observer,
+/// Adds the observer of one mode (`mode`; all values 0 if it has none), or that of the modes without
+/// gains of their own, if there is one.
+void add_observer(std::vector<Macro>& macros, const ModeGains& gains, std::optional<YawMode> mode,
                   const std::string& file) {
-  if (!observer.is_on()) return;
-  const auto add = [&](std::string name, double value, std::string_view comment,
-                       std::string_view pointer) {
-    macros.push_back({std::move(name), value, fmt::format("{}; gains", comment),
-                      fmt::format("{}:{}", file, pointer), MacroRange::kPositive});
+  const ObserverGains<double>& observer = mode ? gains.in(*mode).observer : gains.common().observer;
+  if (mode ? !gains.has_observer() : !observer.is_on()) return;
+  const auto add = [&](const char* name, double value, const char* comment, const char* pointer) {
+    macros.push_back({name + (mode ? mode_suffix(*mode) : ""), value,
+                      fmt::format("{}{}; gains", comment, of_mode(mode)),
+                      place_of(gains, mode, file) + pointer,
+                      mode ? MacroRange::kNotNegative : MacroRange::kPositive});
   };
   add("AWMR_OBSERVER_BANDWIDTH_RADPS", observer.bandwidth_radps,
       "L, rad/s: bandwidth of the disturbance observer", "/observer/bandwidth_radps");
@@ -173,9 +181,11 @@ std::vector<Macro> macros_of(const Model& model, const ModeGains& gains, const E
   add_parameters(macros, model, file_name(model));
   add_vehicle(macros, model.vehicle, file_name(model));
   add_laws(macros, gains, std::nullopt, inputs.gains_file);
-  add_observer(macros, gains.common().observer, inputs.gains_file);
+  add_observer(macros, gains, std::nullopt, inputs.gains_file);
   for (const YawMode mode : kYawModes) {
-    if (gains.has_any_own()) add_laws(macros, gains, mode, inputs.gains_file);
+    if (!gains.has_any_own()) break;
+    add_laws(macros, gains, mode, inputs.gains_file);
+    add_observer(macros, gains, mode, inputs.gains_file);
   }
   return macros;
 }

@@ -47,8 +47,8 @@ AWMR_PARAMS_CHECK(AWMR_STEERING_MAX_RAD_IS_BELOW_HALF_PI, AWMR_STEERING_MAX_RAD 
 )";
 
 constexpr std::string_view kObserverRelation =
-    R"(AWMR_PARAMS_CHECK(AWMR_OBSERVER_DOES_NOT_SWING,
-                  AWMR_OBSERVER_BANDWIDTH_RADPS * AWMR_SAMPLE_TIME_S < 1.0f);
+    R"(AWMR_PARAMS_CHECK(AWMR_OBSERVER_DOES_NOT_SWING{0},
+                  AWMR_OBSERVER_BANDWIDTH_RADPS{0} * AWMR_SAMPLE_TIME_S < 1.0f);
 )";
 
 std::string checks_text(const std::vector<Macro>& macros, const ModeGains& gains) {
@@ -66,7 +66,11 @@ std::string checks_text(const std::vector<Macro>& macros, const ModeGains& gains
     if (gains.has_any_own()) text += fmt::format(kReaching, mode_suffix(mode));
   }
   text += kRelations;
-  if (gains.common().observer.is_on()) text += kObserverRelation;
+  if (gains.common().observer.is_on()) text += fmt::format(kObserverRelation, "");
+  for (const YawMode mode : kYawModes) {
+    if (!gains.has_any_own() || !gains.has_observer()) break;
+    text += fmt::format(kObserverRelation, mode_suffix(mode));
+  }
   return text + "#undef AWMR_PARAMS_CHECK\n";
 }
 
@@ -187,10 +191,10 @@ Result<std::string> params_header(const Model& model, const ModeGains& gains,
   AWMR_RETURN_IF_ERROR(check_vehicle(model));
   for (const YawMode mode : kYawModes) {
     AWMR_RETURN_IF_ERROR(check_reaching(gains.in(mode).heading, inputs.gains_file));
+    AWMR_RETURN_IF_ERROR(check_observer_rate(gains.in(mode).observer.bandwidth_radps,
+                                             model.vehicle.sample_time_s,
+                                             inputs.gains_file + ":/observer/bandwidth_radps"));
   }
-  AWMR_RETURN_IF_ERROR(check_observer_rate(gains.common().observer.bandwidth_radps,
-                                           model.vehicle.sample_time_s,
-                                           inputs.gains_file + ":/observer/bandwidth_radps"));
   return intro_text(model, inputs) + defines_text(macros, inputs) + checks_text(macros, gains) +
          "\n#endif /* AWMR_PARAMS_H */\n";
 }

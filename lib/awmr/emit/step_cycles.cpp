@@ -41,7 +41,7 @@ std::uint32_t added_cycles(FirmwarePart part) {
 }  // namespace
 
 std::set<FirmwarePart> parts_with(std::set<FirmwarePart> parts, const ModeGains& gains) {
-  if (gains.common().observer.is_on()) parts.insert(FirmwarePart::kObserver);
+  if (gains.has_observer()) parts.insert(FirmwarePart::kObserver);
   return parts;
 }
 

@@ -1,5 +1,7 @@
 #include "awmr/model/gains_file.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
@@ -62,14 +64,7 @@ ModeGains gains_from_file(JsonObject& root) {
   for (const YawMode mode : kYawModes) {
     if (!modes || !modes->has(name_of(mode))) continue;
     JsonObject own = modes->object(name_of(mode));
-    Gains<double> set = gains_with_results(own);
-    if (set.observer.is_on()) {
-      own.fault(ErrorCode::kUnsupported, "observer",
-                "a mode cannot have an observer of its own; give /observer, which is used in all "
-                "modes");
-    }
-    set.observer = gains.common().observer;
-    gains.set(mode, set);
+    gains.set(mode, gains_with_results(own));
   }
   if (modes) modes->reject_unknown_keys();
   return gains;
@@ -120,8 +115,12 @@ Status check_gains_text(std::string_view text, const std::string& file) {
 
 Result<ModeGains> read_gains_for(const std::filesystem::path& path, double sample_time_s) {
   AWMR_ASSIGN_OR_RETURN(const ModeGains gains, read_mode_gains(path));
-  AWMR_RETURN_IF_ERROR(check_observer_rate(gains.common().observer.bandwidth_radps, sample_time_s,
-                                           path.string() + ":/observer/bandwidth_radps"));
+  for (const YawMode mode : kYawModes) {
+    const std::string set = gains.has_own(mode) ? fmt::format("/modes/{}", name_of(mode)) : "";
+    AWMR_RETURN_IF_ERROR(
+        check_observer_rate(gains.in(mode).observer.bandwidth_radps, sample_time_s,
+                            fmt::format("{}:{}/observer/bandwidth_radps", path.string(), set)));
+  }
   return gains;
 }
 

@@ -25,7 +25,7 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path);
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
 /// As read_gains(), but also reads the gains of single modes (`/modes`), if there are any. A mode
-/// with gains of its own uses the observer of `/observer`.
+/// with gains of its own has an observer only if these contain one.
 Result<ModeGains> read_mode_gains(const std::filesystem::path& path);
 
 /// Checks a text of gains.json before it is written, as ReadBack (core/file.h). Errors: those of

@@ -35,6 +35,11 @@ class ModeGains {
   const Gains<double>& common() const { return common_; }
   /// True if the mode has gains of its own. In gains.json: /modes/MODE.
   bool has_own(YawMode mode) const { return own_[static_cast<std::size_t>(mode)].has_value(); }
+  /// True if at least one mode has an observer.
+  bool has_observer() const {
+    return in(YawMode::kDifferential).observer.is_on() || in(YawMode::kSteering).observer.is_on() ||
+           in(YawMode::kCombined).observer.is_on();
+  }
   bool has_any_own() const {
     return has_own(YawMode::kDifferential) || has_own(YawMode::kSteering) ||
            has_own(YawMode::kCombined);

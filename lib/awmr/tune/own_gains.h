@@ -10,13 +10,12 @@
 
 namespace awmr {
 
-/// Searches gains for each mode alone. Returns them as one Tuning, with those of combined mode in
-/// Tuning::gains and those of the other modes in Tuning::own. Tuning::certificate has all modes.
-/// Empty
-///   - if the search of a mode fails, or uses an observer, which the firmware has for all modes;
-///   - if a mode settles less often than with the gains in `common`: in a share of the runs that is
-///     lower by more than 0.05;
-///   - if the objective, as the geometric mean over the modes, is not lower by at least 5 %.
+/// Searches gains for each mode alone. A mode keeps the gains in `common` if its search fails, if
+/// its objective is not lower than with these, or if fewer of its runs settle (by more than 0.05 of
+/// all). Returns all modes as one Tuning: the gains of combined mode in Tuning::gains, those of the
+/// other modes in Tuning::own; Tuning::certificate has all modes. Empty if the objective, as the
+/// geometric mean over the modes, is not lower by at least 5 %.
+///
 /// `setting`: the setting in which `common` was tuned for all modes. `search`: tunes for one mode
 /// in that setting.
 std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Tuning& common,

@@ -287,7 +287,7 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   AWMR_RETURN_IF_ERROR(limit_observer(problem.context, options.observer));
   if (!options.nominal) AWMR_RETURN_IF_ERROR(add_draws(model, options, problem));
   AWMR_ASSIGN_OR_RETURN(Tuning common, tune_for(options.mode, model, problem, options, held_out));
-  if (options.one_set || common.alone.empty() || common.gains.observer.is_on()) return common;
+  if (options.one_set || common.alone.empty()) return common;
   if (options.notice) {
     options.notice(
         "gains for one mode alone settle much faster, so gains are searched for each mode, which "

@@ -129,20 +129,24 @@ void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& 
                    degrees(certificate.damping.yaw_rate_radps))});
 }
 
-/// Adds a warning if tune() added an observer by itself, or if no scenario has a disturbance that a
-/// requested observer could reject.
-void note_observer(const TuneOptions& options, const Tuning& tuning,
-                   std::vector<Finding>& findings) {
+/// Adds a warning if tune() added an observer by itself.
+void note_observer(const Tuning& tuning, std::vector<Finding>& findings) {
   if (tuning.observer_added) {
     findings.push_back(
         {"", 0, Severity::kWarning, "observer-added",
          fmt::format(
-             "fewer than {:g} % of the runs settle without a disturbance observer, so an "
-             "observer with a bandwidth of {:.3g} rad/s was tuned, which the firmware runs. "
-             "To tune without an observer: {}",
-             100.0 * kSettledShare, tuning.gains.observer.bandwidth_radps,
-             option_text("no_observer"))});
+             "fewer than {:g} % of the runs{} settle without a disturbance observer, so an "
+             "observer "
+             "with a bandwidth of {:.3g} rad/s was tuned, which the firmware runs. To tune without "
+             "an observer: {}",
+             100.0 * kSettledShare,
+             tuning.mode ? fmt::format(" in {} mode", name_of(*tuning.mode)) : "",
+             tuning.gains.observer.bandwidth_radps, option_text("no_observer"))});
   }
+}
+
+/// Adds a warning if no scenario has a disturbance that a requested observer could reject.
+void note_pushes(const TuneOptions& options, std::vector<Finding>& findings) {
   const bool is_pushed = std::ranges::any_of(
       options.scenarios, [](const Scenario& scenario) { return scenario.disturbance.any(); });
   if (!options.observer || is_pushed) return;
@@ -176,8 +180,9 @@ void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
   if (!tuning.own.empty()) {
     findings.push_back(
         {"", 0, Severity::kNote, "gains-by-mode",
-         fmt::format("each mode has gains of its own, because one set for all modes settles much "
-                     "later. simulate, compare, pil and the firmware use those of the mode. For "
+         fmt::format("the modes have gains of their own, because with one set for all modes some "
+                     "settle much later. simulate, compare, pil and the firmware use those of the "
+                     "mode. For "
                      "one set: {}",
                      option_text("one_set"))});
     return;
@@ -250,6 +255,7 @@ std::vector<Finding> search_findings(const Model& model, const TuneOptions& opti
   std::vector<Finding> findings = tuning.robust && !tuning.robust->evaluated.empty()
                                       ? evaluation_findings(*tuning.robust, tuning.unsettled)
                                       : nominal_findings(tuning);
+  note_observer(tuning, findings);
   note_baseline(tuning, findings);
   const auto name = [](const ModeScore& score) {
     return fmt::format("{}, {}", score.scenario, name_of(score.mode));
@@ -279,7 +285,7 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   std::ranges::move(search_findings(model, options, tuning), std::back_inserter(findings));
   if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
-  note_observer(options, tuning, findings);
+  note_pushes(options, findings);
   note_modes(tuning, findings);
   if (const auto plant = model.plant()) {
     auto finding = unsigned_speed_finding(*plant, model.vehicle, tuning.mode_gains(), "");

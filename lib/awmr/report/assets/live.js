@@ -142,7 +142,8 @@ async function liveSection(data) {
   if (!packed || !data.live) return;
   const box = section("Try other gains",
     `${data.live.scenario}, simulated here by the program's own code as you move the sliders. ` +
-    `Grey: the tuned gains under the same conditions.`, "Try gains");
+    `Grey: the tuned gains${data.gains.modes ? " of combined mode" : ""} under the same conditions.`,
+    "Try gains");
   box.parentNode.parentNode.classList.add("live");
   const {heading, speed, observer} = data.gains;
   const gains = {lambda: heading.lambda, mu: heading.mu, epsilon: heading.epsilon,

@@ -7,15 +7,18 @@ function gainsTable(parent, gains) {
       digits(1 / set.heading.lambda),
     digits(set.heading.epsilon / (2 * set.heading.mu)), digits(objective)];
   const {objective, robust, baseline, observer} = gains;
-  const rows = [row(objective ? "tuned" : "given", gains, (objective || {}).value)];
+  const own = Object.entries(gains.modes || {});
+  const rows = own.map(([mode, set]) => row(`tuned, ${mode}`, set, (set.objective || {}).value));
+  rows.push(row((objective ? "tuned" : "given") + (own.length ? ", combined" : ""), gains,
+    (objective || {}).value));
   if (robust && robust.nominal) rows.push(row("nominal (tuned without noise)", robust.nominal));
   if (baseline && baseline.heading) rows.push(row(baselineWords(gains), baseline,
     baseline.objective));
   const head = ["gains", "#lambda, 1/s", "#mu, rad/s²", "#epsilon, rad/s", "#mu_s, m/s²",
     "#epsilon_s, m/s", "#T1, s", "#T2, s"];
   const shown = rows.some((r) => r[8] !== "–") ? [...head, "#objective"] : head;
-  table(parent, shown, rows.map((r) => r.slice(0, shown.length)), (k, i) => k === 0 && i > 0
-    && i < 6);
+  table(parent, shown, rows.map((r) => r.slice(0, shown.length)), (k, i) => k <= own.length
+    && i > 0 && i < 6);
   write(add(parent, "p", undefined, {class: "small"}),
     "lambda: slope of the sliding surface, T1 = 1/lambda. mu: largest corrective acceleration. " +
     "epsilon: half width of the boundary layer, T2 = epsilon/(2 mu). mu_s, epsilon_s: the same for " +

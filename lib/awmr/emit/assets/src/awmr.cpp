@@ -90,6 +90,16 @@ const awmr::ObserverBlock awmr_tuned_observer AWMR_IN_FLASH = {
 #define AWMR_TUNED_OBSERVER 0
 #endif
 
+#ifdef AWMR_OBSERVER_BANDWIDTH_RADPS_DIFFERENTIAL
+#define AWMR_OBSERVER_IN(mode)                                                        \
+  AWMR_OBSERVER_BANDWIDTH_RADPS_##mode, AWMR_OBSERVER_YAW_MAX_M_##mode,               \
+      AWMR_OBSERVER_SURGE_MAX_##mode
+#define AWMR_OBSERVER_SAMPLE_TIME_S AWMR_SAMPLE_TIME_S
+#else
+#define AWMR_OBSERVER_IN(mode) 0.0f, 0.0f, 0.0f
+#define AWMR_OBSERVER_SAMPLE_TIME_S 0.0f
+#endif
+
 #ifdef AWMR_HEADING_LAMBDA_DIFFERENTIAL
 #define AWMR_GAINS_IN(mode)                                                           \
   {AWMR_HEADING_LAMBDA_##mode,                                                        \
@@ -97,10 +107,12 @@ const awmr::ObserverBlock awmr_tuned_observer AWMR_IN_FLASH = {
    AWMR_INERTIA_NORM * (AWMR_HEADING_MU_##mode / AWMR_HEADING_EPSILON_##mode),        \
    AWMR_INERTIA_NORM * AWMR_HEADING_MU_##mode,                                        \
    AWMR_MASS_NORM * (AWMR_SPEED_MU_##mode / AWMR_SPEED_EPSILON_##mode),               \
-   AWMR_MASS_NORM * AWMR_SPEED_MU_##mode}
+   AWMR_MASS_NORM * AWMR_SPEED_MU_##mode,                                             \
+   AWMR_OBSERVER_IN(mode)}
 extern const awmr::ModeGainsBlock awmr_mode_gains;
 const awmr::ModeGainsBlock awmr_mode_gains AWMR_IN_FLASH = {
-    {AWMR_GAINS_IN(DIFFERENTIAL), AWMR_GAINS_IN(STEERING), AWMR_GAINS_IN(COMBINED)}};
+    {AWMR_GAINS_IN(DIFFERENTIAL), AWMR_GAINS_IN(STEERING), AWMR_GAINS_IN(COMBINED)},
+    AWMR_OBSERVER_SAMPLE_TIME_S};
 #define AWMR_GAINS_BY_MODE 1
 #define AWMR_MODE_GAINS &awmr_mode_gains
 #else
