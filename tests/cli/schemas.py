@@ -28,6 +28,7 @@ BEYOND_SCHEMA = {(kind, f":/{place}", code) for kind, place, code in (
     ("scenario", "guidance/points_m", "wrong-type"), ("scenario", "guidance/points_m", "out-of-range"),
     ("scenario", "guidance/from_m", "wrong-type"), ("scenario", "guidance/amplitude_m", "wrong-type"),
     ("scenario", "corner/surge.alfa", "unknown-name"), ("gains", "observer/bandwidth_radps", "out-of-range"),
+    ("gains", "modes/steering/observer/bandwidth_radps", "out-of-range"),
     ("model", "surge/alpha/ci95", "wrong-type"), ("model", "yaw_scrub/yaw_rate_radps", "wrong-type"),
     ("model", "covariance/parameters", "unknown-name"), ("model", "covariance/matrix", "wrong-type"),
     ("model", "covariance/matrix", "out-of-range"), ("model", "estimates/0/parameters/0/name", "unknown-name"),
