@@ -78,6 +78,31 @@ MetricsTask metrics_task(const Scenario& scenario) {
           .is_on_tyres = scenario.tyres.has_value()};
 }
 
+namespace {
+
+/// Adds the metrics of the course: of commanded headings, or of a path or route.
+void add_course(MetricsAccumulator<double>& sums, const Ending& ending, const Scenario& scenario,
+                Metrics& m) {
+  if (std::holds_alternative<HeadingSteps>(scenario.guidance)) {
+    meter::close_step(sums);
+    m.completed = !(sums.never_settled > 0.0);
+    if (m.completed) m.settling_time_s = sums.settling_s;
+    m.overshoot_deg = sums.overshoot_deg;
+    m.heading_iae_degs = sums.iae_degs;
+    m.heading_itae_degs2 = sums.itae_degs2;
+    return;
+  }
+  m.cross_track_rms_m = std::sqrt(sums.cross_track_m2 / sums.rows);
+  if (std::holds_alternative<LissajousPath>(scenario.guidance)) {
+    m.completed = !(sums.strayed > 0.0);
+  } else {
+    m.completed = ending.end == RunEnd::kFinished && ending.missed_waypoints == 0;
+    m.finish_time_s = ending.t_s;
+  }
+}
+
+}  // namespace
+
 Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending,
                    const Scenario& scenario) {
   const bool open = std::holds_alternative<OpenLoop>(scenario.guidance);
@@ -96,22 +121,7 @@ Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending,
   if (sums.rows > 1.0) {
     m.steering_rate_rms_degps = std::sqrt(sums.steering_rate2_degps2 / (sums.rows - 1.0));
   }
-  if (std::holds_alternative<HeadingSteps>(scenario.guidance)) {
-    meter::close_step(sums);
-    m.completed = !(sums.never_settled > 0.0);
-    if (m.completed) m.settling_time_s = sums.settling_s;
-    m.overshoot_deg = sums.overshoot_deg;
-    m.heading_iae_degs = sums.iae_degs;
-    m.heading_itae_degs2 = sums.itae_degs2;
-  } else if (!open) {
-    m.cross_track_rms_m = std::sqrt(sums.cross_track_m2 / sums.rows);
-    if (std::holds_alternative<LissajousPath>(scenario.guidance)) {
-      m.completed = !(sums.strayed > 0.0);
-    } else {
-      m.completed = ending.end == RunEnd::kFinished && ending.missed_waypoints == 0;
-      m.finish_time_s = ending.t_s;
-    }
-  }
+  if (!open) add_course(sums, ending, scenario, m);
   const bool reached = sums.speed_reached > 0.0 && scenario.speed_mps > 0.0;
   if (!open && has_one_speed(scenario) && reached) {
     m.speed_drop_mps = std::max(0.0, scenario.speed_mps - sums.speed_least_mps);
