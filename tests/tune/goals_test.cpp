@@ -164,14 +164,15 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
 }
 
 TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
-  TuningGoal goal{.at_most = {{"settling_time_s", 0.05}}, .mode = {}};
-  const Result<Tuning> tuning = tune(uncertain_model(), options_with(goal));
+  TuneOptions options = options_with({.at_most = {{"settling_time_s", 0.05}}, .mode = {}});
+  options.mode = YawMode::kDifferential;
+  const Result<Tuning> tuning = tune(uncertain_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
   EXPECT_THAT(to_text(tuning.error()), HasSubstr("reach the goal \"settling_time_s <= 0.05"));
   // A soft goal that cannot be met does not cause an error; its verdict is "missed".
-  goal.is_soft = true;
-  const Result<Tuning> tuned = tune(uncertain_model(), options_with(goal));
+  options.goals.front().is_soft = true;
+  const Result<Tuning> tuned = tune(uncertain_model(), options);
   ASSERT_TRUE(tuned) << to_text(tuned.error());
   EXPECT_GT(settled_s(*tuned), 0.05);
   EXPECT_EQ(tuned->robust->goals.front().verdict, GoalVerdict::kMissed);

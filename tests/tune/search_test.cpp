@@ -937,6 +937,7 @@ TEST(Robust, DrawsOnlyNoiseWithoutACovariance) {
   options.nominal = false;
   options.draws = 2;
   options.evaluation_draws = 0;
+  options.mode = YawMode::kCombined;
   options.global_evaluations = 40;
   options.local_evaluations = 10;
   const Result<Tuning> tuning = tune(paper_model(), options);
