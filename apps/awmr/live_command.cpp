@@ -170,7 +170,7 @@ Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   LiveUpdate last{.enough = command.enough, .requested = command.identify.identify.requested};
   if (auto model = read_model(command.identify.output)) last.model = std::move(*model);
   if (last.model) {
-    last.next = next_manoeuvre(*last.model);
+    if (!has_enough(last)) last.next = next_manoeuvre(*last.model);
     outcome.summary += verdict_text(last) + "\n";
   }
   outcome.closing = fmt::format("wrote {}\n", record.string()) + outcome.closing;

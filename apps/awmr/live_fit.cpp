@@ -80,8 +80,8 @@ void LiveFit::fit(LiveUpdate& update) const {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   update.out_of_time = !identified->refused.empty() && took_s >= options_.time_limit_s;
   if (update.out_of_time) return;
-  update.next = next_manoeuvre(identified->model);
   update.model = std::move(identified->model);
+  if (!has_enough(update)) update.next = next_manoeuvre(*update.model);
 }
 
 }  // namespace awmr::cli

@@ -22,7 +22,8 @@ struct LiveUpdate {
   std::optional<Model> model = {};  ///< result of the last completed fit
   /// True: the last fit exceeded its time limit, and `model` is the result of the fit before.
   bool out_of_time = false;
-  std::string next = {};  ///< the manoeuvre that would improve the model most
+  /// The manoeuvre that would improve the model most; empty if the model is accurate enough.
+  std::string next = {};
   /// Half width of a 95 % interval that is small enough.
   double enough = 0.1;
   /// Parameters whose intervals must be small enough; empty: all.
