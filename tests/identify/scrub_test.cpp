@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "awmr/core/units.h"
+#include "awmr/identify/planning/candidates.h"
 #include "awmr/identify/planning/suggest.h"
 #include "awmr/model/model_file.h"
 #include "identify/synthetic.h"
@@ -212,10 +213,9 @@ TEST(Scrub, IsAtLeastTheLargestMomentWithoutATurn) {
   EXPECT_THAT(codes(model), Contains("scrub-holds"));
   EXPECT_THAT(codes(model), Contains("few-scrub-rows"));
   // The suggested turns use moments from the static scrub moment up to that of sliding tyres.
-  const auto suggestion = suggest(model, {});
-  ASSERT_TRUE(suggestion) << to_text(suggestion.error());
-  ASSERT_FALSE(suggestion->scrub_turns.empty());
-  for (const ScrubTurn& turn : suggestion->scrub_turns) {
+  const ScrubPlan plan = scrub_plan(model);
+  ASSERT_FALSE(plan.turns.empty());
+  for (const ScrubTurn& turn : plan.turns) {
     EXPECT_GT(2.0 * steered().half_track_m * (turn.least.right - turn.least.left), 0.09);
     EXPECT_GE(turn.most.right - turn.most.left, turn.least.right - turn.least.left);
   }
@@ -308,14 +308,13 @@ TEST(Scrub, IsSuggestedFromNoScrubToTyresThatSlide) {
 
 TEST(Scrub, SuggestsTheNextDifferentialTurns) {
   const Model model = identified(turns(0.01, 0.03, 1));
-  const auto suggestion = suggest(model, {});
-  ASSERT_TRUE(suggestion) << to_text(suggestion.error());
-  ASSERT_THAT(suggestion->scrub_turns, SizeIs(3));
-  for (const ScrubTurn& turn : suggestion->scrub_turns) {
+  const ScrubPlan plan = scrub_plan(model);
+  ASSERT_THAT(plan.turns, SizeIs(3));
+  for (const ScrubTurn& turn : plan.turns) {
     const double scrub_m = moment_of(turn.least) - resisted_m(model, turn.yaw_rate_degps);
     EXPECT_NEAR(scrub_m, std::max(0.0, model.yaw_scrub->ci95_m.lo), 1e-12);
   }
-  EXPECT_THAT(suggestion->about_scrub, ::testing::HasSubstr("measured in 4 turns"));
+  EXPECT_THAT(plan.about, ::testing::HasSubstr("measured in 4 turns"));
 }
 
 TEST(Scrub, IsPartOfYawResistanceWithoutSteeredTurns) {
