@@ -338,8 +338,9 @@ TEST(LinearReplay, DerivativeByASensorDelayIsTheRateOfTheMotion) {
 
 /// Number of command errors. Their indices: 0 steering trim, rad; 1 force imbalance; 2 saturation
 /// of the forces; 3 logarithm of its sharpness; 4 logarithm of the exponent of the forces; 5 rate
-/// limit of the servo, rad/s; 6 dead band of the steering, rad; 7 asymmetry of the steering.
-constexpr std::size_t kErrors = 8;
+/// limit of the servo, rad/s; 6 dead band of the steering, rad; 7 asymmetry of the steering; 8 its
+/// curve; 9 its scale error.
+constexpr std::size_t kErrors = 10;
 using CommandErrors = std::array<double, kErrors>;
 
 /// Simulates the log with these errors of the commands, and derivatives with respect to them only.
@@ -356,6 +357,9 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
   if (log.steering_command_rad) {
     path.steering_dead_band = OffsetColumn{errors[6], 6};
     path.steering_asymmetry = OffsetColumn{errors[7], 7};
+    path.steering_curve = OffsetColumn{errors[8], 8};
+    path.steering_scale = OffsetColumn{errors[9], 9};
+    path.steering_stop_rad = 0.35;
   }
   Plant<double> plant = plant_by_hand(log.steering_command_rad.has_value(), kStep_s,
                                       Drive::kFourWheel, Friction::kNone);
@@ -371,7 +375,7 @@ std::vector<LinearMotion> with_errors(const DrivingLog& log, const CommandErrors
 
 TEST(LinearReplay, OfErrorsOfTheCommandsHasTheDerivativesOfCentralDifferences) {
   constexpr double kApart = 1e-6;
-  const CommandErrors errors{0.03, -0.08, 0.2, 1.2, -0.2, 1.5, 0.05, 0.1};
+  const CommandErrors errors{0.03, -0.08, 0.2, 1.2, -0.2, 1.5, 0.05, 0.1, 0.15, -0.1};
   for (const bool servo : {true, false}) {
     const DrivingLog log = commands(servo);
     const std::vector<LinearMotion> here = with_errors(log, errors);

@@ -1,5 +1,5 @@
 /// Names, in /estimates of model.json, of effects that the model lacks and that a fit of logs can
-/// estimate. Steering: trim, dead band, asymmetry, largest rate of the servo. Motors: imbalance of
+/// estimate. Steering: trim, dead band, asymmetry, curve, scale, largest rate of the servo. Motors: imbalance of
 /// left and right, nonlinear force. Forces on the vehicle: Stribeck friction, slope of the ground,
 /// ... Sensors: delay, filter, smoothing, wheel slip, mounting.
 #pragma once
@@ -12,6 +12,8 @@ namespace awmr {
 inline constexpr std::string_view kSteeringTrimName = "steering.trim_rad";
 inline constexpr std::string_view kSteeringDeadBandName = "steering.dead_band_rad";
 inline constexpr std::string_view kSteeringAsymmetryName = "steering.asymmetry";
+inline constexpr std::string_view kSteeringCurveName = "steering.curve";
+inline constexpr std::string_view kSteeringScaleName = "steering.scale";
 inline constexpr std::string_view kServoRateName = "steering.max_rate_radps";
 inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";

@@ -31,7 +31,8 @@ constexpr double kSymmetryTolerance = 1e-9;
 bool is_estimated_name(std::string_view name) {
   return parameter_by_name(name) || name == kInputDelayName || name == kSteeringDelayName ||
          name == kSteeringTrimName || name == kSteeringDeadBandName ||
-         name == kSteeringAsymmetryName || name == kServoRateName || name == kForceImbalanceName ||
+         name == kSteeringAsymmetryName || name == kSteeringCurveName ||
+         name == kSteeringScaleName || name == kServoRateName || name == kForceImbalanceName ||
          name == kForceExponentName || name == kForceSaturationName ||
          name == kSaturationSharpnessName || name == kSwayOffsetName || name == kSwayAngleName ||
          name == kMotorLagName || name == kMassOverSurgeName || name == kCoulombOverSurgeName ||

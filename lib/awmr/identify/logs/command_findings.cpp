@@ -239,6 +239,24 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
                      100.0 * std::abs(asymmetry.value), 100.0 * asymmetry.error,
                      asymmetry.value > 0.0 ? "left" : "right")});
   }
+  for (const FoundTerm& curve : found_terms(fit, FreeQuantity::Kind::kSteeringCurve)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "steering-curve",
+         fmt::format("the steering linkage is curved: at the stop the wheels steer {:.1f} +- "
+                     "{:.1f} % {} than in proportion to small commands. The fit compensates this, "
+                     "but simulations and gains do not; log the measured angle as steering_deg",
+                     100.0 * std::abs(curve.value), 100.0 * curve.error,
+                     curve.value > 0.0 ? "further" : "less far")});
+  }
+  for (const FoundTerm& scale : found_terms(fit, FreeQuantity::Kind::kSteeringScale)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "steering-scale",
+         fmt::format("the wheels steer to {:.3f} +- {:.3f} times the logged commands, in addition "
+                     "to the curve or asymmetry of the linkage. The fit compensates this, but "
+                     "simulations and gains do not; map steering_cmd_deg to the angle of the "
+                     "wheels, or log the measured angle as steering_deg",
+                     1.0 + scale.value, scale.error)});
+  }
   return findings;
 }
 

@@ -5,6 +5,7 @@
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/quantities.h"
+#include "awmr/model/scalar_math.h"
 
 namespace awmr {
 namespace {
@@ -68,27 +69,44 @@ void raise_to_power(const CommandPath& path, DelayedCommand& at) {
   }
 }
 
-/// Replaces the steering command by the angle to which the linkage steers, which may have a dead
-/// band and an asymmetry between left and right.
+/// Replaces the steering command c by the angle to which the linkage steers, with its derivatives.
+/// b: dead band; e: asymmetry; k: curve; q: scale error; d_max: steering stop. With s = sgn c and the part of the
+/// command beyond the dead band, c_b = c - s b (0 if |c| < b), the angle is
+///
+///     (1 + q) (1 + s e) c_b (1 + k (c_b/d_max)^2)
 void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
   const double band_rad = path.steering_dead_band ? path.steering_dead_band->value : 0.0;
   const double e = path.steering_asymmetry ? path.steering_asymmetry->value : 0.0;
+  const double k = path.steering_curve ? path.steering_curve->value : 0.0;
+  const double scale = 1.0 + (path.steering_scale ? path.steering_scale->value : 0.0);
   double& angle_rad = at.command.steering_rad;
   const bool moves = std::abs(angle_rad) > band_rad;
   const double side = std::copysign(moves ? 1.0 : 0.0, angle_rad);
   const double beyond_rad = moves ? angle_rad - side * band_rad : 0.0;
   const double share = 1.0 + side * e;
-  at.steering_by_dead_band = -side * share;
-  at.steering_by_asymmetry = std::abs(beyond_rad);
-  angle_rad = beyond_rad * share;
+  const double square = std::pow(beyond_rad / path.steering_stop_rad, 2);
+  const double curve = 1.0 + k * square;
+  at.steering_by_dead_band = -side * scale * share * (1.0 + 3.0 * k * square);
+  at.steering_by_asymmetry = scale * std::abs(beyond_rad) * curve;
+  at.steering_by_curve = scale * beyond_rad * share * square;
+  at.steering_by_scale = beyond_rad * share * curve;
+  angle_rad = scale * at.steering_by_scale;
 }
 
-/// Applies the constant errors of the commands in this order: dead band and asymmetry of the
+/// Applies the constant errors of the commands in this order: stop of the command (if
+/// CommandPath::stop_limits_command), dead band, asymmetry, curve and scale of the
 /// linkage, trim, imbalance, exponent and saturation.
 DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
-  if (path.steering_dead_band || path.steering_asymmetry) steer_by_linkage(path, at);
+  double& steering_rad = at.command.steering_rad;
+  if (path.stop_limits_command) {
+    steering_rad = math::saturate(steering_rad, path.steering_stop_rad);
+  }
+  if (path.steering_dead_band || path.steering_asymmetry || path.steering_curve ||
+      path.steering_scale) {
+    steer_by_linkage(path, at);
+  }
   if (path.steering_trim) {
-    at.command.steering_rad += path.steering_trim->value;
+    steering_rad += path.steering_trim->value;
     at.steering_by_trim = 1.0;
   }
   if (path.imbalance) {
@@ -134,10 +152,11 @@ CommandColumns columns_of(const CommandPath& path) {
     return term ? std::optional(term->column) : std::nullopt;
   };
   return {
-      column(path.delay),         column(path.steering_delay),     path.lag_column,
-      column(path.steering_trim), column(path.steering_dead_band), column(path.steering_asymmetry),
-      column(path.servo_rate),    column(path.imbalance),          column(path.exponent),
-      column(path.saturation),    column(path.sharpness)};
+      column(path.delay),          column(path.steering_delay),     path.lag_column,
+      column(path.steering_trim),  column(path.steering_dead_band), column(path.steering_asymmetry),
+      column(path.steering_curve), column(path.steering_scale),     column(path.servo_rate),
+      column(path.imbalance),      column(path.exponent),           column(path.saturation),
+      column(path.sharpness)};
 }
 
 DelayedCommand command_of_rows(const DrivingLog& log, const ActingRows& rows,

@@ -37,10 +37,16 @@ struct CommandPath {
   std::optional<std::size_t> lag_column = {};
   /// Trim, rad: added to the steering command or logged angle.
   std::optional<OffsetColumn> steering_trim = {};
-  /// Dead band, rad, and asymmetry e of the steering linkage (steering_asymmetry()). Absent for
-  /// logs with measured steering angles.
+  /// Dead band, rad, asymmetry e (steering_asymmetry()), curve k (steering_curve()) and scale error
+  /// q (steering_scale()) of the steering linkage. Absent for logs with measured steering angles.
   std::optional<OffsetColumn> steering_dead_band = {};
   std::optional<OffsetColumn> steering_asymmetry = {};
+  std::optional<OffsetColumn> steering_curve = {};
+  std::optional<OffsetColumn> steering_scale = {};
+  double steering_stop_rad = 1.0;  ///< d_max of the vehicle file, > 0
+  /// True: the stop limits the command, before the errors of the linkage. False: the plant limits
+  /// the angle.
+  bool stop_limits_command = false;
   /// Steering rate limit, rad/s, instead of the vehicle file's.
   std::optional<OffsetColumn> servo_rate = {};
   /// Imbalance e: left forces times 1 - e, right times 1 + e.
@@ -78,6 +84,8 @@ struct CommandColumns {
   std::optional<std::size_t> steering_trim = {};
   std::optional<std::size_t> steering_dead_band = {};
   std::optional<std::size_t> steering_asymmetry = {};
+  std::optional<std::size_t> steering_curve = {};
+  std::optional<std::size_t> steering_scale = {};
   std::optional<std::size_t> servo_rate = {};
   std::optional<std::size_t> imbalance = {};
   std::optional<std::size_t> exponent = {};
@@ -104,6 +112,8 @@ struct DelayedCommand {
   double steering_by_trim = 0.0;       ///< d steering / d trim: 1 with a trim in the path, else 0
   double steering_by_dead_band = 0.0;  ///< d steering / d dead band
   double steering_by_asymmetry = 0.0;  ///< d steering / d asymmetry, rad
+  double steering_by_curve = 0.0;      ///< d steering / d curve, rad
+  double steering_by_scale = 0.0;      ///< d steering / d scale error, rad
 };
 
 /// Calls visit(column, by) for each free quantity that changes the forces of `command`. `by`:

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "awmr/identify/logs/further_terms.h"
+#include "awmr/identify/logs/steering_linkage.h"
 #include "awmr/identify/logs/term_trials.h"
 #include "awmr/trials/log_start.h"
 
@@ -153,6 +154,16 @@ void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss
   if (found_s > 0.0) lowest.consider(tried(settled, {{motor_lag(), found_s}}, loss));
 }
 
+/// Tries an error of the steering linkage with a stop that limits the command, if it limits the
+/// angle in `fit`, the trial with this error, and the logs have commands near the stop.
+void consider_angle_beyond_stop(const NoiseIteration& settled, const CandidateTerm& candidate,
+                                const NoiseIteration& fit, Loss loss, LowestAic& lowest) {
+  FreeTerm term{candidate.quantity, candidate.value};
+  if (!term.quantity.is_of_linkage() || !is_stop_reached(fit.problem, fit.point)) return;
+  term.quantity.is_beyond_stop = true;
+  lowest.consider(tried(settled, {term}, loss));
+}
+
 /// Makes a short fit (one round) with each candidate term, and returns the fit with the lowest AIC.
 /// If no term lowers AIC, returns the fit with the most significant candidate, provided that its
 /// score test exceeds 20 standard errors. Otherwise returns empty. Reason: AIC may rise in one round
@@ -173,6 +184,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     if (is_sensor && has_sensor) continue;
     NoiseIteration fit = tried(settled, with_companion(settled.problem, candidate_term), loss);
     const double found_s = fit.point.coordinates.back();
+    consider_angle_beyond_stop(settled, candidate_term, fit, loss, lowest);
     if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
       strongest = fit;
     }
@@ -239,6 +251,7 @@ NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss,
   while (auto more = with_next_term(settled, loss)) {  // each step lowers AIC
     settled = std::move(*more);
     if (auto lag = with_motor_lag_for_filters(settled, loss)) settled = std::move(*lag);
+    if (auto other = with_other_stop(settled, loss)) settled = *std::move(other);
     if (ends && ends(settled)) break;
   }
   return settled;

@@ -19,6 +19,8 @@ namespace awmr {
 ///     rate or the heading.
 ///   - When no candidate is kept, a slower servo and then a motor lag are tried (term_trials.h).
 ///     After each added term, one motor lag is tried in place of all filters.
+///   - An error of the steering linkage is tried with both meanings of the stop
+///     (steering_linkage.h), if the logs have commands near the stop.
 ///   - Steering trim and force imbalance have nearly the same effect. If one of them is found and
 ///     the commands allow an estimate of both, both become free.
 ///

@@ -140,17 +140,23 @@ void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 }
 
 /// Adds errors of the steering: the angle at a command of 0, and, if the logs have commands, dead
-/// band and asymmetry of the linkage.
+/// band, asymmetry and curve of the linkage. With one of the last two in the fit, also the scale.
 void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   if (!any_log(problem, has_steering_changes)) return;
   const auto has_command = [](const DrivingLog& log) {
     return log.steering_command_rad.has_value();
   };
-  for (const FreeQuantity& q : {steering_trim(), steering_dead_band(), steering_asymmetry()}) {
+  for (const FreeQuantity& q :
+       {steering_trim(), steering_dead_band(), steering_asymmetry(), steering_curve()}) {
     const bool is_of_command = q.kind != Kind::kSteeringTrim;
     if (has_kind(problem.model.quantities, q.kind)) continue;
     if (!is_of_command || any_log(problem, has_command)) found.push_back(q);
+  }
+  const bool leaves_scale_open = has_kind(problem.model.quantities, Kind::kSteeringAsymmetry) ||
+                                 has_kind(problem.model.quantities, Kind::kSteeringCurve);
+  if (leaves_scale_open && !has_kind(problem.model.quantities, Kind::kSteeringScale)) {
+    found.push_back(steering_scale());
   }
 }
 
@@ -165,10 +171,10 @@ double begin_of(const FreeQuantity& quantity) {
 /// fit: they need a value from the logs (the largest command or speed, or the rate of the servo),
 /// or another term in the fit.
 std::vector<FreeQuantity> all_terms() {
-  std::vector<FreeQuantity> terms{input_delay(),     steering_delay(),     motor_lag(),
-                                  steering_trim(),   steering_dead_band(), steering_asymmetry(),
-                                  force_imbalance(), force_exponent(),     sway_offset(),
-                                  sway_angle()};
+  std::vector<FreeQuantity> terms{input_delay(),    steering_delay(),     motor_lag(),
+                                  steering_trim(),  steering_dead_band(), steering_asymmetry(),
+                                  steering_curve(), force_imbalance(),    force_exponent(),
+                                  sway_offset(),    sway_angle()};
   for (const ExtraForce force :
        {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
         ExtraForce::kReverseForce, ExtraForce::kBackwardDrag, ExtraForce::kSidePull}) {
@@ -234,7 +240,8 @@ std::vector<std::string> requestable_terms() {
 }
 
 std::vector<std::string> automatic_terms() {
-  std::vector<std::string> names{std::string(kServoRateName), std::string(kForceSaturationName),
+  std::vector<std::string> names{std::string(kServoRateName), std::string(kSteeringScaleName),
+                                 std::string(kForceSaturationName),
                                  std::string(kSaturationSharpnessName)};
   const std::vector<std::string> requestable = requestable_terms();
   for (const std::string_view name : kExtraForceNames) {

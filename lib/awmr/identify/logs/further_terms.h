@@ -16,8 +16,8 @@ namespace awmr {
 ///   - symmetric smoothing of the channels that are often filtered, unless a filter or smoothing is
 ///     already estimated;
 ///   - an additional delay of the steering, if the servo's time constant is free;
-///   - a steering trim, if the steering moves, and with steering commands also a dead band and an
-///     asymmetry;
+///   - a steering trim, if the steering moves, and with steering commands also a dead band, an
+///     asymmetry and a curve, and with one of these in the fit the scale of the angles;
 ///   - a force imbalance, if left and right forces differ;
 ///   - a saturation of the forces, or an exponent below 1;
 ///   - forces of extra_forces.h (add_forces() in further_terms.cpp);

@@ -135,6 +135,8 @@ void LinearStepper::note_driven(const DelayedCommand& command, double* driven) c
   if (c.steering_asymmetry) {
     set_column({{}, command.steering_by_asymmetry}, *c.steering_asymmetry, driven);
   }
+  if (c.steering_scale) set_column({{}, command.steering_by_scale}, *c.steering_scale, driven);
+  if (c.steering_curve) set_column({{}, command.steering_by_curve}, *c.steering_curve, driven);
   if (c.servo_rate) {
     driven[(kDrivenSize - 1) * columns_ + *c.servo_rate] = rates_.steering_by_max_rate;
   }

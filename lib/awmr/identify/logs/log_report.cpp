@@ -113,4 +113,19 @@ void withdraw_interval(EstimatorReport& report, std::string_view name) {
   }
 }
 
+std::vector<std::string> withdraw_different(const EstimatorReport& other, EstimatorReport& report) {
+  std::vector<std::string> names;
+  for (EstimatorParameter& mine : report.parameters) {
+    if (!parameter_by_name(mine.name) || !mine.std_error) continue;
+    const auto found = std::ranges::find(other.parameters, mine.name, &EstimatorParameter::name);
+    if (found == other.parameters.end() ||
+        !(std::abs(found->value - mine.value) > *mine.std_error)) {
+      continue;
+    }
+    names.push_back(mine.name);
+    withdraw(mine);
+  }
+  return names;
+}
+
 }  // namespace awmr

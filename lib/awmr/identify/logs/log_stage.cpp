@@ -23,6 +23,7 @@
 #include "awmr/identify/logs/set_points.h"
 #include "awmr/identify/logs/slip_choice.h"
 #include "awmr/identify/logs/speed_control.h"
+#include "awmr/identify/logs/steering_linkage.h"
 #include "awmr/model/plausibility.h"
 #include "awmr/trials/log_consistency.h"
 
@@ -35,7 +36,8 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
 }
 
 /// Selects the model of the logs: resistance families of surge and yaw, back-EMF if it is
-/// significant, and wheel slip or late commands (decide_slip()). Then checks whether the selected
+/// significant, wheel slip or late commands (decide_slip()), and what the steering stop limits
+/// (decide_stop()). Then checks whether the selected
 /// fit describes the logs, which can withdraw intervals. Adds the reports of all fits and the
 /// findings to `stage`. `power_law`, `first`: as in choose_model().
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
@@ -47,6 +49,8 @@ FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_
   FamilyFit chosen = std::move(found.best);
   const std::optional<Finding> undecided_slip = decide_slip(logs, chosen);
   if (undecided_slip) stage.findings.push_back(*undecided_slip);
+  const std::optional<Finding> undecided_stop = decide_stop(logs, chosen);
+  if (undecided_stop) stage.findings.push_back(*undecided_stop);
   stage.surge_family = chosen.surge;
   stage.yaw_family = chosen.yaw;
   stage.chosen_report = stage.reports.size();
@@ -278,6 +282,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   show_step(options, "comparing the logs with each other");
   compare_parts(logs, chosen, stage);
   withdraw_by_stribeck(chosen.fit);
+  widen_by_steering_scale(logs, chosen);
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;

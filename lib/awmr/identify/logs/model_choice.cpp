@@ -105,8 +105,8 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
   std::erase_if(from.terms, [](const FreeTerm& term) {
     using Kind = FreeQuantity::Kind;
     const Kind kind = term.quantity.kind;
-    return kind == Kind::kSteeringDelay || kind == Kind::kSteeringDeadBand ||
-           kind == Kind::kSteeringAsymmetry;
+    return kind == Kind::kSteeringDelay ||
+           (term.quantity.is_of_linkage() && kind != Kind::kSteeringTrim);
   });
   const FamilyFit follows = fit_family(with_measured_steering(logs), from, first.surge, first.yaw);
   // A servo lag with equally late time stamps of the commands describes measured angles just as

@@ -51,6 +51,8 @@ Interval range_of(const FreeQuantity& quantity) {
   constexpr double kSlowestRate_radps = 0.01;
   constexpr double kFastestRate_radps = 100.0;
   constexpr double kLargestImbalance = 0.5;
+  // With a curve below -1/3, a larger command would steer to a smaller angle.
+  constexpr Interval kCurve{-0.33, 2.0};
   constexpr double kLargestSlip = 10.0;
   constexpr double kLargestOffset_m = 5.0;
   constexpr double kLargestAngle_rad = 1.0;
@@ -62,9 +64,12 @@ Interval range_of(const FreeQuantity& quantity) {
       return {-kLargestTrim_rad, kLargestTrim_rad};
     case Kind::kSteeringDeadBand:
       return {0.0, kLargestTrim_rad};
+    case Kind::kSteeringCurve:
+      return kCurve;
     case Kind::kServoRate:
       return {kSlowestRate_radps, kFastestRate_radps};
     case Kind::kSteeringAsymmetry:
+    case Kind::kSteeringScale:
     case Kind::kForceImbalance:
     case Kind::kSensorScale:
       return {-kLargestImbalance, kLargestImbalance};
@@ -122,6 +127,10 @@ std::string FreeQuantity::name() const {
       return std::string(kSteeringDeadBandName);
     case Kind::kSteeringAsymmetry:
       return std::string(kSteeringAsymmetryName);
+    case Kind::kSteeringCurve:
+      return std::string(kSteeringCurveName);
+    case Kind::kSteeringScale:
+      return std::string(kSteeringScaleName);
     case Kind::kServoRate:
       return std::string(kServoRateName);
     case Kind::kForceImbalance:
@@ -184,6 +193,14 @@ FreeQuantity steering_dead_band() {
 
 FreeQuantity steering_asymmetry() {
   return {.kind = FreeQuantity::Kind::kSteeringAsymmetry, .large_change = 0.1};
+}
+
+FreeQuantity steering_curve() {
+  return {.kind = FreeQuantity::Kind::kSteeringCurve, .large_change = 0.1};
+}
+
+FreeQuantity steering_scale() {
+  return {.kind = FreeQuantity::Kind::kSteeringScale, .large_change = 0.1};
 }
 
 FreeQuantity servo_rate(double begin_radps) {

@@ -29,6 +29,8 @@ struct FreeQuantity {
     kSteeringTrim,         ///< steering angle at a command of 0
     kSteeringDeadBand,     ///< largest command that does not move the steering
     kSteeringAsymmetry,    ///< (left - right)/(left + right) of the angles at equal commands
+    kSteeringCurve,        ///< k of steering_curve(): excess of the angle at the largest command
+    kSteeringScale,        ///< q of steering_scale(): relative error of the steering angles
     kServoRate,            ///< largest rate of the steering angle
     kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
     kForceExponent,        ///< p of force_exponent(): force proportional to |command|^p
@@ -64,6 +66,9 @@ struct FreeQuantity {
   double damping = 0.0;     ///< zeta of a second-order filter; 0: first order (for kSensorLag)
   bool is_mean = false;     ///< true: moving average; false: Gaussian kernel (for kSmoothing)
   bool is_ratio = false;    ///< true: a slip ratio; false: a slip speed (for kWheelSlip)
+  /// True: the stop limits the command, so the angle may lie beyond it. False: the stop limits the
+  /// angle. (For errors of the steering, is_of_linkage().)
+  bool is_beyond_stop = false;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
@@ -88,6 +93,12 @@ struct FreeQuantity {
   /// scale of Stribeck friction, exponents of the drag in turns.
   bool is_form() const {
     return kind == Kind::kSaturationSharpness || is_stribeck_speed() || is_turn_drag_exponent();
+  }
+  /// True for an error of the steering linkage, by which the angle differs from the command.
+  bool is_of_linkage() const {
+    return kind == Kind::kSteeringTrim || kind == Kind::kSteeringDeadBand ||
+           kind == Kind::kSteeringAsymmetry || kind == Kind::kSteeringCurve ||
+           kind == Kind::kSteeringScale;
   }
   /// True for quantities that cannot be negative, so that 0 is an end of their range: lags, delays
   /// and smoothing of sensors, saturation, wheel slip, Stribeck friction, drag in turns, and dead
@@ -126,6 +137,18 @@ FreeQuantity steering_dead_band();
 /// Asymmetry e of the steering: angles to the left are 1 + e times the command (beyond the dead
 /// band), angles to the right 1 - e times.
 FreeQuantity steering_asymmetry();
+
+/// Curve k of the steering linkage: the command c (beyond the dead band) steers to
+///
+///     c (1 + k (c/d_max)^2),   d_max: steering stop of the vehicle file
+///
+/// The slope at small commands is 1 by definition, unless the scale is estimated too.
+FreeQuantity steering_curve();
+
+/// Scale error q of the steering: the angles are 1 + q times those of the other errors of the
+/// linkage except the trim. Only in fits with an asymmetry or a curve, which leave the scale open
+/// (widen_by_steering_scale() in steering_linkage.h).
+FreeQuantity steering_scale();
 
 /// Rate limit of the steering angle, rad/s, which replaces that of the vehicle file. `begin_radps`:
 /// initial guess, > 0.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "awmr/core/index.h"
+#include "awmr/core/units.h"
 #include "awmr/model/sliding.h"
 
 namespace awmr {
@@ -35,6 +36,7 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
                       CommandPath& path) {
   using Kind = FreeQuantity::Kind;
   const bool has_command = window.rows.log->steering_command_rad.has_value();
+  if (q.is_beyond_stop && has_command) path.stop_limits_command = true;
   switch (q.kind) {
     case Kind::kDelay:
       path.delay = {number, i};
@@ -54,6 +56,12 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
       break;
     case Kind::kSteeringAsymmetry:
       if (has_command) path.steering_asymmetry = {number, i};
+      break;
+    case Kind::kSteeringCurve:
+      if (has_command) path.steering_curve = {number, i};
+      break;
+    case Kind::kSteeringScale:
+      if (has_command) path.steering_scale = {number, i};
       break;
     case Kind::kServoRate:
       path.servo_rate = {number, i};
@@ -127,6 +135,7 @@ bool SensorTerms::any_smoothed() const {
 SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
                             const double* coordinates, const double* initial_state) {
   SimulatedVehicle vehicle{};
+  vehicle.path.steering_stop_rad = radians(model.vehicle.steering_max_deg);
   ParameterValues<double> values = model.held;
   for (std::size_t i = 0; i < model.quantities.size(); ++i) {
     const FreeQuantity& q = model.quantities[i];
@@ -153,8 +162,10 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
     vehicle.plant.steering_max_rate_radps = vehicle.path.servo_rate->value;
   slow_servo(model.longest_step_s, vehicle.parameters, vehicle.plant);
   // A logged steering angle is used as it is, so it must not be cut by the steering limit of the
-  // vehicle.
-  if (!window.rows.log->steering_command_rad) vehicle.plant.steering_max_rad = 10.0;
+  // vehicle. If the stop limits the command, it does not limit the angle.
+  if (!window.rows.log->steering_command_rad || vehicle.path.stop_limits_command) {
+    vehicle.plant.steering_max_rad = 10.0;
+  }
   vehicle.initial = window.measured;
   for (std::size_t i = 0; i < model.initial.size(); ++i) {
     channel_of(vehicle.initial, model.initial[i].channel) = initial_state[i];

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -107,25 +106,6 @@ std::vector<Terms> other_explanations(const Terms& terms, const std::vector<Driv
   return others;
 }
 
-/// Withdraws the intervals of the parameters of `fit` that differ from `other` by more than one
-/// standard error. Returns their names.
-std::vector<std::string> withdraw_different(const LogFit& other, LogFit& fit) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
-    EstimatorParameter& mine = fit.report.parameters[i];
-    if (fit.quantities[i].kind != FreeQuantity::Kind::kParameter || !mine.std_error) continue;
-    const auto found =
-        std::ranges::find(other.report.parameters, mine.name, &EstimatorParameter::name);
-    if (found == other.report.parameters.end() ||
-        !(std::abs(found->value - mine.value) > *mine.std_error)) {
-      continue;
-    }
-    names.push_back(mine.name);
-    withdraw(mine);
-  }
-  return names;
-}
-
 }  // namespace
 
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
@@ -144,7 +124,7 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
   const FamilyFit* closest = nullptr;
   for (const FamilyFit& other : others) {
     if (!(aic_lead(chosen.fit, other.fit) < kPlainly)) continue;
-    for (std::string& name : withdraw_different(other.fit, chosen.fit)) {
+    for (std::string& name : withdraw_different(other.fit.report, chosen.fit.report)) {
       names.push_back(std::move(name));
       closest = &other;
     }

@@ -1,0 +1,169 @@
+#include "awmr/identify/logs/steering_linkage.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "awmr/core/index.h"
+#include "awmr/identify/logs/family_score.h"
+#include "awmr/identify/logs/log_report.h"
+#include "awmr/identify/logs/score_test.h"
+
+namespace awmr {
+namespace {
+
+bool has_linkage_error(const std::vector<FreeQuantity>& quantities) {
+  return std::ranges::any_of(quantities, &FreeQuantity::is_of_linkage);
+}
+
+/// True if a row of the window has a command with which the wheels would point beyond the stop.
+bool is_stop_reached_in(const FitWindow& window, CommandPath path) {
+  const DrivingLog& log = *window.rows.log;
+  if (!log.steering_command_rad) return false;
+  path.stop_limits_command = false;
+  for (std::size_t row = window.rows.begin; row < window.rows.end; ++row) {
+    const double angle_rad = command_of_rows(log, {row, row}, path).command.steering_rad;
+    if (std::abs(angle_rad) > path.steering_stop_rad) return true;
+  }
+  return false;
+}
+
+/// Exchanges the two limits (steering_linkage.h).
+void exchange_stop(std::vector<FreeQuantity>& quantities) {
+  const bool limits_command = std::ranges::any_of(quantities, &FreeQuantity::is_beyond_stop);
+  for (FreeQuantity& q : quantities) q.is_beyond_stop = q.is_of_linkage() && !limits_command;
+}
+
+std::string_view limited_by_stop(const FamilyFit& fit) {
+  return std::ranges::any_of(fit.fit.quantities, &FreeQuantity::is_beyond_stop) ? "command"
+                                                                                : "angle";
+}
+
+/// Coordinate of the quantity with this name. Precondition: the fit has it.
+double coordinate_of(const LogFit& fit, const std::string& name) {
+  const auto found = std::ranges::find(fit.quantities, name, &FreeQuantity::name);
+  return fit.coordinates[at(found - fit.quantities.begin())];
+}
+
+/// Value of the first quantity of this kind; 0 if there is none.
+double value_of(const LogFit& fit, FreeQuantity::Kind kind) {
+  const auto found = std::ranges::find(fit.quantities, kind, &FreeQuantity::kind);
+  if (found == fit.quantities.end()) return 0.0;
+  return fit.coordinates[at(found - fit.quantities.begin())];
+}
+
+/// Scale s of the steering angles at one standard deviation, see widen_by_steering_scale(). With a
+/// curve, it is on the side of 1 at which the angle at the stop agrees better with the command.
+double possible_scale(const LogFit& fit) {
+  const double asymmetry = value_of(fit, FreeQuantity::Kind::kSteeringAsymmetry);
+  const double log_curve = std::log1p(value_of(fit, FreeQuantity::Kind::kSteeringCurve));
+  return std::exp(std::copysign(std::hypot(asymmetry, log_curve), -log_curve));
+}
+
+/// Returns the logs with all steering commands multiplied by `scale`.
+std::vector<DrivingLog> with_scaled_steering(std::vector<DrivingLog> logs, double scale) {
+  for (DrivingLog& log : logs) {
+    if (!log.steering_command_rad) continue;
+    for (double& command_rad : *log.steering_command_rad) command_rad *= scale;
+  }
+  return logs;
+}
+
+/// Fits the logs again with steering angles of `scale` times those of the fit `chosen`.
+FamilyFit fit_with_scale(const std::vector<DrivingLog>& logs, const FamilyFit& chosen,
+                         double scale) {
+  LogFitOptions options = from_optimum(chosen.options, chosen);
+  options.noise = chosen.fit.noise;
+  options.bootstrap = 0;
+  options.vehicle.steering_max_deg *= scale;
+  options.vehicle.steering_max_rate_degps *= scale;
+  return fit_with(with_scaled_steering(logs, scale), options, chosen.surge, chosen.yaw);
+}
+
+/// Multiplies the standard error of quantity `i` and the distances of the ends of its interval from
+/// the coordinate by `factor`. A withdrawn interval stays withdrawn.
+void stretch_interval(std::size_t i, double factor, LogFit& fit) {
+  EstimatorParameter& parameter = fit.report.parameters[i];
+  if (parameter.std_error) *parameter.std_error *= factor;
+  if (!parameter.ci95) return;
+  const FreeQuantity& q = fit.quantities[i];
+  const double x = fit.coordinates[i];
+  for (double* const end : {&parameter.ci95->lo, &parameter.ci95->hi}) {
+    const double coordinate = to_coordinate(q.scale, *end);
+    *end = q.value(x + factor * (coordinate - x));
+  }
+}
+
+}  // namespace
+
+bool is_stop_reached(const LogProblem& problem, const SearchPoint& point) {
+  if (!has_linkage_error(problem.model.quantities)) return false;
+  for (std::size_t w = 0; w < problem.windows.size(); ++w) {
+    const double* const initial = point.initial_states.data() + w * problem.model.initial.size();
+    const FitWindow& window = problem.windows[w];
+    const SimulatedVehicle vehicle =
+        vehicle_at(problem.model, window, point.coordinates.data(), initial);
+    if (is_stop_reached_in(window, vehicle.path)) return true;
+  }
+  return false;
+}
+
+std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Loss loss) {
+  if (!is_stop_reached(settled.problem, settled.point)) return std::nullopt;
+  LogProblem problem = with_white_noise(settled.problem);
+  exchange_stop(problem.model.quantities);
+  NoiseIteration fit = settle_noise(std::move(problem), settled.point, loss);
+  if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
+  return fit;
+}
+
+std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
+  constexpr double kPlainly = 10.0;  // difference of AIC
+  if (!chosen.fit.usable || !has_linkage_error(chosen.fit.quantities)) return std::nullopt;
+  LogFitOptions options = from_optimum(chosen.options, chosen);
+  const LogProblem problem = log_problem(logs, options);
+  if (!is_stop_reached(problem, from_measured(problem, problem.initial))) return std::nullopt;
+  const bool limits_command = limited_by_stop(chosen) == "command";
+  for (FreeTerm& term : options.terms) {
+    term.quantity.is_beyond_stop = term.quantity.is_of_linkage() && !limits_command;
+  }
+  FamilyFit other = fit_with(logs, options, chosen.surge, chosen.yaw);
+  if (!other.fit.usable) return std::nullopt;
+  if (aic_lead(other.fit, chosen.fit) > 0.0) std::swap(other, chosen);
+  const double lead = aic_lead(chosen.fit, other.fit);
+  if (!(lead < kPlainly)) return std::nullopt;
+  const std::vector<std::string> names = withdraw_different(other.fit.report, chosen.fit.report);
+  if (names.empty()) return std::nullopt;
+  return Finding{
+      logs.front().file, 0, Severity::kWarning, "steering-stop",
+      fmt::format("these logs do not decide whether the steering stop limits the {} or the {}: the "
+                  "AIC of the former is lower by only {:.1f}, so the intervals of {} are "
+                  "withdrawn. Log the measured angle as steering_deg, or longer turns at the stop",
+                  limited_by_stop(chosen), limited_by_stop(other), lead, fmt::join(names, ", "))};
+}
+
+void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
+  LogFit& fit = chosen.fit;
+  const bool has_scale = has_kind(fit.quantities, FreeQuantity::Kind::kSteeringScale);
+  const double scale = possible_scale(fit);
+  if (!fit.usable || has_scale || scale == 1.0) return;
+  const LogFit other = fit_with_scale(logs, chosen, scale).fit;
+  if (!other.usable) return withdraw_intervals(fit.report);
+  // Both fits have the same quantities, so their AIC differs by the difference of -2 ln L.
+  const double share = 1.0 / std::sqrt(1.0 + std::max(0.0, aic_lead(fit, other)));
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(rows_of(fit.quantities));
+  for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
+    const Eigen::Index row = eigen_index(i);
+    if (!fit.refusal_reason[i].empty()) continue;
+    change(row) = share * (coordinate_of(other, fit.quantities[i].name()) - fit.coordinates[i]);
+    const double own = fit.covariance(row, row);
+    stretch_interval(i, std::sqrt(1.0 + change(row) * change(row) / own), fit);
+  }
+  fit.covariance += change * change.transpose();
+}
+
+}  // namespace awmr

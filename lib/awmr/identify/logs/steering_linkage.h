@@ -1,0 +1,50 @@
+/// Errors of the steering linkage in a log fit (FreeQuantity::is_of_linkage()): the limit of the
+/// angle at the stop, and the unknown scale of the angles. Private to identify/.
+///
+/// A vehicle file gives one steering stop d_max, but does not say what it limits. With the angle
+/// L(c) to which the linkage steers at the command c, the wheels point to
+///
+///     sat(L(c), d_max)     if the stop limits the angle: a mechanical stop at the wheels
+///     L(sat(c, d_max))     if the stop limits the command: the servo or the program clips it
+///
+/// The angle may lie beyond d_max in the second case only.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "awmr/identify/logs/family_fit.h"
+#include "awmr/identify/logs/noise_iteration.h"
+
+namespace awmr {
+
+/// True if the fit has an error of the linkage and the logs have commands with which the wheels
+/// would point beyond the stop if nothing limited them.
+bool is_stop_reached(const LogProblem& problem, const SearchPoint& point);
+
+/// Fits the logs with the stop limiting the command if it limits the angle in `settled`, and the
+/// other way round. Returns this fit if its AIC is lower. Empty if it is not, or if
+/// is_stop_reached() is false.
+std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Loss loss);
+
+/// Compares the two limits for the converged fit `chosen`. The fit with the lower AIC becomes
+/// `chosen`. If the AIC of the other is higher by less than 10, withdraws the intervals of the
+/// parameters that differ between the two fits by more than one standard error. Returns the finding
+/// `steering-stop` that names them. Empty if nothing was withdrawn.
+std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
+
+/// Widens the intervals of the fit by the unknown scale s of the steering angles, if it has an
+/// asymmetry e or a curve k of the linkage, but does not estimate the scale.
+///
+/// With forces that are equal left and right, angles of s times the assumed ones have nearly the
+/// same effect as I'z, yaw and sway resistance divided by s. The terms define s = 1 for the mean of
+/// left and right, and for small commands. The linkage may as well be right on one side, or at the
+/// stop, so ln s has the prior standard deviation sqrt(e^2 + ln(1 + k)^2). The logs are fitted once
+/// more with this scale. The differences Delta of the coordinates add
+///
+///     Delta Delta^T/(1 + D),   D: increase of -2 ln L by this scale, at least 0
+///
+/// to the covariance, because the logs reduce the variance of ln s by the factor 1/(1 + D).
+void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
+
+}  // namespace awmr
