@@ -80,7 +80,8 @@ std::string possible_causes(const Channels& channels) {
   }
   const std::string causes =
       "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
-      "curved throttle, play or a curved linkage of the steering, a slope, sliding tyres), a value "
+      "curved throttle, play or a curved linkage of the steering without a steering_deg column, a "
+      "slope, sliding tyres), a value "
       "in the vehicle file is wrong (half_track_m, front_axle_m, "
       "steering.max_rate_degps), or a sensor has a bias or drifts";
   const std::string bias =

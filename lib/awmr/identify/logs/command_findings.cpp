@@ -8,6 +8,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/identify/logs/force_findings.h"
+#include "awmr/identify/logs/steering_linkage.h"
 
 namespace awmr {
 namespace {
@@ -244,9 +245,12 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
         {file, 0, Severity::kWarning, "steering-curve",
          fmt::format("the steering linkage is curved: at the stop the wheels steer {:.1f} +- "
                      "{:.1f} % {} than in proportion to small commands. The fit compensates this, "
-                     "but simulations and gains do not; log the measured angle as steering_deg",
+                     "but simulations and gains do not{}; log the measured angle as steering_deg",
                      100.0 * std::abs(curve.value), 100.0 * curve.error,
-                     curve.value > 0.0 ? "further" : "less far")});
+                     curve.value > 0.0 ? "further" : "less far",
+                     is_much_curved(fit) ? " (the yaw resistance gets no intervals, because the "
+                                           "true form of the curve is unknown)"
+                                         : "")});
   }
   for (const FoundTerm& scale : found_terms(fit, FreeQuantity::Kind::kSteeringScale)) {
     findings.push_back(

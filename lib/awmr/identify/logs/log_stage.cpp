@@ -283,6 +283,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   compare_parts(logs, chosen, stage);
   withdraw_by_stribeck(chosen.fit);
   widen_by_steering_scale(logs, chosen);
+  withdraw_by_curve(chosen.fit);
   if (stage.withdraws_intervals) withdraw_intervals(chosen.fit.report);
   stage.reports[stage.chosen_report] = chosen.fit.report;
   const std::string& file = logs.front().file;

@@ -166,4 +166,16 @@ void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& cho
   fit.covariance += change * change.transpose();
 }
 
+bool is_much_curved(const LogFit& fit) {
+  constexpr double kLargestStraight = 0.05;
+  return std::abs(value_of(fit, FreeQuantity::Kind::kSteeringCurve)) > kLargestStraight;
+}
+
+void withdraw_by_curve(LogFit& fit) {
+  if (!is_much_curved(fit)) return;
+  for (EstimatorParameter& parameter : fit.report.parameters) {
+    if (parameter.name.starts_with("yaw.")) withdraw(parameter);
+  }
+}
+
 }  // namespace awmr
