@@ -40,8 +40,9 @@ double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 /// are none (ModeRows::counted).
 double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored);
 
-/// Score of a run: the weighted sum of ln(x + f) over its metrics (log_loss()). For two runs, exp()
-/// of the difference of their scores is the weighted geometric mean of the ratios of their x + f.
+/// Score of a run, lower is better: the weighted sum of log_loss() over its metrics. If the score of
+/// a run is larger by D than that of another one, its values x + f (log_loss()) are exp(D) times as
+/// large, as the weighted geometric mean over the metrics.
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring);
 
 /// log_score() of each drawn sample of a mode, or of the nominal run if there are none

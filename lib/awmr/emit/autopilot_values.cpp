@@ -164,8 +164,8 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
     const double s = 0.5 * pilot.vehicle().wheel_force.hi;
     pilot.add(
         kName, "1/(rad/s)",
-        fmt::format("s/r at the steering output s = {:g}; r: yaw rate with 4 d s = g3(r), d: half "
-                    "track, g3: yaw resistance",
+        fmt::format("s/r at the steering output s = {:g}; r: steady yaw rate, at which the moment "
+                    "4 d s equals the yaw resistance g3(r); d: half track",
                     s),
         [s](const Plant<double>& plant) {
           return s / steady_or_never(plant.yaw, 4.0 * plant.half_track_m * s);
@@ -218,8 +218,8 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const HeadingGains<double> gains = pilot.source.gains->in(YawMode::kDifferential).heading;
   const double closed_s = 1.0 / (gains.lambda + gains.mu / gains.epsilon);
   pilot.add("RO_YAW_RATE_P", "1/(rad/s)",
-            fmt::format("I'z/(4 d T); I'z: yaw inertia over F_max, d: half track, T = 1/(lambda + "
-                        "mu/epsilon) = {:.4g} s: time constant of the closed loop",
+            fmt::format("I'z/(4 d T); I'z: yaw inertia over F_max; d: half track; T = {:.4g} s: "
+                        "time constant of the closed yaw-rate loop, 1/(lambda + mu/epsilon)",
                         closed_s),
             [closed_s](const Plant<double>& plant) {
               return plant.inertia_norm / (4.0 * plant.half_track_m * closed_s);

@@ -136,8 +136,8 @@ struct Model {
   /// these parameters with the trial that identifies it.
   Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
 
-  /// The plant for simulations of the motions that the trials in `record` have measured, such as
-  /// straight driving or turning. Errors: those of plant().
+  /// The plant for simulating only the motions that the trials in `record` measured, such as
+  /// straight driving. Only the parameters of these motions must have a value. Errors: as plant().
   Result<Plant<double>> plant_of_trials() const;
 
   /// The plant without checks. Parameters without a value are replaced: a resistance by 0, an

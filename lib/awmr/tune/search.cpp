@@ -20,8 +20,8 @@ namespace {
 /// Individuals of the evolution strategy ISRES in each generation. With NLopt's default of 20 (n +
 /// 1) for n gains, the default budget would end in the first generation.
 constexpr unsigned kPopulation = 40;
-/// A local search is restarted if it improved the objective by at least this. (While no gains are
-/// feasible, the violation takes the place of the objective.)
+/// If a local search lowers the objective by at least this, another one begins at its result. While
+/// no gains meet the constraints, their violation takes the place of the objective.
 constexpr double kWorthwhile = 1e-4;
 /// Evaluations of the local search on all drawn vehicles, if the gains from which it starts are
 /// feasible on all of them.

@@ -19,8 +19,9 @@ std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e,
 ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
                                 int free, double sensor_mps);
 
-/// Standard deviation of the white noise that gives the mean of all errors the same variance as
-/// `noise` does; at least noise.std().
+/// Errors of neighbouring samples can be correlated, so their mean is less certain than with white
+/// noise. Returns the standard deviation of the white noise with which the mean of the errors of all
+/// samples in `curves` has the same variance as with `noise`; at least noise.std().
 double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& curves);
 
 /// Sets the residuals, their standard deviation and autocorrelation, the rank, the condition number

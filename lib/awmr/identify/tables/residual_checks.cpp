@@ -36,7 +36,7 @@ Finding held_exponent(const Subject& subject, const SteadyFit& fit) {
           : std::string("use a family with Coulomb friction, which describes a force at rest");
   return {
       subject.file, 0, Severity::kError, "exponent-at-bound",
-      fmt::format("the search for {} ended at {:.4g}, the end of the accepted range [{:g}, {:g}], "
+      fmt::format("the search for {} ended at {:.4g}, a limit of the accepted range [{:g}, {:g}], "
                   "so these runs do not determine the exponent and the fit is refused; {}",
                   info(subject.beta).name, beta, range.lo, range.hi, remedy)};
 }

@@ -73,8 +73,9 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
                     subject.points.size()));
   }
   return about(subject, Severity::kError, "not-converged",
-               fmt::format("no resistance family has a converged {} fit with an AICc, which needs "
-                           "three runs more than parameters; record more runs",
+               fmt::format("no resistance family has a {} fit that converged and has an AICc. An "
+                           "AICc needs at least three runs more than the family has parameters; "
+                           "record more runs",
                            name_in(kFitSubjectNames, subject.name)));
 }
 
