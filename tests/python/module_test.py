@@ -205,6 +205,21 @@ class Module(unittest.TestCase):
         awmr.write_gains(narrow, self.path / "own.json")
         self.assertEqual(awmr.read_gains(self.path / "own.json").combined_friction_width_radps, 0.03)
 
+    def test_a_mode_can_have_gains_of_its_own(self):
+        gains = json.loads((self.path / "gains.json").read_text())
+        gains["modes"] = {"steering": {"heading": {"lambda": 1, "mu": 20, "epsilon": 8},
+                                       "speed": {"mu": 2, "epsilon": 1}}}
+        (self.path / "by_mode.json").write_text(json.dumps(gains))
+        by_mode = awmr.read_mode_gains(self.path / "by_mode.json")
+        self.assertEqual(by_mode.in_mode("steering").lambda_, 1)
+        self.assertEqual(by_mode.in_mode("combined").lambda_, self.gains.lambda_)
+        scenario = awmr.read_scenario(SCENARIO)
+        ours = awmr.simulate(self.model, by_mode, scenario, mode="steering")
+        own = awmr.simulate(self.model, by_mode.in_mode("steering"), scenario, mode="steering")
+        self.assertEqual(ours.csv(), own.csv())
+        with self.assertRaises(awmr.InputError):
+            by_mode.in_mode("sideways")
+
     def test_the_next_trial_is_suggested(self):
         made = command("suggest", "--model", self.path / "model.json", "--json")
         best = json.loads(made.stdout)["result"]["trials"][0]

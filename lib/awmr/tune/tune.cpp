@@ -43,6 +43,7 @@ UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintCont
     return unsettled;
   }
   const ObjectiveSetting few = on_few_vehicles(setting);
+  unsettled.vehicles = few.vehicles.size();
   unsettled.noise = noise_effect(few, gains);
   if (unsettled.noise) return unsettled;
   if (few.vehicles.size() > 1 && !is_varied) {

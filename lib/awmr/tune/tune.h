@@ -1,6 +1,7 @@
 /// Tuning of the gains of heading and speed law: options, constraints, goals and result of tune().
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -440,6 +441,8 @@ struct UnsettledRuns {
   /// keeps runs from settling. If all runs of the identified
   /// vehicle settle, only changes of the scenario.
   std::vector<SettlingChange> changes = {};
+  /// Number of vehicles on which the changes of the gains were tried.
+  std::size_t vehicles = 0;
 };
 
 /// A mode in which gains for this mode alone settle much faster than the tuned gains, with a lower

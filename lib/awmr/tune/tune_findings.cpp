@@ -69,9 +69,10 @@ std::string advice_for(const std::string& scenario, YawMode mode,
         error->trial);
     if (found->changes.empty()) return advice;
   }
-  const std::string share = fmt::format("{:g} %", 100.0 * kSettledShare);
+  const std::string runs =
+      fmt::format("{:g} % of the runs of {} vehicles", 100.0 * kSettledShare, found->vehicles);
   return advice + ". " +
-         (found->changes.empty() ? no_change_settles(share) : describe(found->changes, share));
+         (found->changes.empty() ? no_change_settles(runs) : describe(found->changes, runs));
 }
 
 /// Runs of one scenario and mode of which fewer than 95 % settle.
