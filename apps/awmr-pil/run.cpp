@@ -257,7 +257,7 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   report.heading_apart_deg = heading_apart_deg(report.chip.rows, exact);
   // The effect of the tables can be measured only for power laws, because only these can also be
   // computed by powf.
-  if (in.model.surge_family != Family::kPower || in.model.yaw_family != Family::kPower) return {};
+  if (!is_power_law(plant)) return {};
   AWMR_ASSIGN_OR_RETURN(const std::vector<LoopRow> by_powf, run_host(in, ResistanceForm::kPowf));
   report.by_float32 = difference(by_powf, exact);
   if (options.emit.resistance == ResistanceForm::kTable) {

@@ -114,6 +114,10 @@ Result<ChosenConfig> config_of(const TuneCommand& command, Model& model) {
       config.baseline_file = *command.baseline;
     }
   }
+  if (config.baseline_file && options.mode) {
+    AWMR_ASSIGN_OR_RETURN(const ModeGains gains, read_mode_gains(*config.baseline_file));
+    options.baseline->gains = gains.in(*options.mode);
+  }
   return ChosenConfig{std::move(config), findings};
 }
 

@@ -96,6 +96,9 @@ TEST(GainsFile, ReadsTheGainsOfSingleModes) {
   EXPECT_FALSE(gains->has_own(YawMode::kDifferential));
   EXPECT_EQ(gains->in(YawMode::kDifferential).heading.lambda, 3.0);
   EXPECT_EQ(read_gains(file.path())->heading.lambda, 3.0);
+  json["mode"] = "combined";
+  const ScratchFile both("both.json", json.dump());
+  EXPECT_EQ(read_mode_gains(both.path()).error().faults.front().code, ErrorCode::kConflict);
 }
 
 TEST(GainsFile, IgnoresTheOtherKeysOfTheFormat) {

@@ -37,13 +37,6 @@ Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehic
   return {controller.limits.force_min, controller.limits.force_max};
 }
 
-bool is_power_law(const Plant<double>& plant) {
-  const auto has_terms = [](const Resistance<double>& law) {
-    return law.coulomb > 0.0 || law.quadratic > 0.0;
-  };
-  return !has_terms(plant.surge) && !has_terms(plant.yaw);
-}
-
 /// Parameters of the friction at rest, the motors' dead zone and their back-EMF; absent if the
 /// model has none of these.
 std::optional<RestBlock> rest_of(const Plant<double>& plant, const ModeGains& gains) {
@@ -225,6 +218,13 @@ std::uint32_t crc_of(const AutopilotParameters& parameters) {
 }
 
 }  // namespace
+
+bool is_power_law(const Plant<double>& plant) {
+  const auto has_terms = [](const Resistance<double>& law) {
+    return law.coulomb > 0.0 || law.quadratic > 0.0;
+  };
+  return !has_terms(plant.surge) && !has_terms(plant.yaw);
+}
 
 Result<AutopilotParameters> autopilot_parameters(const Model& model, const ModeGains& gains,
                                                  const EmitInputs& inputs,

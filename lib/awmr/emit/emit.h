@@ -169,6 +169,9 @@ struct AutopilotParameters {
   std::uint32_t crc = 0;  ///< check sum over block, tables, rest, observer and mode_gains
 };
 
+/// True if both resistances are power laws, which the firmware can also compute by powf.
+bool is_power_law(const Plant<double>& plant);
+
 /// Computes the numbers of the firmware from the model and the gains. Errors: those of
 /// params_header(); (input) small-angle allocation, front-wheel drive, or kPowf for a resistance
 /// other than the power law; (refused) options.table_error is given, and no table has an error

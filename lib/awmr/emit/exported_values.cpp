@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 
+#include "awmr/control/yaw_mode.h"
 #include "awmr/model/si_units.h"
 
 namespace awmr {
@@ -73,34 +76,48 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
   add("sample_time_s", vehicle.sample_time_s, "s", "T_s: time between two steps of the controller");
 }
 
-/// Adds a set of gains. `suffix`: end of the names; `of_mode`: end of the meanings.
-void export_gains(const Gains<double>& gains, const std::string& suffix, const std::string& of_mode,
+/// Adds the set of gains of one mode (`mode`, part of the names), or that of the modes without gains
+/// of their own. `has_observer`: the observer is added, with zeros if the set has none.
+void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool has_observer,
                   std::vector<ExportedValue>& values) {
   const auto add = [&](const char* name, double value, const char* unit, const char* meaning) {
-    values.push_back({.name = name + suffix,
-                      .value = value,
-                      .unit = unit,
-                      .meaning = meaning + of_mode,
-                      .origin = "gains"});
+    values.push_back(
+        {.name = name + (mode ? fmt::format("_{}", name_of(*mode)) : ""),
+         .value = value,
+         .unit = unit,
+         .meaning = meaning + (mode ? fmt::format(", in {} mode", name_of(*mode)) : ""),
+         .origin = "gains"});
   };
   add("heading_lambda", gains.heading.lambda, "1/s", "lambda: slope of the sliding surface");
   add("heading_mu", gains.heading.mu, "rad/s^2", "mu: largest corrective yaw acceleration");
   add("heading_epsilon", gains.heading.epsilon, "rad/s",
       "epsilon: half width of the heading law's boundary layer");
-  if (gains.heading.friction_width_radps > feed_forward_rest_speed<double>()) {
-    add("heading_friction_width", gains.heading.friction_width_radps, "rad/s",
-        "w0: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot + "
-        "lambda e while the magnitude of this sum is below w0; in differential mode the limit "
-        "is 0.02 rad/s without and w0 with an observer");
-  }
-  if (gains.friction_width_at(0.5) > feed_forward_rest_speed<double>()) {
-    add("heading_combined_friction_width", gains.friction_width_at(0.5), "rad/s",
-        "w0 of the combined mode");
+  const auto above_least = [](double width_radps) {
+    return width_radps > feed_forward_rest_speed<double>();
+  };
+  if (mode) {
+    const double width_radps = gains.friction_width_at(steering_share<double>(*mode));
+    if (above_least(width_radps)) {
+      add("heading_friction_width", width_radps, "rad/s",
+          "w0: the fed-forward Coulomb friction is proportional to psi_d_dot + lambda e while the "
+          "magnitude of this sum is below w0");
+    }
+  } else {
+    if (above_least(gains.heading.friction_width_radps)) {
+      add("heading_friction_width", gains.heading.friction_width_radps, "rad/s",
+          "w0: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot + "
+          "lambda e while the magnitude of this sum is below w0; in differential mode the limit "
+          "is 0.02 rad/s without and w0 with an observer");
+    }
+    if (above_least(gains.friction_width_at(0.5))) {
+      add("heading_combined_friction_width", gains.friction_width_at(0.5), "rad/s",
+          "w0 of the combined mode");
+    }
   }
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
   add("speed_epsilon", gains.speed.epsilon, "m/s",
       "eps_s: half width of the speed law's boundary layer");
-  if (!gains.observer.is_on()) return;
+  if (!has_observer) return;
   add("observer_bandwidth_radps", gains.observer.bandwidth_radps, "rad/s",
       "L: bandwidth of the disturbance observer");
   add("observer_yaw_max_m", gains.observer.yaw_max_m, "m",
@@ -116,11 +133,11 @@ std::vector<ExportedValue> exported_values(const ExportSource& source) {
   export_parameters(source.model, values);
   export_vehicle(source.model.vehicle, values);
   if (!source.gains) return values;
-  export_gains(source.gains->common(), "", "", values);
+  const ModeGains& gains = *source.gains;
+  export_gains(gains.common(), std::nullopt, gains.common().observer.is_on(), values);
   for (const YawMode mode : kYawModes) {
-    if (!source.gains->has_own(mode)) continue;
-    export_gains(source.gains->in(mode), fmt::format("_{}", name_of(mode)),
-                 fmt::format(", in {} mode", name_of(mode)), values);
+    if (!gains.has_any_own()) break;
+    export_gains(gains.in(mode), mode, gains.has_observer(), values);
   }
   return values;
 }

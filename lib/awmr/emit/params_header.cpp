@@ -116,8 +116,8 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
 }
 
 /// Checks T2 < T1 (heading law). The values are compared after rounding to float32, because rounding
-/// can make the two equal.
-Status check_reaching(const HeadingGains<double>& gains, const std::string& file) {
+/// can make the two equal. `place`: of the gains, for the error.
+Status check_reaching(const HeadingGains<double>& gains, const std::string& place) {
   // The user's compiler may evaluate the product epsilon lambda in float or exactly. T2 < T1 must
   // hold in both cases.
   const float epsilon = static_cast<float>(gains.epsilon);
@@ -130,7 +130,7 @@ Status check_reaching(const HeadingGains<double>& gains, const std::string& file
       fmt::format("T2 = epsilon/(2 mu) = {:g} s is not below T1 = 1/lambda = {:g} s in {}: the "
                   "sliding surface has to be reached faster than the error decays on it; lower "
                   "epsilon or lambda, raise mu, or tune again",
-                  gains.reaching_time_constant_s(), gains.sliding_time_constant_s(), file));
+                  gains.reaching_time_constant_s(), gains.sliding_time_constant_s(), place));
 }
 
 /// Checks F'min < F'max (wheel force) and d_max < 90 deg (steering stop), after rounding to float32.
@@ -190,10 +190,12 @@ Result<std::string> params_header(const Model& model, const ModeGains& gains,
   AWMR_RETURN_IF_ERROR(check_macros(macros));
   AWMR_RETURN_IF_ERROR(check_vehicle(model));
   for (const YawMode mode : kYawModes) {
-    AWMR_RETURN_IF_ERROR(check_reaching(gains.in(mode).heading, inputs.gains_file));
-    AWMR_RETURN_IF_ERROR(check_observer_rate(gains.in(mode).observer.bandwidth_radps,
-                                             model.vehicle.sample_time_s,
-                                             inputs.gains_file + ":/observer/bandwidth_radps"));
+    const std::string place =
+        inputs.gains_file + (gains.has_own(mode) ? fmt::format(":/modes/{}", name_of(mode)) : "");
+    AWMR_RETURN_IF_ERROR(check_reaching(gains.in(mode).heading, place));
+    AWMR_RETURN_IF_ERROR(check_observer_rate(
+        gains.in(mode).observer.bandwidth_radps, model.vehicle.sample_time_s,
+        fmt::format("{}{}/observer/bandwidth_radps", place, gains.has_own(mode) ? "" : ":")));
   }
   return intro_text(model, inputs) + defines_text(macros, inputs) + checks_text(macros, gains) +
          "\n#endif /* AWMR_PARAMS_H */\n";

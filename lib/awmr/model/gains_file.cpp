@@ -67,6 +67,11 @@ ModeGains gains_from_file(JsonObject& root) {
     gains.set(mode, gains_with_results(own));
   }
   if (modes) modes->reject_unknown_keys();
+  if (modes && root.has("mode")) {
+    root.fault(ErrorCode::kConflict, "modes",
+               "gains for one mode only (`mode`) cannot have gains of other modes; remove one of "
+               "the two keys");
+  }
   return gains;
 }
 

@@ -1,6 +1,5 @@
 #include "awmr/tune/own_gains.h"
 
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -9,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Smallest decrease of ln(objective), as the mean over the modes, with which own gains are used.
-const double kWorthOwnGains = -std::log(0.95);
+/// A mode uses gains of its own if they lower its objective to at most this share.
+constexpr double kWorthOwnGains = 0.95;
 /// Largest decrease of the share of settled runs in a mode.
 constexpr double kSettlesLess = 0.05;
 
@@ -35,34 +34,29 @@ Tuning in_mode(Tuning tuning, YawMode mode) {
   return tuning;
 }
 
-/// Decrease of ln(objective) with own gains in place of the common ones in the runs of one mode.
-/// Empty if the mode keeps the common gains.
-std::optional<double> gain(const ObjectiveSetting& runs, const Tuning& common, const Tuning& own) {
+/// True if the gains `own` are clearly better than the gains `common` in the runs of one mode.
+bool is_better(const Gains<double>& own, const Tuning& common, const ObjectiveSetting& runs) {
   const Objective objective(runs, common.baseline.gains);
-  const double gained =
-      std::log(objective(common.gains).objective / objective(own.gains).objective);
-  if (!std::isfinite(gained) || gained <= 0.0) return std::nullopt;
-  if (settled_share(runs, own.gains) < settled_share(runs, common.gains) - kSettlesLess) {
-    return std::nullopt;
-  }
-  return gained;
+  const double limit = kWorthOwnGains * objective(common.gains).objective;
+  return objective(own).objective <= limit &&
+         settled_share(runs, own) >= settled_share(runs, common.gains) - kSettlesLess;
 }
 
 }  // namespace
 
 std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Tuning& common,
                                      const std::function<Result<Tuning>(YawMode)>& search) {
-  double gained = 0.0;  // sum over the modes
+  bool is_any_better = false;
   std::vector<Tuning> all;
   std::vector<ModeCertificate> certified;
   for (const YawMode mode : setting.modes()) {
     Result<Tuning> own = search(mode);
-    const auto of_mode = own ? gain(runs_in(setting, {}, mode), common, *own) : std::nullopt;
-    gained += of_mode.value_or(0.0);
-    all.push_back(of_mode ? *std::move(own) : in_mode(common, mode));
+    const bool is_used = own && is_better(own->gains, common, runs_in(setting, {}, mode));
+    is_any_better = is_any_better || is_used;
+    all.push_back(is_used ? *std::move(own) : in_mode(common, mode));
     certified.push_back(all.back().certificate->modes.front());
   }
-  if (!(gained >= kWorthOwnGains * static_cast<double>(all.size()))) return std::nullopt;
+  if (!is_any_better) return std::nullopt;
   Tuning tuning = std::move(all.back());  // combined is the last mode
   all.pop_back();
   tuning.certificate->modes = std::move(certified);

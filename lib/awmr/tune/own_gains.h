@@ -11,10 +11,10 @@
 namespace awmr {
 
 /// Searches gains for each mode alone. A mode keeps the gains in `common` if its search fails, if
-/// its objective is not lower than with these, or if fewer of its runs settle (by more than 0.05 of
+/// its objective is not lower by at least 5 %, or if fewer of its runs settle (by more than 0.05 of
 /// all). Returns all modes as one Tuning: the gains of combined mode in Tuning::gains, those of the
-/// other modes in Tuning::own; Tuning::certificate has all modes. Empty if the objective, as the
-/// geometric mean over the modes, is not lower by at least 5 %.
+/// other modes in Tuning::own; Tuning::certificate has all modes. Empty if all modes keep the gains
+/// in `common`.
 ///
 /// `setting`: the setting in which `common` was tuned for all modes. `search`: tunes for one mode
 /// in that setting.

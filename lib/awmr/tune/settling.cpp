@@ -217,8 +217,10 @@ bool SettlingSearch::observer_helps(const ObjectiveSetting& setting, const Gains
   for (const Scenario& scenario : setting.scenarios) {
     for (const YawMode mode : setting.modes()) {
       const ObjectiveSetting runs = runs_in(setting, scenario.name, mode);
-      if (settled_share(runs, gains) >= kSettledShare) continue;
-      if (settling_bandwidth_radps(on_few_vehicles(runs), {}, context_, kSettledShare)) return true;
+      const double share = settled_share(runs, gains);
+      if (share >= kSettledShare) continue;
+      const double more = std::min(kSettledShare, 0.5 * (1.0 + share));
+      if (settling_bandwidth_radps(on_few_vehicles(runs), {}, context_, more)) return true;
     }
   }
   return false;

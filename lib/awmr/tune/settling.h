@@ -54,9 +54,9 @@ class SettlingSearch {
   explicit SettlingSearch(const ConstraintContext& context) : context_(context) {}
 
   /// True if there are a scenario and a mode whose runs need an observer: fewer than kSettledShare
-  /// of the runs settle with the given gains, but at least kSettledShare with an observer and gains
-  /// by pole placement. To save time, the runs with the observer use only a few vehicles
-  /// (on_few_vehicles()).
+  /// of the runs settle with the given gains, but with an observer and gains by pole placement,
+  /// half of the others settle, too, or kSettledShare of all. To save time, the runs with the
+  /// observer use only a few vehicles (on_few_vehicles()).
   bool observer_helps(const ObjectiveSetting& setting, const Gains<double>& gains);
 
   /// Tries one change of gains or limits at a time. Returns the changes with which at least `share`

@@ -288,11 +288,12 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   AWMR_RETURN_IF_ERROR(limit_observer(problem.context, options.observer));
   if (!options.nominal) AWMR_RETURN_IF_ERROR(add_draws(model, options, problem));
   AWMR_ASSIGN_OR_RETURN(Tuning common, tune_for(options.mode, model, problem, options, held_out));
-  if (options.one_set || common.alone.empty()) return common;
+  const bool may_be_faster = !common.alone.empty() || common.is_mode_better_alone;
+  if (options.one_set || !may_be_faster) return common;
   if (options.notice) {
     options.notice(
-        "gains for one mode alone settle much faster, so gains are searched for each mode, which "
-        "takes about as long again");
+        "one mode alone may settle much faster, so gains are also searched for each mode, which "
+        "takes one to three times as long again");
   }
   auto own = with_own_gains(problem.setting, common, [&](YawMode mode) {
     return tune_for(mode, model, problem, options, held_out);

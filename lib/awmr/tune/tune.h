@@ -216,9 +216,9 @@ struct TuneOptions {
   /// used if `observer` is present.
   bool adds_observer = true;
   std::vector<TuningGoal> goals = {};  ///< robust search only
-  /// false: if gains for one mode alone settle much faster (ModeAlone), each mode gets gains of its
-  /// own (with_own_gains() in own_gains.h). true: one set of gains for all modes. Not used if `mode`
-  /// is present.
+  /// false: if one mode alone may be much faster (Tuning::alone, Tuning::is_mode_better_alone), gains
+  /// are searched for each mode (with_own_gains() in own_gains.h). true: one set of gains for all
+  /// modes. Not used if `mode` is present.
   bool one_set = false;
   /// Called with the number of evaluated sets of gains and with the budget, which is
   /// global_evaluations + local_evaluations. The last stage of the search, on all draws, is not
@@ -499,7 +499,9 @@ struct Tuning {
   /// true: an observer was tuned because runs needed it to settle (TuneOptions::adds_observer).
   bool observer_added = false;
   std::vector<UnsettledRuns> unsettled;
-  std::vector<ModeAlone> alone;        ///< see ModeAlone; empty if only one mode is tuned
+  std::vector<ModeAlone> alone;  ///< see ModeAlone; empty if only one mode is tuned
+  /// true: in one of several modes, faster gains have an objective that is lower by 3 % or more.
+  bool is_mode_better_alone = false;
   std::optional<RobustTuning> robust;  ///< absent for nominal gains
 
   /// The gains to use in each mode.

@@ -132,17 +132,18 @@ void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& 
 
 /// Adds a warning if tune() added an observer by itself.
 void note_observer(const Tuning& tuning, std::vector<Finding>& findings) {
+  const std::string in_mode =
+      tuning.mode ? fmt::format(" in {} mode", name_of(*tuning.mode)) : std::string();
   if (tuning.observer_added) {
     findings.push_back(
         {"", 0, Severity::kWarning, "observer-added",
-         fmt::format(
-             "fewer than {:g} % of the runs{} settle without a disturbance observer, so an "
-             "observer "
-             "with a bandwidth of {:.3g} rad/s was tuned, which the firmware runs. To tune without "
-             "an observer: {}",
-             100.0 * kSettledShare,
-             tuning.mode ? fmt::format(" in {} mode", name_of(*tuning.mode)) : "",
-             tuning.gains.observer.bandwidth_radps, option_text("no_observer"))});
+         fmt::format("fewer than {:g} % of the runs{} settle without a disturbance observer, so an "
+                     "observer "
+                     "with a bandwidth of {:.3g} rad/s was tuned, which the firmware runs{}. To "
+                     "tune without "
+                     "an observer: {}",
+                     100.0 * kSettledShare, in_mode, tuning.gains.observer.bandwidth_radps, in_mode,
+                     option_text("no_observer"))});
   }
 }
 
@@ -181,11 +182,12 @@ void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
   if (!tuning.own.empty()) {
     findings.push_back(
         {"", 0, Severity::kNote, "gains-by-mode",
-         fmt::format("the modes have gains of their own, because with one set for all modes some "
-                     "settle much later. simulate, compare, pil and the firmware use those of the "
-                     "mode. For "
-                     "one set: {}",
-                     option_text("one_set"))});
+         fmt::format(
+             "modes have gains of their own, because one set for all modes makes some slower "
+             "than they can be. simulate, compare, pil and the firmware use those of the "
+             "mode. For "
+             "one set: {}",
+             option_text("one_set"))});
     return;
   }
   if (tuning.alone.empty()) return;
