@@ -117,6 +117,7 @@ TEST(Goal, IsForItsModeOrForEach) {
 
 TuneOptions options_with(const TuningGoal& goal) {
   TuneOptions options;
+  options.one_set = true;
   options.global_evaluations = 80;
   options.local_evaluations = 30;
   options.draws = 3;

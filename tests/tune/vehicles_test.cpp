@@ -157,56 +157,6 @@ TEST_P(DryFriction, GetsAnObserverWithWhichSteeringRunsSettle) {
   expect_settled_when_pushed(model, *without, *with);
 }
 
-/// The servo of this truck is slow, so that gains for all modes make the differential mode slow.
-Model truck_with_a_slow_servo() {
-  return model_of({.name = "600 kg truck",
-                   .mass_kg = 600.0,
-                   .length_m = 4.4,
-                   .width_m = 1.76,
-                   .front_axle_m = 1.1,
-                   .half_track_m = 0.8,
-                   .steering_max_deg = 28,
-                   .steering_rate_degps = 40,
-                   .servo_s = 0.35,
-                   .sample_time_s = 0.05,
-                   .motor_force_n = 2000.0,
-                   .surge = {.alpha = 0.35, .beta = 0.9},
-                   .yaw = {.alpha = 0.9, .beta = 0.9},
-                   .sway_alpha = 3.0,
-                   .measured_mps = 0.0,
-                   .measured_degps = 0.0});
-}
-
-TEST(OwnGains, OfEachModeSettleASlowServosOtherModesFaster) {
-  const Model model = truck_with_a_slow_servo();
-  TuneOptions options;
-  options.nominal = true;
-  const Result<Tuning> apart = tune(model, options);
-  ASSERT_TRUE(apart) << to_text(apart.error());
-  options.one_set = true;
-  const Result<Tuning> common = tune(model, options);
-  ASSERT_TRUE(common) << to_text(common.error());
-  EXPECT_TRUE(common->own.empty());
-  EXPECT_FALSE(common->alone.empty());
-  ASSERT_EQ(apart->own.size(), 2U);
-  EXPECT_EQ(apart->mode, YawMode::kCombined);
-  EXPECT_EQ(apart->certificate->modes.size(), 3U);
-  const ModeGains gains = apart->mode_gains();
-  const Scenario scenario = default_tuning_scenario(model).value();
-  for (const YawMode mode : kYawModes) {
-    const auto settling_s = [&](const Gains<double>& used) {
-      const awmr::Run run = simulate(model, used, scenario, mode).value();
-      return metrics_of(run, scenario, controller_for(model, used).value()).settling_time_s;
-    };
-    const auto own_s = settling_s(gains.in(mode)), common_s = settling_s(common->gains);
-    ASSERT_TRUE(own_s && common_s) << name_of(mode);
-    EXPECT_LT(*own_s, (mode == YawMode::kSteering ? 1.2 : 0.8) * *common_s) << name_of(mode);
-    // As if tuned for this mode alone.
-    options.mode = mode;
-    EXPECT_EQ(tune(model, options)->gains.heading.lambda, gains.in(mode).heading.lambda);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Steered, DryFriction, ::testing::ValuesIn(vehicles_with_dry_friction()));
 
 INSTANTIATE_TEST_SUITE_P(FromToyToTractor, Vehicles, ::testing::ValuesIn(test_vehicles()));

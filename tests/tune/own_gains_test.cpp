@@ -1,0 +1,67 @@
+/// Gains of its own for each mode, if one mode holds the others back.
+#include "awmr/tune/own_gains.h"
+
+#include <gtest/gtest.h>
+
+#include "awmr/simulate/metrics.h"
+#include "awmr/simulate/simulate.h"
+#include "tune/vehicles.h"
+
+namespace awmr::testing {
+namespace {
+
+/// The servo of this truck is slow, so that gains for all modes make the differential mode slow.
+Model truck_with_a_slow_servo() {
+  return model_of({.name = "600 kg truck",
+                   .mass_kg = 600.0,
+                   .length_m = 4.4,
+                   .width_m = 1.76,
+                   .front_axle_m = 1.1,
+                   .half_track_m = 0.8,
+                   .steering_max_deg = 28,
+                   .steering_rate_degps = 40,
+                   .servo_s = 0.35,
+                   .sample_time_s = 0.05,
+                   .motor_force_n = 2000.0,
+                   .surge = {.alpha = 0.35, .beta = 0.9},
+                   .yaw = {.alpha = 0.9, .beta = 0.9},
+                   .sway_alpha = 3.0,
+                   .measured_mps = 0.0,
+                   .measured_degps = 0.0});
+}
+
+TEST(OwnGains, OfEachModeSettleASlowServosOtherModesFaster) {
+  const Model model = truck_with_a_slow_servo();
+  TuneOptions options;
+  options.nominal = true;
+  const Result<Tuning> apart = tune(model, options);
+  ASSERT_TRUE(apart) << to_text(apart.error());
+  options.one_set = true;
+  const Result<Tuning> common = tune(model, options);
+  ASSERT_TRUE(common) << to_text(common.error());
+  EXPECT_TRUE(common->own.empty());
+  EXPECT_FALSE(common->alone.empty());
+  ASSERT_EQ(apart->own.size(), 2U);
+  EXPECT_EQ(apart->mode, YawMode::kCombined);
+  EXPECT_EQ(apart->certificate->modes.size(), 3U);
+  const ModeGains gains = apart->mode_gains();
+  const Scenario scenario = default_tuning_scenario(model).value();
+  for (const YawMode mode : kYawModes) {
+    const auto settling_s = [&](const Gains<double>& used) {
+      const awmr::Run run = simulate(model, used, scenario, mode).value();
+      return metrics_of(run, scenario, controller_for(model, used).value()).settling_time_s;
+    };
+    const auto own_s = settling_s(gains.in(mode)), common_s = settling_s(common->gains);
+    ASSERT_TRUE(own_s && common_s) << name_of(mode);
+    EXPECT_LT(*own_s, (mode == YawMode::kSteering ? 1.2 : 0.8) * *common_s) << name_of(mode);
+    // Steering cannot be faster, so it keeps the common gains. The others are tuned alone.
+    options.mode = mode;
+    const Gains<double> expected =
+        mode == YawMode::kSteering ? common->gains : tune(model, options)->gains;
+    EXPECT_EQ(gains.in(mode).heading.lambda, expected.heading.lambda) << name_of(mode);
+    EXPECT_EQ(gains.in(mode).speed.mu, expected.speed.mu) << name_of(mode);
+  }
+}
+
+}  // namespace
+}  // namespace awmr::testing
