@@ -48,7 +48,9 @@ std::string row_of(const TestVehicle& vehicle, const Scenario& scenario, const T
 
 TEST_P(Vehicles, HaveGainsThatKeepEveryConstraintAndScoreBetterThanPolePlacement) {
   const Model model = model_of(GetParam());
-  const Result<Tuning> tuning = tune(model, TuneOptions{});
+  TuneOptions options;
+  options.one_set = true;
+  const Result<Tuning> tuning = tune(model, options);
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   EXPECT_EQ(tuning->baseline.source, kPolePlacement);
   EXPECT_EQ(tuning->baseline_objective, 1.0);
@@ -142,10 +144,11 @@ void expect_settled_when_pushed(const Model& model, const Tuning& without, const
 
 TEST_P(DryFriction, GetsAnObserverWithWhichSteeringRunsSettle) {
   const Model model = model_of(GetParam());
-  const Result<Tuning> with = tune(model, TuneOptions{});
+  TuneOptions options;
+  options.one_set = true;
+  const Result<Tuning> with = tune(model, options);
   ASSERT_TRUE(with) << to_text(with.error());
   EXPECT_TRUE(with->observer_added);
-  TuneOptions options;
   options.adds_observer = false;
   const Result<Tuning> without = tune(model, options);
   ASSERT_TRUE(without) << to_text(without.error());

@@ -30,6 +30,7 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
   const auto scenarios = default_tuning_scenarios(model, {});
   ASSERT_TRUE(scenarios) << to_text(scenarios.error());
   TuneOptions options;
+  options.one_set = true;
   options.evaluation_draws = 0;
   options.adds_observer = false;  // the independent simulator has no observer
   const auto start = std::chrono::steady_clock::now();
@@ -84,6 +85,7 @@ INSTANTIATE_TEST_SUITE_P(FromToyToTractor, TradeOff, ::testing::ValuesIn(testing
 TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
   const Model model = testing::model_of(testing::test_vehicles()[4]);
   TuneOptions options;
+  options.one_set = true;
   options.evaluation_draws = 0;
   options.global_evaluations = options.local_evaluations = 1;
   const Result<Tuning> tuning = tune(model, options);
@@ -112,6 +114,7 @@ TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
 TEST(Refusals, NameTheLimitThatNoGainsKeep) {
   Model model = testing::model_of(testing::test_vehicles()[6]);
   TuneOptions options;
+  options.one_set = true;
   options.evaluation_draws = 0;
   options.limits.steering_rate_rms_degps = 1.0;
   const Result<Tuning> tuning = tune(model, options);
