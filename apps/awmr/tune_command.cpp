@@ -221,8 +221,8 @@ void add_tune(CLI::App& app, Session& session) {
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
   add_file(*sub, "--config", command->config,
            "tune.json, with any of the keys mode, one_set, form, margin, limits, baseline, "
-           "weights, goals, "
-           "open, observer, no_observer, global_evaluations, local_evaluations, seed, scenarios");
+           "weights, goals, open, observer, no_observer, global_evaluations, local_evaluations, "
+           "seed, scenarios");
   CLI::Option* nominal = add_search(*sub, *command);
   add_draws(*sub, *command, nominal);
   add_allocation(*sub, command->allocation);

@@ -156,10 +156,6 @@ std::string goals_text(const std::vector<EvaluatedGoal>& all) {
   return text.empty() ? text : "  goals, on fresh draws\n" + text;
 }
 
-}  // namespace
-
-namespace {
-
 /// gains_table() of one search.
 std::string table_of(const Tuning& tuning) {
   std::string text =
@@ -188,24 +184,6 @@ std::string by_search(const Tuning& tuning, const Text& text) {
   return all + fmt::format("{} mode\n{}", name_of(*tuning.mode), text(tuning));
 }
 
-}  // namespace
-
-std::string gains_table(const Tuning& tuning) { return by_search(tuning, table_of); }
-
-std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
-  return by_search(tuning, [&](const Tuning& one) {
-    std::string text = table_of(one) + active_text(one);
-    if (&one == &tuning) text += certificate_text(*one.certificate) + open_text(options.open);
-    if (one.robust) {
-      text += evaluation_table(one.robust->evaluated, one.robust->evaluated_by_scenario) +
-              goals_text(one.robust->goals);
-    }
-    return text;
-  });
-}
-
-namespace {
-
 /// tuning_details() of one search.
 std::string details_of(const Tuning& tuning) {
   std::string text = "objective by scenario and mode\n";
@@ -224,6 +202,20 @@ std::string details_of(const Tuning& tuning) {
 }
 
 }  // namespace
+
+std::string gains_table(const Tuning& tuning) { return by_search(tuning, table_of); }
+
+std::string tuning_summary(const Tuning& tuning, const TuneOptions& options) {
+  return by_search(tuning, [&](const Tuning& one) {
+    std::string text = table_of(one) + active_text(one);
+    if (&one == &tuning) text += certificate_text(*one.certificate) + open_text(options.open);
+    if (one.robust) {
+      text += evaluation_table(one.robust->evaluated, one.robust->evaluated_by_scenario) +
+              goals_text(one.robust->goals);
+    }
+    return text;
+  });
+}
 
 std::string tuning_details(const Tuning& tuning) { return by_search(tuning, details_of); }
 

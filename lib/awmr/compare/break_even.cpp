@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "awmr/compare/ranking.h"
@@ -31,7 +31,7 @@ struct ModeSetting {
   const Scenario* scenario;
   YawMode mode;
   Plant<double> plant;
-  std::array<Controller<double>, kYawModeCount> controllers;  ///< by mode
+  std::map<YawMode, Controller<double>> controllers;
   double sample_time_s;
   BatchArithmetic arithmetic;
 };
@@ -44,7 +44,7 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
   for (const double moment_m : moments_m) {
     Plant<double> plant = setting.plant;
     plant.yaw_scrub_m = moment_m;
-    runs.push_back({plant, setting.controllers[static_cast<std::size_t>(mode)], mode, 0, 0});
+    runs.push_back({plant, setting.controllers.at(mode), mode, 0, 0});
   }
   std::vector<std::optional<Metrics>> driven;
   for (const Result<Metrics>& metrics :
@@ -228,7 +228,10 @@ Result<std::vector<Question>> all_questions(const Model& model, const ModeGains&
                                             const BreakEven& entry) {
   AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   AWMR_ASSIGN_OR_RETURN(const Plant<double> nominal, model.plant());
-  const auto controllers = make_controllers(nominal, model.vehicle, gains);
+  std::map<YawMode, Controller<double>> controllers;
+  for (const YawMode mode : kYawModes) {
+    controllers.emplace(mode, make_controller(nominal, model.vehicle, gains.in(mode)));
+  }
   std::vector<Question> questions;
   for (const Scenario& scenario : scenarios) {
     AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, plant_for(scenario, model));

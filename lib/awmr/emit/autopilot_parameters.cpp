@@ -188,9 +188,9 @@ std::optional<ObserverBlock> observer_of(const ObserverGains<double>& observer,
 /// The gains of each mode; absent if all modes have the same.
 std::optional<ModeGainsBlock> mode_gains_of(const Plant<double>& plant, const Model& model,
                                             const ModeGains& gains) {
-  if (!gains.has_any_own()) return {};
+  if (gains.listed_modes().empty()) return {};
   ModeGainsBlock block{};
-  for (const YawMode mode : kYawModes) {
+  for (const YawMode mode : gains.listed_modes()) {
     const ControlConstants<float> c =
         prepared(float_controller(plant, model, gains.in(mode))).constants;
     const ObserverGains<double>& observer = gains.in(mode).observer;

@@ -76,6 +76,27 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
   add("sample_time_s", vehicle.sample_time_s, "s", "T_s: time between two steps of the controller");
 }
 
+/// Adds the friction widths that are above the least one: of `mode`, or of steering and combined
+/// mode. `add(name, value, unit, meaning)` adds a value.
+template <class Add>
+void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode, const Add& add) {
+  const auto add_width = [&](const char* name, double width_radps, const char* meaning) {
+    if (width_radps > feed_forward_rest_speed<double>()) add(name, width_radps, "rad/s", meaning);
+  };
+  if (mode) {
+    return add_width("heading_friction_width",
+                     gains.friction_width_at(steering_share<double>(*mode)),
+                     "w0: the fed-forward Coulomb friction is proportional to psi_d_dot + lambda e "
+                     "while the magnitude of this sum is below w0");
+  }
+  add_width("heading_friction_width", gains.heading.friction_width_radps,
+            "w0: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot + "
+            "lambda e while the magnitude of this sum is below w0; in differential mode the limit "
+            "is 0.02 rad/s without and w0 with an observer");
+  add_width("heading_combined_friction_width", gains.friction_width_at(0.5),
+            "w0 of the combined mode");
+}
+
 /// Adds the set of gains of one mode (`mode`, part of the names), or that of the modes without gains
 /// of their own. `has_observer`: the observer is added, with zeros if the set has none.
 void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool has_observer,
@@ -92,28 +113,7 @@ void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool 
   add("heading_mu", gains.heading.mu, "rad/s^2", "mu: largest corrective yaw acceleration");
   add("heading_epsilon", gains.heading.epsilon, "rad/s",
       "epsilon: half width of the heading law's boundary layer");
-  const auto above_least = [](double width_radps) {
-    return width_radps > feed_forward_rest_speed<double>();
-  };
-  if (mode) {
-    const double width_radps = gains.friction_width_at(steering_share<double>(*mode));
-    if (above_least(width_radps)) {
-      add("heading_friction_width", width_radps, "rad/s",
-          "w0: the fed-forward Coulomb friction is proportional to psi_d_dot + lambda e while the "
-          "magnitude of this sum is below w0");
-    }
-  } else {
-    if (above_least(gains.heading.friction_width_radps)) {
-      add("heading_friction_width", gains.heading.friction_width_radps, "rad/s",
-          "w0: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot + "
-          "lambda e while the magnitude of this sum is below w0; in differential mode the limit "
-          "is 0.02 rad/s without and w0 with an observer");
-    }
-    if (above_least(gains.friction_width_at(0.5))) {
-      add("heading_combined_friction_width", gains.friction_width_at(0.5), "rad/s",
-          "w0 of the combined mode");
-    }
-  }
+  add_friction_widths(gains, mode, add);
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
   add("speed_epsilon", gains.speed.epsilon, "m/s",
       "eps_s: half width of the speed law's boundary layer");
@@ -135,8 +135,7 @@ std::vector<ExportedValue> exported_values(const ExportSource& source) {
   if (!source.gains) return values;
   const ModeGains& gains = *source.gains;
   export_gains(gains.common(), std::nullopt, gains.common().observer.is_on(), values);
-  for (const YawMode mode : kYawModes) {
-    if (!gains.has_any_own()) break;
+  for (const YawMode mode : gains.listed_modes()) {
     export_gains(gains.in(mode), mode, gains.has_observer(), values);
   }
   return values;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "awmr/core/units.h"
+#include "awmr/model/gains_file.h"
 
 namespace awmr {
 namespace {
@@ -79,8 +80,7 @@ void add_vehicle(std::vector<Macro>& macros, const Vehicle& vehicle, const std::
 
 /// Place of a mode's gains in the gains file: "gains.json:" or "gains.json:/modes/steering".
 std::string place_of(const ModeGains& gains, std::optional<YawMode> mode, const std::string& file) {
-  const bool is_own = mode && gains.has_own(*mode);
-  return is_own ? fmt::format("{}:/modes/{}", file, name_of(*mode)) : file + ":";
+  return file + ":" + (mode ? pointer_of(gains, *mode) : "");
 }
 
 /// Addition to the comment of a gain of one mode: ", in steering mode".
@@ -182,8 +182,7 @@ std::vector<Macro> macros_of(const Model& model, const ModeGains& gains, const E
   add_vehicle(macros, model.vehicle, file_name(model));
   add_laws(macros, gains, std::nullopt, inputs.gains_file);
   add_observer(macros, gains, std::nullopt, inputs.gains_file);
-  for (const YawMode mode : kYawModes) {
-    if (!gains.has_any_own()) break;
+  for (const YawMode mode : gains.listed_modes()) {
     add_laws(macros, gains, mode, inputs.gains_file);
     add_observer(macros, gains, mode, inputs.gains_file);
   }

@@ -6,6 +6,7 @@
 #include "awmr/core/text.h"
 #include "awmr/core/units.h"
 #include "awmr/emit/emit.h"
+#include "awmr/model/gains_file.h"
 #include "awmr/model/observer_rate.h"
 #include "c_text.h"
 #include "macros.h"
@@ -62,14 +63,13 @@ std::string checks_text(const std::vector<Macro>& macros, const ModeGains& gains
   }
   text += kReachingComment;
   text += fmt::format(kReaching, "");
-  for (const YawMode mode : kYawModes) {
-    if (gains.has_any_own()) text += fmt::format(kReaching, mode_suffix(mode));
+  for (const YawMode mode : gains.listed_modes()) {
+    text += fmt::format(kReaching, mode_suffix(mode));
   }
   text += kRelations;
   if (gains.common().observer.is_on()) text += fmt::format(kObserverRelation, "");
-  for (const YawMode mode : kYawModes) {
-    if (!gains.has_any_own() || !gains.has_observer()) break;
-    text += fmt::format(kObserverRelation, mode_suffix(mode));
+  for (const YawMode mode : gains.listed_modes()) {
+    if (gains.has_observer()) text += fmt::format(kObserverRelation, mode_suffix(mode));
   }
   return text + "#undef AWMR_PARAMS_CHECK\n";
 }
@@ -190,12 +190,12 @@ Result<std::string> params_header(const Model& model, const ModeGains& gains,
   AWMR_RETURN_IF_ERROR(check_macros(macros));
   AWMR_RETURN_IF_ERROR(check_vehicle(model));
   for (const YawMode mode : kYawModes) {
-    const std::string place =
-        inputs.gains_file + (gains.has_own(mode) ? fmt::format(":/modes/{}", name_of(mode)) : "");
-    AWMR_RETURN_IF_ERROR(check_reaching(gains.in(mode).heading, place));
-    AWMR_RETURN_IF_ERROR(check_observer_rate(
-        gains.in(mode).observer.bandwidth_radps, model.vehicle.sample_time_s,
-        fmt::format("{}{}/observer/bandwidth_radps", place, gains.has_own(mode) ? "" : ":")));
+    const std::string set = pointer_of(gains, mode);
+    AWMR_RETURN_IF_ERROR(
+        check_reaching(gains.in(mode).heading, inputs.gains_file + (set.empty() ? "" : ":" + set)));
+    AWMR_RETURN_IF_ERROR(
+        check_observer_rate(gains.in(mode).observer.bandwidth_radps, model.vehicle.sample_time_s,
+                            inputs.gains_file + ":" + set + "/observer/bandwidth_radps"));
   }
   return intro_text(model, inputs) + defines_text(macros, inputs) + checks_text(macros, gains) +
          "\n#endif /* AWMR_PARAMS_H */\n";

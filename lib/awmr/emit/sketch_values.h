@@ -9,13 +9,14 @@ namespace awmr {
 
 struct SketchValues {
   double route_mps = 0.0;  ///< AWMR_ROUTE_SPEED_MPS, m/s
-  double steady_error_rad =
-      0.0;                       ///< heading error, rad, if the forces of the motors differ by 16 %
+  /// Heading error, rad, if the forces of the motors differ by 16 %.
+  double steady_error_rad = 0.0;
   double on_course_rad = 0.0;    ///< AWMR_ON_COURSE_RAD, rad
   double off_course_mrad = 0.0;  ///< AWMR_OFF_COURSE_MRAD, m rad
 };
 
-/// The values suit every mode: each is the largest that a mode needs with its gains. `full_force`: sum of the largest F' of the four wheels, beyond the dead zone.
+/// The values suit every mode: each is the largest that a mode needs with its gains. `full_force`:
+/// sum of the largest F' of the four wheels, beyond the dead zone.
 SketchValues sketch_values(const Plant<double>& plant, const Vehicle& vehicle,
                            const ModeGains& gains, double full_force);
 

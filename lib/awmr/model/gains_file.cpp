@@ -1,7 +1,5 @@
 #include "awmr/model/gains_file.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 #include <vector>
 
@@ -114,6 +112,10 @@ Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::pa
   return certificate;
 }
 
+std::string pointer_of(const ModeGains& gains, YawMode mode) {
+  return gains.has_own(mode) ? "/modes/" + std::string(name_of(mode)) : std::string();
+}
+
 Status check_gains_text(std::string_view text, const std::string& file) {
   return check_json_object(text, file, gains_from_file);
 }
@@ -121,10 +123,9 @@ Status check_gains_text(std::string_view text, const std::string& file) {
 Result<ModeGains> read_gains_for(const std::filesystem::path& path, double sample_time_s) {
   AWMR_ASSIGN_OR_RETURN(const ModeGains gains, read_mode_gains(path));
   for (const YawMode mode : kYawModes) {
-    const std::string set = gains.has_own(mode) ? fmt::format("/modes/{}", name_of(mode)) : "";
-    AWMR_RETURN_IF_ERROR(
-        check_observer_rate(gains.in(mode).observer.bandwidth_radps, sample_time_s,
-                            fmt::format("{}:{}/observer/bandwidth_radps", path.string(), set)));
+    AWMR_RETURN_IF_ERROR(check_observer_rate(
+        gains.in(mode).observer.bandwidth_radps, sample_time_s,
+        path.string() + ":" + pointer_of(gains, mode) + "/observer/bandwidth_radps"));
   }
   return gains;
 }

@@ -28,6 +28,10 @@ Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::pa
 /// with gains of its own has an observer only if these contain one.
 Result<ModeGains> read_mode_gains(const std::filesystem::path& path);
 
+/// JSON pointer of the gains of a mode in gains.json: "/modes/steering", or "" if it has none of its
+/// own.
+std::string pointer_of(const ModeGains& gains, YawMode mode);
+
 /// Checks a text of gains.json before it is written, as ReadBack (core/file.h). Errors: those of
 /// read_gains().
 Status check_gains_text(std::string_view text, const std::string& file);

@@ -1,7 +1,7 @@
 /// Names, in /estimates of model.json, of effects that the model lacks and that a fit of logs can
-/// estimate. Steering: trim, dead band, asymmetry, curve, scale, largest rate of the servo. Motors: imbalance of
-/// left and right, nonlinear force. Forces on the vehicle: Stribeck friction, slope of the ground,
-/// ... Sensors: delay, filter, smoothing, wheel slip, mounting.
+/// estimate. Steering: trim, dead band, asymmetry, curve, scale, largest rate of the servo. Motors:
+/// imbalance of left and right, nonlinear force. Forces on the vehicle: Stribeck friction, slope of
+/// the ground, ... Sensors: delay, filter, smoothing, wheel slip, mounting.
 #pragma once
 
 #include <array>

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "awmr/core/name_table.h"
@@ -40,9 +41,11 @@ class ModeGains {
     return in(YawMode::kDifferential).observer.is_on() || in(YawMode::kSteering).observer.is_on() ||
            in(YawMode::kCombined).observer.is_on();
   }
-  bool has_any_own() const {
-    return has_own(YawMode::kDifferential) || has_own(YawMode::kSteering) ||
-           has_own(YawMode::kCombined);
+  /// The modes that a file lists one by one: all if at least one has gains of its own, else none.
+  std::span<const YawMode> listed_modes() const {
+    const bool has_any_own = has_own(YawMode::kDifferential) || has_own(YawMode::kSteering) ||
+                             has_own(YawMode::kCombined);
+    return has_any_own ? std::span<const YawMode>(kYawModes) : std::span<const YawMode>();
   }
   void set(YawMode mode, const Gains<double>& gains) {
     own_[static_cast<std::size_t>(mode)] = gains;

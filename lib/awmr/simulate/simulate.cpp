@@ -235,16 +235,6 @@ Run simulate(const Plant<double>& plant, const Controller<double>& controller,
   return run;
 }
 
-std::array<Controller<double>, kYawModeCount> make_controllers(const Plant<double>& plant,
-                                                               const Vehicle& vehicle,
-                                                               const ModeGains& gains) {
-  std::array<Controller<double>, kYawModeCount> controllers{};
-  for (const YawMode mode : kYawModes) {
-    controllers[static_cast<std::size_t>(mode)] = make_controller(plant, vehicle, gains.in(mode));
-  }
-  return controllers;
-}
-
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains) {
   AWMR_RETURN_IF_ERROR(check_observer_rate(gains.observer.bandwidth_radps,
                                            model.vehicle.sample_time_s,

@@ -2,7 +2,6 @@
 /// sample. RK4 steps integrate the plant over the sample.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -117,11 +116,6 @@ int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sa
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
-
-/// make_controller() with the gains of each mode; the index is the mode.
-std::array<Controller<double>, kYawModeCount> make_controllers(const Plant<double>& plant,
-                                                               const Vehicle& vehicle,
-                                                               const ModeGains& gains);
 
 /// Makes a controller from the estimates of the model. A scenario's corner does not change it. If
 /// the model only has parameters for straight motion, the controller is only for straight motion,

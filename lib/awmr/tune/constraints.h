@@ -164,4 +164,7 @@ double residual(const ConstraintReport& constraint);
 /// The residual of each required constraint.
 std::vector<double> residuals(const std::vector<ConstraintReport>& constraints);
 
+/// True if the gains meet every required constraint.
+bool meets_constraints(const Gains<double>& gains, const ConstraintContext& context);
+
 }  // namespace awmr

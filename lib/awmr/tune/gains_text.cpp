@@ -182,9 +182,8 @@ Json baseline_json(const Tuning& tuning) {
   return json;
 }
 
-/// The gains and the results of their tuning.
-Json tuning_json(const Tuning& tuning, const TuneOptions& options) {
-  Json json = gains_to_json(tuning.gains);
+/// Adds the results of the tuning to the gains in `json`.
+void put_results(const Tuning& tuning, const TuneOptions& options, Json& json) {
   json["time_constants"] = {{"T1_s", tuning.gains.heading.sliding_time_constant_s()},
                             {"T2_s", tuning.gains.heading.reaching_time_constant_s()}};
   json["constraints"] = constraints_json(tuning.constraints);
@@ -198,7 +197,6 @@ Json tuning_json(const Tuning& tuning, const TuneOptions& options) {
   if (tuning.robust) json["robust"] = robust_json(*tuning.robust, options);
   if (!options.goals.empty()) json["goals"] = goals_json(tuning.robust->goals);
   json["baseline"] = baseline_json(tuning);
-  return json;
 }
 
 }  // namespace
@@ -209,9 +207,11 @@ std::string gains_text(const Tuning& tuning, const TuneOptions& options,
   json["schema"] = kGainsSchema;
   json.update(gains_to_json(tuning.gains));
   if (options.mode) json["mode"] = name_of(*options.mode);
-  json.update(tuning_json(tuning, options));
+  put_results(tuning, options, json);
   for (const Tuning& one : tuning.own) {
-    json["modes"][std::string(name_of(*one.mode))] = tuning_json(one, options);
+    Json& own = json["modes"][std::string(name_of(*one.mode))];
+    own = gains_to_json(one.gains);
+    put_results(one, options, own);
   }
   put_provenance(json, provenance);
   return to_text(json);

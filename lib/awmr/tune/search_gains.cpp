@@ -138,8 +138,9 @@ struct Searched {
   /// The options as the user gave them; in `options`, absent bounds are filled in.
   const TuneOptions& requested;
   const Baseline& baseline;
-  const Objective& all;   ///< on all draws
-  const Objective& some;  ///< on the draws of the search
+  const Gains<double>& poles;  ///< by pole placement for all modes, without observer
+  const Objective& all;        ///< on all draws
+  const Objective& some;       ///< on the draws of the search
   const SearchResult& found;
   const SettledGains& settled;
 };
@@ -179,10 +180,6 @@ struct ModesAlone {
   bool is_any_better = false;     ///< Tuning::is_mode_better_alone
 };
 
-bool meets_limits(const Gains<double>& gains, const ConstraintContext& context) {
-  return std::ranges::max(residuals(constraints_of(gains, context))) <= 0.0;
-}
-
 /// Examines gains for each mode alone in the runs of the mode: those by pole placement with wide
 /// boundary layers (with them, the objective is smaller for most vehicles), and the tuned gains made
 /// faster. With the ratio of these poles to those for all modes, they are made faster by its square
@@ -194,7 +191,8 @@ ModesAlone modes_alone(const Searched& s) {
   ModesAlone found;
   if (s.setting.modes().size() < 2) return found;
   const Gains<double>& tuned = s.settled.gains;
-  const double common_lambda = starting_poles(s.context, tuned.observer).front().heading.lambda;
+  const Gains<double> common_poles =
+      tuned.observer.is_on() ? starting_poles(s.context, tuned.observer).front() : s.poles;
   for (const YawMode mode : s.setting.modes()) {
     ConstraintContext context = s.context;
     context.mode = mode;
@@ -204,12 +202,12 @@ ModesAlone modes_alone(const Searched& s) {
     const Evaluation of_poles = objective(poles);
     const double tuned_s = of_tuned.trade_off.settling_time_s;
     const double poles_s = of_poles.trade_off.settling_time_s;
-    if (meets_limits(poles, context) && of_poles.valid && of_poles.objective < of_tuned.objective &&
-        poles_s < kMuchFaster * tuned_s) {
+    if (meets_constraints(poles, context) && of_poles.valid &&
+        of_poles.objective < of_tuned.objective && poles_s < kMuchFaster * tuned_s) {
       found.faster.push_back(
           {.mode = mode, .settling_time_s = poles_s, .tuned_settling_time_s = tuned_s});
     }
-    const double ratio = poles.heading.lambda / common_lambda;
+    const double ratio = poles.heading.lambda / common_poles.heading.lambda;
     for (const double factor : {std::sqrt(ratio), std::sqrt(std::sqrt(ratio))}) {
       const bool is_better =
           ratio > 1.0 && objective(slowed(tuned, factor)).objective < kBetter * of_tuned.objective;
@@ -222,8 +220,8 @@ ModesAlone modes_alone(const Searched& s) {
 /// Returns the result of tune() for the gains that the search selected. Errors (refused): no run
 /// settles.
 Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
-  const auto& [model, setting, context, options, requested, baseline, all, some, found, settled] =
-      s;
+  const auto& [model, setting, context, options, requested, baseline, poles, all, some, found,
+               settled] = s;
   AWMR_ASSIGN_OR_RETURN(std::vector<ActiveConstraint> active,
                         active_constraints(options, context, some, *found.best));
   const Evaluation tuned = all(settled.gains);
@@ -287,7 +285,8 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   }
   if (!found.best) return not_found(found, all, context, requested);
   return tuning_of(
-      {model, setting, context, options, requested, baseline, all, some, found, settled}, held_out);
+      {model, setting, context, options, requested, baseline, poles[0], all, some, found, settled},
+      held_out);
 }
 
 }  // namespace awmr

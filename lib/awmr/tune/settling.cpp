@@ -57,10 +57,6 @@ std::optional<SettlingChange> no_rate_limit(const ObjectiveSetting& setting,
                                     option_text("heading_rate_limit none"), *limit_degps)};
 }
 
-bool meets_constraints(const Gains<double>& gains, const ConstraintContext& context) {
-  return std::ranges::max(residuals(constraints_of(gains, context))) <= 0.0;
-}
-
 /// True if at least `share` of the runs settle with one of the sets of gains.
 bool any_settles(const ObjectiveSetting& setting, const std::vector<Gains<double>>& gains,
                  double share) {

@@ -280,8 +280,7 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
                                     .scenarios = std::move(scenarios),
                                     .tail_share = options.tail_share,
                                     .seed = options.seed,
-                                    .arithmetic = arithmetic,
-                                    .mode = options.mode},
+                                    .arithmetic = arithmetic},
                         .context = {},
                         .robust = {}};
   problem.context = context_of(options, plant, model.vehicle, problem.setting.scenarios);

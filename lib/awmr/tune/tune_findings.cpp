@@ -75,10 +75,9 @@ std::string advice_for(const std::string& scenario, YawMode mode,
          (found->changes.empty() ? no_change_settles(runs) : describe(found->changes, runs));
 }
 
-/// Runs of one scenario and mode of which fewer than 95 % settle.
+/// Runs of which fewer than 95 % settle, with the same advice.
 struct FewSettled {
-  std::string runs;    ///< "SCENARIO, MODE", or "MODE" with a single scenario
-  double share = 0.0;  ///< share of the runs that settle
+  std::string runs;    ///< share of each scenario and mode: "40 % (SCENARIO, MODE), 0 % (...)"
   std::string advice;  ///< advice_for()
 };
 
@@ -86,25 +85,21 @@ struct FewSettled {
 void add_unsettled(const std::string& scenario, YawMode mode, double share,
                    std::span<const UnsettledRuns> unsettled, std::vector<FewSettled>& few) {
   if (share >= kSettledShare) return;
-  few.push_back({fmt::format("{}{}{}", scenario, scenario.empty() ? "" : ", ", name_of(mode)),
-                 share, advice_for(scenario, mode, unsettled)});
+  const std::string runs = fmt::format("{:.0f} % ({}{}{})", 100.0 * share, scenario,
+                                       scenario.empty() ? "" : ", ", name_of(mode));
+  const std::string advice = advice_for(scenario, mode, unsettled);
+  const auto known = std::ranges::find(few, advice, &FewSettled::advice);
+  if (known == few.end()) {
+    few.push_back({runs, advice});
+  } else {
+    known->runs += ", " + runs;
+  }
 }
 
-/// The warnings `unsettled`: one for all runs with the same advice.
+/// The warnings `unsettled`.
 std::vector<Finding> unsettled_findings(std::span<const FewSettled> few) {
-  std::vector<std::pair<std::string, std::string>> runs_by_advice;
-  for (const FewSettled& one : few) {
-    const std::string runs = fmt::format("{:.0f} % ({})", 100.0 * one.share, one.runs);
-    const auto known =
-        std::ranges::find(runs_by_advice, one.advice, &std::pair<std::string, std::string>::first);
-    if (known == runs_by_advice.end()) {
-      runs_by_advice.emplace_back(one.advice, runs);
-    } else {
-      known->second += ", " + runs;
-    }
-  }
   std::vector<Finding> findings;
-  for (const auto& [advice, runs] : runs_by_advice) {
+  for (const auto& [runs, advice] : few) {
     findings.push_back(
         {"", 0, Severity::kWarning, "unsettled",
          fmt::format("of the runs with the tuned gains, {} settle after every heading step{}", runs,
@@ -138,10 +133,8 @@ void note_observer(const Tuning& tuning, std::vector<Finding>& findings) {
     findings.push_back(
         {"", 0, Severity::kWarning, "observer-added",
          fmt::format("fewer than {:g} % of the runs{} settle without a disturbance observer, so an "
-                     "observer "
-                     "with a bandwidth of {:.3g} rad/s was tuned, which the firmware runs{}. To "
-                     "tune without "
-                     "an observer: {}",
+                     "observer with a bandwidth of {:.3g} rad/s was tuned, which the firmware "
+                     "runs{}. To tune without an observer: {}",
                      100.0 * kSettledShare, in_mode, tuning.gains.observer.bandwidth_radps, in_mode,
                      option_text("no_observer"))});
   }
@@ -184,9 +177,8 @@ void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
         {"", 0, Severity::kNote, "gains-by-mode",
          fmt::format(
              "modes have gains of their own, because one set for all modes makes some slower "
-             "than they can be. simulate, compare, pil and the firmware use those of the "
-             "mode. For "
-             "one set: {}",
+             "than they can be. simulate, compare, pil and the firmware use those of the mode. "
+             "For one set: {}",
              option_text("one_set"))});
     return;
   }
@@ -247,10 +239,6 @@ std::vector<Finding> evaluation_findings(const RobustTuning& robust,
   std::ranges::move(unsettled_findings(few), std::back_inserter(findings));
   return findings;
 }
-
-}  // namespace
-
-namespace {
 
 /// Findings about one search: of one mode or of all modes.
 std::vector<Finding> search_findings(const Model& model, const TuneOptions& options,

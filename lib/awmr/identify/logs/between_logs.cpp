@@ -193,8 +193,8 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
 
 /// True if a disagreement of the logs on this term invalidates all intervals, because the other
 /// quantities absorb the effect of the term. These terms are the errors of steering and force
-/// commands (trim, dead band, asymmetry, curve, scale, imbalance, saturation, exponent) and the forces of
-/// extra_forces.h, except Stribeck friction.
+/// commands (trim, dead band, asymmetry, curve, scale, imbalance, saturation, exponent) and the
+/// forces of extra_forces.h, except Stribeck friction.
 bool invalidates_all(std::string_view name) {
   constexpr std::string_view kOfCommands[] = {
       kSteeringTrimName,  kSteeringDeadBandName, kSteeringAsymmetryName, kSteeringCurveName,

@@ -218,49 +218,52 @@ std::vector<Finding> servo_rate_findings(const LogFit& fit, const std::string& f
   return findings;
 }
 
+std::string curve_text(const LogFit& fit, const FoundTerm& curve) {
+  return fmt::format(
+      "the steering linkage is curved: at the stop the wheels steer {:.1f} +- {:.1f} % {} than in "
+      "proportion to small commands. The fit compensates this, but simulations and gains do "
+      "not{}; log the measured angle as steering_deg",
+      100.0 * std::abs(curve.value), 100.0 * curve.error,
+      curve.value > 0.0 ? "further" : "less far",
+      is_much_curved(fit) ? " (the yaw resistance gets no intervals, because the true form of the "
+                            "curve is unknown)"
+                          : "");
+}
+
 std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file) {
+  using Kind = FreeQuantity::Kind;
   std::vector<Finding> findings;
-  for (const FoundTerm& band : found_terms(fit, FreeQuantity::Kind::kSteeringDeadBand)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "steering-dead-band",
-         fmt::format(
-             "steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and "
-             "larger commands move them by this angle less. The fit compensates this, but "
-             "simulations and gains do not; reduce the play of the linkage, or increase the "
-             "magnitude of every command by {:.2f} deg before it is sent, and log the "
-             "commands without this increase",
-             degrees(band.value), degrees(band.error), degrees(band.value))});
-  }
-  for (const FoundTerm& asymmetry : found_terms(fit, FreeQuantity::Kind::kSteeringAsymmetry)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "steering-asymmetry",
-         fmt::format("at equal commands the wheels steer {:.1f} +- {:.1f} % further to the {} than "
-                     "the mean of both sides. The fit compensates this, but simulations and gains "
-                     "do not; adjust the linkage",
-                     100.0 * std::abs(asymmetry.value), 100.0 * asymmetry.error,
-                     asymmetry.value > 0.0 ? "left" : "right")});
-  }
-  for (const FoundTerm& curve : found_terms(fit, FreeQuantity::Kind::kSteeringCurve)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "steering-curve",
-         fmt::format("the steering linkage is curved: at the stop the wheels steer {:.1f} +- "
-                     "{:.1f} % {} than in proportion to small commands. The fit compensates this, "
-                     "but simulations and gains do not{}; log the measured angle as steering_deg",
-                     100.0 * std::abs(curve.value), 100.0 * curve.error,
-                     curve.value > 0.0 ? "further" : "less far",
-                     is_much_curved(fit) ? " (the yaw resistance gets no intervals, because the "
-                                           "true form of the curve is unknown)"
-                                         : "")});
-  }
-  for (const FoundTerm& scale : found_terms(fit, FreeQuantity::Kind::kSteeringScale)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "steering-scale",
-         fmt::format("the wheels steer to {:.3f} +- {:.3f} times the logged commands, in addition "
-                     "to the curve or asymmetry of the linkage. The fit compensates this, but "
-                     "simulations and gains do not; map steering_cmd_deg to the angle of the "
-                     "wheels, or log the measured angle as steering_deg",
-                     1.0 + scale.value, scale.error)});
-  }
+  const auto add = [&](Kind kind, const char* code, const auto& text) {
+    for (const FoundTerm& term : found_terms(fit, kind)) {
+      findings.push_back({file, 0, Severity::kWarning, code, text(term)});
+    }
+  };
+  add(Kind::kSteeringDeadBand, "steering-dead-band", [](const FoundTerm& band) {
+    return fmt::format(
+        "steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and larger commands "
+        "move them by this angle less. The fit compensates this, but simulations and gains do "
+        "not; reduce the play of the linkage, or increase the magnitude of every command by "
+        "{:.2f} deg before it is sent, and log the commands without this increase",
+        degrees(band.value), degrees(band.error), degrees(band.value));
+  });
+  add(Kind::kSteeringAsymmetry, "steering-asymmetry", [](const FoundTerm& asymmetry) {
+    return fmt::format(
+        "at equal commands the wheels steer {:.1f} +- {:.1f} % further to the {} than the mean of "
+        "both sides. The fit compensates this, but simulations and gains do not; adjust the "
+        "linkage",
+        100.0 * std::abs(asymmetry.value), 100.0 * asymmetry.error,
+        asymmetry.value > 0.0 ? "left" : "right");
+  });
+  add(Kind::kSteeringCurve, "steering-curve",
+      [&](const FoundTerm& curve) { return curve_text(fit, curve); });
+  add(Kind::kSteeringScale, "steering-scale", [](const FoundTerm& scale) {
+    return fmt::format(
+        "the wheels steer to {:.3f} +- {:.3f} times the logged commands, in addition to the curve "
+        "or asymmetry of the linkage. The fit compensates this, but simulations and gains do not; "
+        "map steering_cmd_deg to the angle of the wheels, or log the measured angle as "
+        "steering_deg",
+        1.0 + scale.value, scale.error);
+  });
   return findings;
 }
 

@@ -70,8 +70,8 @@ void raise_to_power(const CommandPath& path, DelayedCommand& at) {
 }
 
 /// Replaces the steering command c by the angle to which the linkage steers, with its derivatives.
-/// b: dead band; e: asymmetry; k: curve; q: scale error; d_max: steering stop. With s = sgn c and the part of the
-/// command beyond the dead band, c_b = c - s b (0 if |c| < b), the angle is
+/// b: dead band; e: asymmetry; k: curve; q: scale error; d_max: steering stop. With s = sgn c and
+/// the part of the command beyond the dead band, c_b = c - s b (0 if |c| < b), the angle is
 ///
 ///     (1 + q) (1 + s e) c_b (1 + k (c_b/d_max)^2)
 void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {

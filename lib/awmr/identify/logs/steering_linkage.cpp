@@ -32,15 +32,18 @@ bool is_stop_reached_in(const FitWindow& window, CommandPath path) {
   return false;
 }
 
-/// Exchanges the two limits (steering_linkage.h).
-void exchange_stop(std::vector<FreeQuantity>& quantities) {
-  const bool limits_command = std::ranges::any_of(quantities, &FreeQuantity::is_beyond_stop);
-  for (FreeQuantity& q : quantities) q.is_beyond_stop = q.is_of_linkage() && !limits_command;
+/// True if the stop limits the command, false if it limits the angle.
+bool limits_command(const std::vector<FreeQuantity>& quantities) {
+  return std::ranges::any_of(quantities, &FreeQuantity::is_beyond_stop);
+}
+
+/// Sets which of the two the stop limits, in an error of the linkage.
+void set_limit(bool is_of_command, FreeQuantity& q) {
+  q.is_beyond_stop = q.is_of_linkage() && is_of_command;
 }
 
 std::string_view limited_by_stop(const FamilyFit& fit) {
-  return std::ranges::any_of(fit.fit.quantities, &FreeQuantity::is_beyond_stop) ? "command"
-                                                                                : "angle";
+  return limits_command(fit.fit.quantities) ? "command" : "angle";
 }
 
 /// Coordinate of the quantity with this name. Precondition: the fit has it.
@@ -115,7 +118,8 @@ bool is_stop_reached(const LogProblem& problem, const SearchPoint& point) {
 std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Loss loss) {
   if (!is_stop_reached(settled.problem, settled.point)) return std::nullopt;
   LogProblem problem = with_white_noise(settled.problem);
-  exchange_stop(problem.model.quantities);
+  const bool limits_other = !limits_command(problem.model.quantities);
+  for (FreeQuantity& q : problem.model.quantities) set_limit(limits_other, q);
   NoiseIteration fit = settle_noise(std::move(problem), settled.point, loss);
   if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
   return fit;
@@ -127,10 +131,8 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
   LogFitOptions options = from_optimum(chosen.options, chosen);
   const LogProblem problem = log_problem(logs, options);
   if (!is_stop_reached(problem, from_measured(problem, problem.initial))) return std::nullopt;
-  const bool limits_command = limited_by_stop(chosen) == "command";
-  for (FreeTerm& term : options.terms) {
-    term.quantity.is_beyond_stop = term.quantity.is_of_linkage() && !limits_command;
-  }
+  const bool limits_other = !limits_command(chosen.fit.quantities);
+  for (FreeTerm& term : options.terms) set_limit(limits_other, term.quantity);
   FamilyFit other = fit_with(logs, options, chosen.surge, chosen.yaw);
   if (!other.fit.usable) return std::nullopt;
   if (aic_lead(other.fit, chosen.fit) > 0.0) std::swap(other, chosen);
