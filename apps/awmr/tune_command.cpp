@@ -8,7 +8,6 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/option_text.h"
-#include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/tune_file.h"
@@ -113,10 +112,6 @@ Result<ChosenConfig> config_of(const TuneCommand& command, Model& model) {
     if (options.baseline && options.baseline->source != kPaperSource) {
       config.baseline_file = *command.baseline;
     }
-  }
-  if (config.baseline_file && options.mode) {
-    AWMR_ASSIGN_OR_RETURN(const ModeGains gains, read_mode_gains(*config.baseline_file));
-    options.baseline->gains = gains.in(*options.mode);
   }
   return ChosenConfig{std::move(config), findings};
 }

@@ -102,8 +102,9 @@ std::string steering_note(const std::vector<EvaluatedGains>& all) {
     });
   });
   if (!steers) return {};
-  return "  steer: rate of the steering command in the whole run, turns included. The limit of "
-         "tune.json,\n  limits/steering_rate_rms_degps, applies only to the part caused by noise "
+  return "  steer: RMS rate of the steering command in the whole run, turns included. The limit "
+         "of\n  "
+         "tune.json, limits/steering_rate_rms_degps, applies only to the part caused by noise "
          "while a heading is held\n";
 }
 
@@ -115,23 +116,22 @@ std::string evaluation_table(const std::vector<EvaluatedGains>& all,
   if (all.empty()) return {};
   const std::vector<EvaluatedGains>& rows = by_scenario.empty() ? all : by_scenario;
   std::string text =
-      fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "fresh draws", "gains",
+      fmt::format("  {:<12} {:<10} {:>7} {:>14} {:>10} {:>9} {:>11}\n", "fresh draws", "gains",
                   "settled", "settling s", "overs. deg", "IAE deg s", "steer deg/s");
-  text += fmt::format("  {:<13} {:<9} {:>8} {:>10} {:>10} {:>10} {:>11}\n", "", "", "%", "95 %",
-                      "95 %", "95 %", "RMS, 95 %");
+  text += fmt::format("  {:<12} {:<10} {:>7} {:>7} {:>6} {:>10} {:>9} {:>11}\n", "", "", "%",
+                      "median", "95 %", "95 %", "95 %", "95 %");
   std::string_view scenario;
   for (const EvaluatedGains& evaluated : rows) {
     if (evaluated.scenario != scenario) text += fmt::format("  {}\n", evaluated.scenario);
     scenario = evaluated.scenario;
-    const auto q95 = [&](std::string_view name) {
-      const auto figure = std::find_if(evaluated.figures.begin(), evaluated.figures.end(),
-                                       [&](const EvaluatedFigure& f) { return f.name == name; });
-      return figure->q95;
+    const auto figure = [&](std::string_view name) {
+      return *std::ranges::find(evaluated.figures, name, &EvaluatedFigure::name);
     };
-    text += fmt::format("  {:<13} {:<9} {:>8.0f} {:>10.2f} {:>10.2f} {:>10.1f} {:>11.1f}\n",
+    const EvaluatedFigure settling_s = figure("settling_time_s");
+    text += fmt::format("  {:<12} {:<10} {:>7.0f} {:>7.2f} {:>6.2f} {:>10.2f} {:>9.1f} {:>11.1f}\n",
                         name_of(evaluated.mode), evaluated.gains, 100.0 * evaluated.completed_share,
-                        q95("settling_time_s"), q95("overshoot_deg"), q95("heading_iae_degs"),
-                        q95("steering_rate_rms_degps"));
+                        settling_s.median, settling_s.q95, figure("overshoot_deg").q95,
+                        figure("heading_iae_degs").q95, figure("steering_rate_rms_degps").q95);
   }
   return text + steering_note(rows);
 }
@@ -163,8 +163,8 @@ std::string table_of(const Tuning& tuning) {
                   "mu", "epsilon", "mu_s", "eps_s", "T1 s", "T2 s", "objective");
   const bool is_known =
       tuning.baseline.source == kPolePlacement || tuning.baseline.source == kPaperSource;
-  text += gains_line(is_known ? tuning.baseline.source.c_str() : "baseline", tuning.baseline.gains,
-                     tuning.baseline_objective);
+  text += gains_line(is_known ? tuning.baseline.source.c_str() : "baseline",
+                     tuning.baseline.gains.common(), tuning.baseline_objective);
   text += gains_line("tuned", tuning.gains, tuning.objective);
   if (const ObserverGains<double>& observer = tuning.gains.observer; observer.is_on()) {
     text += fmt::format("  observer       {:.4g} rad/s, at most {:.4g} m and {:.4g} of F_max\n",

@@ -192,7 +192,7 @@ TEST_P(Tuned, MeetsEveryConstraintAndBeatsPolePlacementWhenSimulatedAgain) {
     if (!c.required) continue;
     EXPECT_GE(c.margin, 0.0) << c.name;
   }
-  const double mean = mean_objective(options, tuning->gains, tuning->baseline.gains);
+  const double mean = mean_objective(options, tuning->gains, tuning->baseline.gains.common());
   EXPECT_LT(mean, 1.0);
   // Tolerance: the same metrics, summed in another order.
   EXPECT_NEAR(tuning->objective, mean, 1e-12);
@@ -243,7 +243,7 @@ TEST(Tune, TakesTheLeastMuThatScoresAsWell) {
     Gains<double> gains = tuning.gains;
     gains.heading.epsilon *= mu / gains.heading.mu;
     gains.heading.mu = mu;
-    return mean_objective(options, gains, tuning.baseline.gains);
+    return mean_objective(options, gains, tuning.baseline.gains.common());
   };
   const double own = with_mu(heading.mu);
   EXPECT_NEAR(own, tuning.objective, 1e-9);
@@ -269,7 +269,7 @@ TEST(Tune, NamesTheActiveConstraintAndItsCost) {
   // 0.15/0.9.
   options.margin = 0.15 / 0.9;
   const Tuning wider = tune(paper_model(), options).value();
-  const double objective = mean_objective(options, wider.gains, tuning.baseline.gains);
+  const double objective = mean_objective(options, wider.gains, tuning.baseline.gains.common());
   EXPECT_NEAR(held->wider_gains, 1.0 - objective / tuning.objective, 0.01);
 }
 
@@ -566,7 +566,7 @@ TEST(Observed, AnObserverCompensatesAConstantDisturbance) {
   // have left at 1 m/s.
   EXPECT_NEAR(observer.yaw_max_m, 0.5 * 0.35 * 1.3268 * std::tan(radians(10.0)), 1e-12);
   EXPECT_NEAR(observer.surge_max, 0.5 * (4.0 - 1.3268), 1e-12);
-  EXPECT_FALSE(tuning->baseline.gains.observer.is_on());
+  EXPECT_FALSE(tuning->baseline.gains.common().observer.is_on());
   for (const ConstraintReport& c : tuning->constraints) {
     EXPECT_TRUE(!c.required || c.margin >= 0.0) << c.name;
   }

@@ -27,7 +27,7 @@ std::string row_of(const TestVehicle& vehicle, const Scenario& scenario, const T
     row += fmt::format(" {:.3g}, {:.3g}, {:.3g} |", g.heading.lambda,
                        g.heading.mu / g.heading.epsilon, g.speed.mu / g.speed.epsilon);
   };
-  put(tuning.baseline.gains);
+  put(tuning.baseline.gains.common());
   put(tuning.gains);
   row += fmt::format(" {:.3f} |", tuning.objective);
   if (!tuning.robust) return row;

@@ -175,7 +175,7 @@ Json search_json(const Tuning& tuning) {
 }
 
 Json baseline_json(const Tuning& tuning) {
-  Json json = gains_to_json(tuning.baseline.gains);
+  Json json = gains_to_json(tuning.baseline.gains.common());
   json["source"] = tuning.baseline.source;
   json["objective"] = tuning.baseline_objective;
   json["metrics"] = scores_json(tuning.baseline_scores);

@@ -10,8 +10,6 @@ namespace {
 
 /// A mode uses gains of its own if they lower its objective to at most this share.
 constexpr double kWorthOwnGains = 0.95;
-/// Largest decrease of the share of settled runs in a mode.
-constexpr double kSettlesLess = 0.05;
 
 /// Removes the elements of other modes.
 template <class Results>
@@ -36,10 +34,10 @@ Tuning in_mode(Tuning tuning, YawMode mode) {
 
 /// True if the gains `own` are clearly better than the gains `common` in the runs of one mode.
 bool is_better(const Gains<double>& own, const Tuning& common, const ObjectiveSetting& runs) {
-  const Objective objective(runs, common.baseline.gains);
+  const Objective objective(runs, common.baseline.gains.common());
   const double limit = kWorthOwnGains * objective(common.gains).objective;
   return objective(own).objective <= limit &&
-         settled_share(runs, own) >= settled_share(runs, common.gains) - kSettlesLess;
+         settled_share(runs, own) >= settled_share(runs, common.gains);
 }
 
 }  // namespace

@@ -38,6 +38,14 @@ ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) 
   return setting;
 }
 
+/// The baseline of one search: the given gains for its mode (for all modes: those of combined mode),
+/// or gains by pole placement.
+Baseline baseline_of(const TuneOptions& options, const Gains<double>& poles) {
+  if (!options.baseline) return {poles, kPolePlacement};
+  const auto& [gains, source] = *options.baseline;
+  return {gains.in(options.mode.value_or(YawMode::kCombined)), source};
+}
+
 Status check_baseline(const Objective& objective, const Baseline& baseline) {
   if (objective.baseline().valid) return {};
   return input_error(ErrorCode::kDiverges, baseline.source,
@@ -62,7 +70,8 @@ constexpr double kStartBandwidths[] = {0.5, 1.0, 2.0};
 /// (feasible_near()), or left out if there are none.
 std::vector<Gains<double>> starts_of(const TuneOptions& options, const ConstraintContext& context,
                                      const Gains<double>& first,
-                                     std::span<const Gains<double>> poles) {
+                                     std::span<const Gains<double>> poles,
+                                     const Baseline& baseline) {
   std::vector<std::function<Gains<double>()>> proposed;
   for (const Gains<double>& other : poles.subspan(1)) proposed.push_back([other] { return other; });
   for (const double share : kSlowerStarts) {
@@ -76,7 +85,7 @@ std::vector<Gains<double>> starts_of(const TuneOptions& options, const Constrain
                             {bandwidth_radps, *observer->yaw_max_m, *observer->surge_max})[0];
     });
   }
-  if (options.baseline) proposed.push_back([&] { return options.baseline->gains; });
+  if (options.baseline) proposed.push_back([&] { return baseline.gains.common(); });
   std::vector<Candidate> near(proposed.size());
   parallel_for(proposed.size(), 0,
                [&](std::size_t i) { near[i] = feasible_near(options, context, proposed[i]()); });
@@ -171,7 +180,7 @@ Evaluation evaluated_in(const Searched& s, const Scenario& held_out) {
   ObjectiveSetting elsewhere = s.setting;
   elsewhere.scenarios = {held_out};
   elsewhere.goals.clear();
-  return Objective(std::move(elsewhere), s.baseline.gains)(s.settled.gains);
+  return Objective(std::move(elsewhere), s.baseline.gains.common())(s.settled.gains);
 }
 
 /// Modes in which gains for this mode alone can be better than the tuned gains.
@@ -196,7 +205,8 @@ ModesAlone modes_alone(const Searched& s) {
   for (const YawMode mode : s.setting.modes()) {
     ConstraintContext context = s.context;
     context.mode = mode;
-    const Objective objective(on_few_vehicles(runs_in(s.setting, {}, mode)), s.baseline.gains);
+    const Objective objective(on_few_vehicles(runs_in(s.setting, {}, mode)),
+                              s.baseline.gains.common());
     const Evaluation of_tuned = objective(tuned);
     const Gains<double> poles = starting_poles(context, tuned.observer).front();
     const Evaluation of_poles = objective(poles);
@@ -230,35 +240,36 @@ Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
                         certify(model, context, options.open, settled.gains));
   const Evaluation evaluated = evaluated_in(s, held_out);
   ModesAlone alone = modes_alone(s);
-  return Tuning{.gains = settled.gains,
-                .constraints = constraints_of(settled.gains, context),
-                .objective = tuned.objective,
-                .scores = tuned.scores,
-                .baseline = baseline,
-                .limits = context.limits,
-                .examined = {context.speed_mps, context.step_rad, context.fastest_radps},
-                .baseline_objective = all.baseline().objective,
-                .baseline_scores = all.baseline().scores,
-                .baseline_violates = violated_by_baseline(baseline.gains, all, context, requested),
-                .algorithm = found.algorithm,
-                .evaluations = found.evaluations,
-                .stop_reason = found.stop_reason,
-                .seed = options.seed,
-                .simulated = found.simulated,
-                .mu_as_good = settled.mu,
-                .speed_mu_as_good = settled.speed_mu,
-                .active = std::move(active),
-                .arithmetic = std::string(setting.arithmetic.rounding),
-                .history = found.history,
-                .held_out_scores = evaluated.scores,
-                .held_out_objective = evaluated.objective,
-                .certificate = std::move(certificate),
-                .trade_off = trade_off_of(some, context, found.met, settled.gains, baseline.gains),
-                .observer_added = false,
-                .unsettled = {},
-                .alone = std::move(alone.faster),
-                .is_mode_better_alone = alone.is_any_better,
-                .robust = {}};
+  return Tuning{
+      .gains = settled.gains,
+      .constraints = constraints_of(settled.gains, context),
+      .objective = tuned.objective,
+      .scores = tuned.scores,
+      .baseline = baseline,
+      .limits = context.limits,
+      .examined = {context.speed_mps, context.step_rad, context.fastest_radps},
+      .baseline_objective = all.baseline().objective,
+      .baseline_scores = all.baseline().scores,
+      .baseline_violates = violated_by_baseline(baseline.gains.common(), all, context, requested),
+      .algorithm = found.algorithm,
+      .evaluations = found.evaluations,
+      .stop_reason = found.stop_reason,
+      .seed = options.seed,
+      .simulated = found.simulated,
+      .mu_as_good = settled.mu,
+      .speed_mu_as_good = settled.speed_mu,
+      .active = std::move(active),
+      .arithmetic = std::string(setting.arithmetic.rounding),
+      .history = found.history,
+      .held_out_scores = evaluated.scores,
+      .held_out_objective = evaluated.objective,
+      .certificate = std::move(certificate),
+      .trade_off = trade_off_of(some, context, found.met, settled.gains, baseline.gains.common()),
+      .observer_added = false,
+      .unsettled = {},
+      .alone = std::move(alone.faster),
+      .is_mode_better_alone = alone.is_any_better,
+      .robust = {}};
 }
 
 }  // namespace
@@ -271,11 +282,12 @@ Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,
   bound_around(poles, options.bounds);
   const Candidate first = feasible_start(options, context, poles[0]);
   if (first.violation > 0.0) return infeasible(first, context, requested);
-  const std::vector<Gains<double>> starts = starts_of(options, context, first.gains, poles);
-  const Baseline baseline = options.baseline.value_or(Baseline{poles[1], kPolePlacement});
-  const Objective all(setting, baseline.gains);
+  const Baseline baseline = baseline_of(options, poles[1]);
+  const std::vector<Gains<double>> starts =
+      starts_of(options, context, first.gains, poles, baseline);
+  const Objective all(setting, baseline.gains.common());
   AWMR_RETURN_IF_ERROR(check_baseline(all, baseline));
-  const Objective some(searched(setting, options), baseline.gains);
+  const Objective some(searched(setting, options), baseline.gains.common());
   AWMR_ASSIGN_OR_RETURN(const SearchResult found, search(options, context, some, all, starts));
   SettledGains settled{found.nearest.gains, {}, {}};
   if (found.best) settled = settle(options, context, some, all, *found.best);

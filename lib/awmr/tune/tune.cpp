@@ -106,7 +106,7 @@ constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 /// ones without their observer.
 std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   std::vector<NamedCandidate> candidates{{kRobustGains, tuning.gains},
-                                         {"baseline", tuning.baseline.gains}};
+                                         {"baseline", tuning.baseline.gains.common()}};
   if (tuning.baseline.source != kPaperSource) candidates.push_back({"paper", kPaperGains});
   if (tuning.gains.observer.is_on()) {
     Gains<double> unobserved = tuning.gains;

@@ -96,8 +96,9 @@ struct ExaminedRange {
 };
 
 /// Reference gains of the objective: each metric of a run is divided by its value with these gains.
+/// A search for one mode uses the gains of this mode, a search for all modes those of combined mode.
 struct Baseline {
-  Gains<double> gains{};
+  ModeGains gains{};
   /// kPolePlacement, kPaperSource or the file from which the gains were read.
   std::string source;
 };

@@ -176,7 +176,7 @@ TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& dir
 Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name) {
   if (name == kPolePlacement) return std::nullopt;
   if (name == kPaperSource) return Baseline{kPaperGains, kPaperSource};
-  AWMR_ASSIGN_OR_RETURN(const Gains<double> gains, read_gains(name));
+  AWMR_ASSIGN_OR_RETURN(const ModeGains gains, read_mode_gains(name));
   return Baseline{gains, name.string()};
 }
 
