@@ -8,6 +8,7 @@
 
 #include "awmr/core/file.h"
 #include "awmr/core/option_text.h"
+#include "awmr/model/gains_file.h"
 #include "awmr/model/model_file.h"
 #include "awmr/tune/option_table.h"
 #include "awmr/tune/tune_file.h"

@@ -46,6 +46,7 @@ class Counted {
   friend bool operator<=(Counted a, Counted b) { return a.value_ <= b.value_; }
   friend bool operator>=(Counted a, Counted b) { return a.value_ >= b.value_; }
 
+  friend Counted value_of(Counted a) { return a; }
   friend Counted abs(Counted a) { return std::abs(a.value_); }
   friend Counted sqrt(Counted a) { return tally(operations.roots, std::sqrt(a.value_)); }
   friend Counted hypot(Counted a, Counted b) { return sqrt(a * a + b * b); }

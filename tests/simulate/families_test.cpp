@@ -134,10 +134,23 @@ TEST(FrontWheelDrive, HoldsSpeedAndHeadingInEveryModeWithAndWithoutBackEmf) {
 TEST(Families, AForceBelowCoulombFrictionDoesNotMoveAVehicleAtRest) {
   const Plant<double> plant = plant_of({.alpha = 1.0, .beta = 1.0, .coulomb = 0.3}, 0.0);
   const awmr::Run run = run_open_loop(plant, {}, 5.0, {0.25, 0.0});
-  // Below 1 mm/s the resistance is replaced by a straight line through the origin (the chord), so
-  // the vehicle creeps: by less than 5 mm in 5 s.
-  EXPECT_LT(std::abs(run.rows.back().state.u_mps), 1e-3);
-  EXPECT_LT(run.rows.back().state.x_m, 5e-3);
+  EXPECT_EQ(run.rows.back().state.u_mps, 0.0);
+  EXPECT_EQ(run.rows.back().state.x_m, 0.0);
+}
+
+TEST(Families, CoulombFrictionStopsAVehicleAtTheStopTime) {
+  const Plant<double> plant = plant_of({.alpha = 1.0, .beta = 1.0, .coulomb = 0.3}, 0.0);
+  State<double> start{};
+  start.u_mps = 1.5;
+  const double stop_s = *stop_time_s(plant.surge, plant.mass_norm, start.u_mps);
+  const awmr::Run run = run_open_loop(plant, start, 2.0 * stop_s, {0.0, 0.0});
+  for (const RunRow& row : run.rows) {
+    if (row.t_s < stop_s - 0.01) {
+      EXPECT_GT(row.state.u_mps, 0.0) << row.t_s;
+    } else if (row.t_s > stop_s + 0.01) {
+      EXPECT_EQ(row.state.u_mps, 0.0) << row.t_s;
+    }
+  }
 }
 
 TEST(Families, TheControllerHoldsSpeedAndHeadingWithEveryOne) {

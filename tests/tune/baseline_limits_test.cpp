@@ -57,7 +57,7 @@ TEST(BaselineLimits, ExplainAnObjectiveAboveThatOfTheBaseline) {
   EXPECT_GT(tuning->objective, tuning->baseline_objective);
   ASSERT_THAT(names_of(tuning->baseline_violates), ElementsAre("bounds/lambda"));
   const ConstraintReport& lambda = tuning->baseline_violates.front();
-  EXPECT_EQ(lambda.value, tuning->baseline.gains.heading.lambda);
+  EXPECT_EQ(lambda.value, tuning->baseline.gains.common().heading.lambda);
   EXPECT_EQ(lambda.limit, 0.6);
   EXPECT_EQ(lambda.sense, Sense::kAtMost);
   EXPECT_EQ(lambda.margin, 0.6 - lambda.value);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "awmr/model/resolved_steps.h"
+#include "awmr/model/sliding.h"
 #include "awmr/model/tyres.h"
 #include "awmr/simulate/world.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "awmr/core/gravity.h"
-#include "awmr/model/rest.h"
+#include "awmr/model/sliding.h"
 #include "awmr/simulate/simulate.h"
 
 namespace awmr {
@@ -53,7 +53,9 @@ double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_
 /// The step is also limited so that a chord replaces the resistance g (g1 or g3) only below
 /// kChordSpeed. This is the equation of rest_speed() solved for h; the inertia is m' or I'z:
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
-StepLimit step_limit(const Plant<double>& plant, bool on_tyres) {
+/// Coulomb friction needs a chord only on tyres (resolved_at_rest()).
+StepLimit step_limit(const Plant<double>& with_friction, bool on_tyres) {
+  const Plant<double> plant = on_tyres ? with_friction : without_friction(with_friction);
   StepLimit limit{plant.steering_time_constant_s / kStepsPerTimeConstant,
                   ParameterId::kSteeringTimeConstant};
   const auto at_most = [&limit](double step_s, ParameterId parameter) {
@@ -126,7 +128,7 @@ void Physics::step(double t_s, const SideForces<double>& force, double steering_
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario,
                                double step_s) {
   return scenario.tyres ? resolved_at_rest_on_tyres(plant, step_s)
-                        : resolved_at_rest(plant, step_s);
+                        : resolved_at_rest(without_friction(plant), step_s);
 }
 
 bool forces_differ_by_wheel(const Scenario& scenario) {

@@ -65,10 +65,11 @@ double battery_share(const Battery& battery, double t_s);
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
               double& steering_command_rad);
 
-/// Returns the plant with its resistances near rest replaced by straight lines through the origin
-/// (chords, rest.h). Near rest, a resistance can be too steep for integration steps of step_s
-/// seconds. On tyres, the surge resistance g1 acts at the wheels, and its chord is chosen for them
-/// (resolved_at_rest_on_tyres()).
+/// Returns the plant to integrate in steps of step_s seconds. Its resistances near rest are replaced
+/// by straight lines through the origin (chords, rest.h) where they are too steep for such steps.
+/// It has no Coulomb friction, which is added step by step (sliding.h). On tyres, the surge
+/// resistance g1 acts at the wheels; Coulomb friction is then part of the chord, which is chosen for
+/// the wheels (resolved_at_rest_on_tyres()).
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
 /// Longest RK4 step for the plant's time constants that do not depend on speed. `parameter` is the
@@ -94,13 +95,18 @@ template <class Row>
 void set_up_vehicle(const Plant<double>& plant, double force_max, const Scenario& scenario,
                     double sample_time_s, int substeps, std::size_t run, Vehicles<Row>& v) {
   const double step_s = sample_time_s / substeps;
+  const bool is_on_tyres = scenario.tyres.has_value();
+  const FrictionRates<double> friction =
+      is_on_tyres ? FrictionRates<double>{} : friction_rates(plant);
   put(resolved_at_rest(plant, scenario, step_s), run, v.plant);
+  put(friction, run, v.friction);
   put(step_s, run, v.step_s);
   put(static_cast<double>(substeps), run, v.substeps);
   put(force_max, run, v.force_most);
   put(scenario.initial, run, v.state);
   put(1.0, run, v.active);
   VehicleSetup& setup = v.setup;
+  setup.has_friction = setup.has_friction || friction.any();
   setup.has_back_emf = setup.has_back_emf || plant.back_emf_s_per_m > 0.0;
   setup.has_scrub = setup.has_scrub || plant.yaw_scrub_m > 0.0;
   setup.is_front_driven = setup.is_front_driven || plant.rear_driven < 1.0;

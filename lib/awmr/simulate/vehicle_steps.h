@@ -16,6 +16,7 @@ struct VehicleSetup {
   bool is_by_wheel = false;  ///< true: front and rear wheel of a side can have different forces
   bool is_on_tyres = false;
   Tyres<double> tyres;            ///< valid if is_on_tyres
+  bool has_friction = false;      ///< any vehicle not on tyres has Coulomb friction
   bool has_back_emf = false;      ///< any vehicle has back-EMF
   bool has_scrub = false;         ///< any vehicle has scrub
   bool is_front_driven = false;   ///< true: at least one vehicle has front-wheel drive
@@ -32,10 +33,11 @@ struct Vehicles {
   Row active;
 
   // Constant over a run.
-  Plant<Row> plant;  ///< result of resolved_at_rest(): near rest, resistances are straight lines
-  Row step_s;        ///< h: integration step, s
-  Row substeps;      ///< RK4 steps per sample
-  Row force_most;    ///< largest motor command divided by F_max, including the dead zone
+  Plant<Row> plant;             ///< result of resolved_at_rest() (physics.h)
+  FrictionRates<Row> friction;  ///< Coulomb friction that `plant` does not contain
+  Row step_s;                   ///< h: integration step, s
+  Row substeps;                 ///< RK4 steps per sample
+  Row force_most;               ///< largest motor command divided by F_max, including the dead zone
 
   // State of a run.
   State<Row> state;
@@ -141,6 +143,18 @@ struct RungeKutta4 {
   }
 };
 
+/// A step of another integrator with Coulomb friction added (sliding.h).
+template <class T, class Stepper>
+struct WithFriction {
+  FrictionRates<T> friction;
+  Stepper stepper;
+
+  template <class Rates>
+  State<T> operator()(const State<T>& from, const T& h, const Rates& rates) const {
+    return step_with_friction(friction, from, h, rates, stepper);
+  }
+};
+
 /// Integrates the active vehicles over a sample, with constant forces. `rates(body, state, steering
 /// command)` returns the time derivatives of the state.
 template <bool kIsOnTyres, class View, class Row, class Rates, class Stepper>
@@ -204,6 +218,9 @@ void move(const View& view, Vehicles<Row>& v, const Stepper& stepper = {}) {
     } else {
       move_pushed<true>(view, v, force, stepper);
     }
+  } else if (setup.has_friction) {
+    const WithFriction<T, Stepper> sliding{view(v.friction), stepper};
+    move_pushed<false>(view, v, acting_forces(view, v), sliding);
   } else if (setup.is_by_wheel) {
     move_pushed<false>(view, v, WheelForces<T>(view(v.wheels)), stepper);
   } else if (setup.has_back_emf || setup.has_scrub || setup.is_front_driven ||

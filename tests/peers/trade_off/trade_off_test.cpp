@@ -40,7 +40,7 @@ TEST_P(TradeOff, TunedGainsAreOnTheIndependentFront) {
   ASSERT_TRUE(tuning) << to_text(tuning.error());
   const Case one = case_of(model, *scenarios, tuning->limits, tuning->examined, 16);
   const LawGains tuned = law_gains(tuning->gains);
-  const LawGains baseline = law_gains(tuning->baseline.gains);
+  const LawGains baseline = law_gains(tuning->baseline.gains.common());
 
   // `tune` checks the limits for the model's own vehicle, so the independent implementation must
   // confirm them. The two computations of the steering rate agree to 1e-4.
@@ -95,7 +95,8 @@ TEST(IndependentSimulator, AgreesWithTheLibraryOnSettlingAndActivity) {
   const std::vector<Trial> trials = with_noise(one, drawn_bodies(model, 24, 6), 12);
   for (const NamedTradeOff& named : tuning->trade_off.named) {
     if (named.gains != "tuned" && named.gains != "baseline") continue;
-    const Gains<double>& gains = named.gains == "tuned" ? tuning->gains : tuning->baseline.gains;
+    const Gains<double>& gains =
+        named.gains == "tuned" ? tuning->gains : tuning->baseline.gains.common();
     const Controls controls{one.model, law_gains(gains)};
     const Means means = means_of(one, trials, controls);
     // Means over 5 and 24 draws whose settling times scatter by 5 %: 3 sqrt(1/5 + 1/24) 5 % = 7 %.

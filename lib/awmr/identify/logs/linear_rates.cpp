@@ -273,7 +273,7 @@ void hold(double& rate, LinearRates& out) {
 
 }  // namespace
 
-void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out) {
+void add_friction(const LinearPlant& p, const Sliding<double>& way, LinearRates& out) {
   StateSlopes& a = out.by_state;
   if (is_held(way.surge, p.friction.surge_mps2)) {
     hold<&DrivenSlopes::u>(out.rates.u_mps, out);

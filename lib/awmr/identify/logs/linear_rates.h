@@ -126,6 +126,6 @@ void linear_rates(const LinearPlant& p, const State<double>& s, const HeldComman
 /// Adds the friction at rest to the rates of u and r. `way`: direction of u and r; 0 for a speed
 /// that friction holds at 0. The rate of such a speed and the derivatives of this rate are set to
 /// 0.
-void add_friction(const LinearPlant& p, const Sliding& way, LinearRates& out);
+void add_friction(const LinearPlant& p, const Sliding<double>& way, LinearRates& out);
 
 }  // namespace awmr

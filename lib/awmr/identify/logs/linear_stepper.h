@@ -100,7 +100,7 @@ class LinearStepper {
   std::size_t columns_;
   CommandColumns command_columns_;
   std::vector<Term> terms_;
-  Sliding way_;
+  Sliding<double> way_;
   LinearRates rates_;
   std::array<StateSlopes, kStages> slopes_{};
   std::optional<std::size_t> change_column_;  ///< of the change that acted last

@@ -97,6 +97,8 @@ AWMR_LANE_INLINE Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
   return xsimd::fma(a.value, b.value, c.value);
 #endif
 }
+/// The value of a number without derivatives (model/rest.h).
+AWMR_LANE_INLINE Lanes value_of(const Lanes& a) { return a; }
 AWMR_LANE_INLINE Lanes abs(const Lanes& a) { return xsimd::abs(a.value); }
 AWMR_LANE_INLINE Lanes larger(const Lanes& a, const Lanes& b) {
   return xsimd::max(b.value, a.value);
