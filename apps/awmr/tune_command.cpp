@@ -210,8 +210,8 @@ Result<Outcome> execute(const TuneCommand& command) {
 void add_tune(CLI::App& app, Session& session) {
   auto command = std::make_shared<TuneCommand>();
   CLI::App* sub = add_command(app, session, "tune",
-                              "Tune the gains of the heading and speed laws, with sliding surfaces "
-                              "that are reached faster (T2) than errors decay on them (T1)",
+                              "Tune the gains of the heading and speed laws; they reach the "
+                              "sliding surface faster (T2) than errors decay on it (T1)",
                               "awmr tune --model model.json -o gains.json",
                               [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();

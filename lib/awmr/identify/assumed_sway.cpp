@@ -87,11 +87,11 @@ void assume_sway(const TrialData& data, MainValues& values) {
   model.record.findings.push_back(
       {"", 0, Severity::kWarning, "assumed-sway",
        fmt::format(
-           "no trial identifies the sway resistance: {} is assumed to be {:.3g} s/m ({:.3g} to "
-           "{:.3g}), "
-           "that of common tyres ({:.1f} g m'/u) at u = {:.2g} m/s, half of the highest speed "
-           "driven. Gains are tuned for that range, and sideslip results have the same "
-           "uncertainty. Give sway_alpha in vehicle.json, or record a driving log with sway_mps",
+           "no trial identifies the sway resistance (against sideways motion), so {} is assumed "
+           "to be {:.3g} s/m ({:.3g} to {:.3g}). This is the value of common tyres, {:.1f} g "
+           "m'/u (g: gravity), at u = {:.2g} m/s, half of the highest speed driven. Gains are "
+           "tuned for that range, and sideslip results have the same uncertainty. Give "
+           "sway_alpha in vehicle.json, or record a driving log with sway_mps",
            info(ParameterId::kSwayAlpha).name, value, sway.ci95->lo, sway.ci95->hi, stiffness,
            speed_mps)});
 }

@@ -38,15 +38,16 @@ std::string table_reason(ParameterId id, const TrialData& data, const Reasons& r
       if (!data.surge) return reasons.curve_alone ? reasons.mass : "there is no surge trial";
       if (!reasons.surge.empty()) return reasons.surge;
       return fmt::format(
-          "the usable surge rows ({}) do not contain two different tau_speed with different speeds",
+          "the usable surge rows ({}) do not contain two different thrusts (tau_speed) with "
+          "different speeds",
           data.surge->rows.size());
     case ParameterId::kYawAlpha:
     case ParameterId::kYawBeta:
       if (!data.turning) return "there is no turning trial";
       if (!reasons.turning.empty()) return reasons.turning;
       return fmt::format(
-          "the usable turning rows ({}) do not contain two different tau_turn with different yaw "
-          "rates",
+          "the usable turning rows ({}) do not contain two different yaw moments (tau_turn) with "
+          "different yaw rates",
           data.turning->rows.size());
     case ParameterId::kMassNorm:
     case ParameterId::kInertiaNorm:
@@ -71,12 +72,12 @@ std::string_view remedy_of(ParameterId id, const TrialData& data, const Vehicle&
   const bool is_surge = is_surge_law(id) || id == ParameterId::kMassNorm;
   using enum LogChannel;
   if (!data.logs.empty() && is_surge && !is_logged(data, {kSpeed, kX})) {
-    return "the logs have neither speed_mps nor x_m, y_m: log or map speed_mps, or both x_m and "
-           "y_m";
+    return "logs with speed_mps, or with both x_m and y_m, which the logs given lack (or map "
+           "columns to these names)";
   }
   if (!data.logs.empty() && is_turning && !is_logged(data, {kYawRate, kHeading, kX})) {
-    return "the logs have no yaw_rate_radps, heading_deg or x_m, y_m: log or map yaw_rate_radps or "
-           "heading_deg";
+    return "logs with yaw_rate_radps or heading_deg, which the logs given lack (or map columns "
+           "to these names)";
   }
   return trial_of(vehicle, id);
 }
@@ -172,8 +173,8 @@ std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Rea
              : std::string();
     model.record.findings.push_back(
         {"", 0, required ? Severity::kError : Severity::kNote, "not-identifiable",
-         fmt::format("{} ({}) cannot be identified: {}; {}{}", parameter.name, parameter.meaning,
-                     why, remedy_of(parameter.id, data, model.vehicle), kept)});
+         fmt::format("{} ({}) cannot be identified: {}; record {}{}", parameter.name,
+                     parameter.meaning, why, remedy_of(parameter.id, data, model.vehicle), kept)});
   }
   return refused;
 }

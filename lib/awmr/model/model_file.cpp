@@ -280,8 +280,8 @@ void add_vehicle_contradictions(const Model& model, std::vector<Fault>& faults) 
     if (!(range.hi > kInertiaOverBox.lo && range.lo < kInertiaOverBox.hi)) {
       faults.push_back(
           {ErrorCode::kContradiction, model.file + ":/inertia_norm/value",
-           fmt::format("I'z/m' is {:.3g} times Iz/m of the vehicle, where {:g} to {:g} times is "
-                       "possible; identify again",
+           fmt::format("the ratio of yaw inertia to mass, I'z/m', is {:.3g} times Iz/m of "
+                       "/vehicle, where {:g} to {:g} times is possible; identify again",
                        inertia_over_vehicle(model.vehicle, *inertia.value, *mass.value),
                        kInertiaOverBox.lo, kInertiaOverBox.hi)});
     }

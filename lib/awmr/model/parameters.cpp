@@ -4,8 +4,8 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kSurgeTrial =
-    "a surge trial: runs at two or more constant tau_speed, wheels straight, each with its steady "
-    "speed";
+    "a surge trial: runs at two or more constant thrusts (tau_speed), wheels straight, each with "
+    "its steady speed";
 constexpr std::string_view kTurningTrial =
     "a turning trial: runs at constant wheel_force and two or more steering angles, each with its "
     "steady yaw rate";

@@ -58,8 +58,9 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
   const double needed = plant.surge(scenario.speed_mps);
   if (!(needed > most)) return;
   findings.push_back({"", 0, Severity::kWarning, "unreachable-speed",
-                      fmt::format("{}: a speed of {:g} m/s needs a force of {:.3g} F_max, but the "
-                                  "motors make at most {:.3g} F_max; give a smaller speed_mps",
+                      fmt::format("{}: a speed of {:g} m/s needs a force of {:.3g} F_max "
+                                  "(largest force of one motor), but all motors together make at "
+                                  "most {:.3g} F_max; give a smaller speed_mps",
                                   scenario.name, scenario.speed_mps, needed, std::max(most, 0.0))});
 }
 

@@ -79,7 +79,9 @@ Scale force_scale(const std::string& quoted, const Words& words,
                         kUsualVolts)};
   }
   if (most <= 1.0) {
-    return {quoted, Confidence::kLikely, "the values lie within [-1, 1], as forces over F_max do"};
+    return {quoted, Confidence::kLikely,
+            "the values lie within [-1, 1], as forces divided by "
+            "the largest force of a motor do"};
   }
   if (most <= 100.0) return {quoted + "/100", Confidence::kUnsure, "the values look like percent"};
   if (most <= 255.0)

@@ -207,15 +207,15 @@ Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
   const bool sway = step_s == 0.25 * (plant.mass_norm / plant.sway_alpha);
   const std::string what =
       servo    ? fmt::format("steering.time_constant_s is {:g} s", plant.steering_time_constant_s)
-      : motors ? fmt::format("the motors' back_emf_s_per_m {:g} brakes within {:g} s",
+      : motors ? fmt::format("the motors' back_emf_s_per_m {:g} brakes the vehicle within {:g} s",
                              plant.back_emf_s_per_m, 1.0 / braking)
       : sway   ? fmt::format("m'/sway_alpha is {:g}/{:g} s", plant.mass_norm, plant.sway_alpha)
-               : fmt::format("the resistance brings m' {:g} or I'z {:g} to rest within {:g} s",
+               : fmt::format("the resistance stops the vehicle (m' {:g}, I'z {:g}) within {:g} s",
                              plant.mass_norm, plant.inertia_norm, 4.0 * step_s);
   return input_error(
       ErrorCode::kOutOfRange, file,
-      fmt::format("{}, too fast to be followed when a log is replayed (limit: {:g} s): check the "
-                  "values in vehicle.json and the units of the trials",
+      fmt::format("{}, too fast to be followed by the integration steps of a replayed log "
+                  "(limit: {:g} s): check the values in vehicle.json and the units of the trials",
                   what, 4.0 * kShortestReplayStep_s));
 }
 

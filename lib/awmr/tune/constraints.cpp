@@ -176,11 +176,11 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
       speed_lag(speed, context.limits.damping),
       at_least("mu dominates", gains.heading.mu,
                kUnmodelledShare * plant.yaw(context.fastest_radps) / known.inertia_norm,
-               fmt::format("mu >= 20 % of g3({:.3g} deg/s)/I'z, rad/s^2",
+               fmt::format("mu >= 20 % of g3({:.3g} deg/s)/I'z, rad/s^2, against errors of g3",
                            degrees(context.fastest_radps))),
       at_least("mu_s dominates", gains.speed.mu,
                kUnmodelledShare * plant.surge(context.speed_mps) / known.mass_norm,
-               "mu_s >= 20 % of g1(u_d)/m', m/s^2"),
+               "mu_s >= 20 % of g1(u_d)/m', m/s^2, against errors of g1"),
       noise_gain(gains, context, vehicle),
   };
 }

@@ -45,10 +45,10 @@ std::string advice_for(const std::string& scenario, YawMode mode,
   if (!found->why.empty()) return ": " + found->why;
   if (const auto& noise = found->noise) {
     return fmt::format(
-        ". With sensors without noise{}, {:.0f} % settle{}: {} the heading by more than the larger "
-        "of {:g} deg and {:g} % of the step, the permitted error of a settled run. Use or filter "
-        "sensors so that the noise is smaller (keys noise and noise_correlation_s of "
-        "vehicle.json){}",
+        ". With sensors without noise{}, {:.0f} % settle{}: {} the heading by more than the "
+        "larger of {:g} deg and {:g} % of the step, the permitted error of a settled run. Use "
+        "sensors with less noise, or filter their readings (keys noise and noise_correlation_s "
+        "of vehicle.json){}",
         noise->is_of_identified ? " and the identified values of all parameters" : "",
         100.0 * noise->share_without,
         noise->time_factor > 1.0
@@ -176,9 +176,9 @@ void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
     findings.push_back(
         {"", 0, Severity::kNote, "gains-by-mode",
          fmt::format(
-             "modes have gains of their own, because one set for all modes makes some slower "
-             "than they can be. simulate, compare, pil and the firmware use those of the mode. "
-             "For one set: {}",
+             "modes have gains of their own, because with one set for all modes some settle more "
+             "slowly than they can. simulate, compare, pil and the firmware use the gains of the "
+             "selected mode. For one set: {}",
              option_text("one_set"))});
     return;
   }

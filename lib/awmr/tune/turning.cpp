@@ -88,7 +88,7 @@ std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle) {
       name_of(moment.mode), moment.speed_mps, moment.available_m, degrees(kSlowest_radps),
       moment.needed_m);
   if (found.empty()) return text + "Use motors with more force, or reduce the yaw resistance";
-  text += "It turns with ";
+  text += "It can turn with ";
   for (std::size_t i = 0; i < found.size(); ++i) text += (i == 0 ? "" : ", or with ") + found[i];
   return text;
 }

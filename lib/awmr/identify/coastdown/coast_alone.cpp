@@ -129,7 +129,9 @@ EstimatorParameter by_logarithm(std::string name, double value, double error, do
 
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, MassResult result) {
-  result.reason = "m' from a coast-down needs a1 and b1, which are not identified";
+  result.reason =
+      "a coast-down gives m' only together with the surge resistance (a1, b1), which "
+      "is not identified";
   if (curves.empty()) return result;
   const std::vector<CoastFit> fits = fits_of(curves, vehicle.surge_beta_range, family);
   const bool by_aicc = family.requested && !family.family;

@@ -217,14 +217,14 @@ CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& su
 std::vector<Finding> inadequacy(const CoastModel& model, const std::string& file) {
   if (!model.is_inadequate()) return {};
   return {{file, 0, Severity::kWarning, "model-inadequate",
-           fmt::format("the coast-down curves deviate from the fitted curve by {:.2g} m/s for "
-                       "{:.2g} s at a time, compared with a sensor noise of {:.2g} m/s: the "
-                       "resistance differs from that of the surge runs (family, slope, brakes), or "
-                       "the sensor distorts the speed. {}",
+           fmt::format("the measured speeds of the coast-downs deviate from the fitted curve by "
+                       "{:.2g} m/s for {:.2g} s at a time (sensor noise: {:.2g} m/s). Either the "
+                       "resistance differs from that of the surge runs (resistance family, "
+                       "slope, brakes), or the sensor distorts the speed. {}",
                        model.noise.drift_std, model.noise.correlation_s, model.noise.sensor_std,
                        model.withdraws_intervals()
                            ? "The interval of mass_norm is withdrawn"
-                           : "The interval of mass_norm does not include this model error")}};
+                           : "The confidence interval of mass_norm does not cover this error")}};
 }
 
 }  // namespace awmr

@@ -91,9 +91,9 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
          fmt::format(
              "stopping from {:.3g} m/s in {:.3g} s means an initial deceleration of {:.1f} m/s^2 "
              "({:.1f} g), more than a tyre can give, and F_max = {:.0f} N per motor. With a tyre "
-             "friction of {:g}, m' is at least {:.3g}; compare and validate raise m' to this value "
-             "in a quarter of their samples, tune only with mass_factors. Check the stop time, or "
-             "record the coast-down curve",
+             "friction of {:g}, m' is at least {:.3g}. In a quarter of their random vehicles, "
+             "compare and validate raise m' to this value; tune does so only by mass_factors of "
+             "tune.json. Check the stop time, or record the coast-down curve",
              run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity_mps2,
              mass_kg / mass_norm, kTyreFriction, mass_norm_by_grip(surge, run.initial_speed_mps))});
   }
@@ -102,7 +102,8 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
         {coastdown.file, coastdown.rows.front().line, Severity::kNote, "single-stop-time",
          fmt::format(
              "there is a single stop time, so the standard error of mass_norm assumes a timing "
-             "error of {:.2g} s, from its digits; repeat the coast-down or record its curve",
+             "error of {:.2g} s, derived from the last digit of the time; repeat the coast-down "
+             "or record its curve",
              coastdown.rows.front().timing_std_s)});
   }
   if (relative_std_error && *relative_std_error > kFragileShare) {

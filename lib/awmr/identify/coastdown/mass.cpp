@@ -99,7 +99,7 @@ Finding lag_finding(const CoastModel& model, double value_s, double error_s,
                         ", or of {:.2g} s with mass_norm {:.3g}: the curves do not decide between "
                         "them, so the interval of mass_norm is withdrawn. ",
                         model.other->lag_s, std::exp(model.other->log_mass))
-                  : "; the fit compensates this. ";
+                  : "; the fit compensates for this. ";
   return {file, 0, Severity::kWarning, "sensor-lag",
           fmt::format("the speed of the coast-downs is low-pass filtered with a time constant of "
                       "{:.3g} +- {:.2g} s{}Log the unfiltered speed, or make the filter faster",
@@ -252,11 +252,11 @@ void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& f
   result.findings.push_back(
       {file, 0, Severity::kWarning, "noise-model",
        fmt::format(
-           "mass_norm depends on which quantity of the surge runs has the error, which is unknown: "
-           "it is {:.3g} with errors on {}, and the median over all error models is {:.3g} "
-           "(weights in /estimates). Its interval and the samples of tune and compare include all "
-           "error models. Select one with {}, or record a coast-down curve, which depends less on "
-           "the surge law",
+           "mass_norm depends on which quantity of the surge runs has the measurement error, "
+           "which is unknown. It is {:.3g} with errors on {}; the median over all such error "
+           "models is {:.3g} (weights in /estimates of model.json). Its interval, and the random "
+           "vehicles of tune and compare, cover all error models. Select one with {}, or record "
+           "a coast-down curve, whose m' depends less on the surge resistance",
            std::exp(result.estimate->log_mass_norm), name_of(laws.front().noise), std::exp(median),
            option_text("noise"))});
 }

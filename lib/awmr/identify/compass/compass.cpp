@@ -213,9 +213,9 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
     if (std::abs(rounded - centre) <= kRounding * field) continue;
     return refusal(
         ErrorCode::kCompassUnusable,
-        fmt::format("{}: the centre {:.9g} is too large compared with the field {:.4g} for the "
-                    "firmware's float numbers (24 bits); subtract a constant from the readings, or "
-                    "move the magnet away",
+        fmt::format("{}: the centre of the field ellipse, {:.9g}, is too large compared with the "
+                    "field {:.4g} for the firmware's float numbers (24 bits); subtract a "
+                    "constant from the readings, or move the magnet away",
                     file, centre, field));
   }
   // The ellipse with the half axes a and b has a gain matrix S with the eigenvalues 1/a and 1/b, so
@@ -265,8 +265,9 @@ Status check_ellipse(const std::string& file, const Known& fit,
   }
   if (fit.residual > kNoEllipse) {
     return refusal(ErrorCode::kCompassUnusable,
-                   fmt::format("{}: the field is off the best ellipse by {:.0f} % (standard "
-                               "deviation); record again on level ground, away from moving iron",
+                   fmt::format("{}: the readings deviate from the best-fit ellipse by {:.0f} % "
+                               "of the field (standard deviation); record again on level ground, "
+                               "away from moving iron",
                                file, 100.0 * fit.residual));
   }
   return {};
@@ -281,8 +282,8 @@ Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg
     return refusal(
         ErrorCode::kCompassUnusable,
         record.file +
-            ": the field makes no ellipse; turn the vehicle through two whole circles on level "
-            "ground, away from iron");
+            ": the field readings do not form an ellipse; turn the vehicle through two whole "
+            "circles on level ground, away from iron");
   }
   const std::vector<double> headings = headings_of(*ellipse, points);
   const std::pair<double, double> gap_rad = largest_gap_rad(headings);
@@ -297,8 +298,9 @@ Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg
     result.findings.push_back(
         {record.file, 0, Severity::kWarning, "compass-residual",
          fmt::format(
-             "the field is off the best ellipse by {:.1f} % (standard deviation), a heading error "
-             "of about {:.1f} deg; record again on level ground, away from iron",
+             "the readings deviate from the best-fit ellipse by {:.1f} % of the field (standard "
+             "deviation), a heading error of about {:.1f} deg; record again on level ground, "
+             "away from iron",
              100.0 * fit.residual, degrees(fit.residual))});
   }
   AWMR_RETURN_IF_ERROR(check_turn(record, turned_rad(headings), result.findings));

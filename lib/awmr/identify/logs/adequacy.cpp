@@ -108,8 +108,8 @@ std::string describe_effect(const Adequacy& adequacy) {
   if (adequacy.withdraws_servo) withdrawn = "steering.time_constant_s";
   if (adequacy.withdraws_sway)
     withdrawn += (withdrawn.empty() ? "" : " and ") + std::string("sway.alpha");
-  if (withdrawn.empty()) return "The intervals do not include this model error";
-  return "No interval for " + withdrawn + "; the other intervals do not include this model error";
+  if (withdrawn.empty()) return "The confidence intervals do not cover this model error";
+  return "No interval for " + withdrawn + "; the other intervals do not cover this model error";
 }
 
 }  // namespace
@@ -154,8 +154,9 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
   }
   adequacy.findings.push_back(
       {logs.front().file, 0, Severity::kWarning, "model-inadequate",
-       fmt::format("the model has lasting errors: {}. Possible causes: {}. {}", errors, advice,
-                   describe_effect(adequacy))});
+       fmt::format("the model deviates from the logs for longer than sensor noise does: {}. "
+                   "Possible causes: {}. {}",
+                   errors, advice, describe_effect(adequacy))});
   return adequacy;
 }
 

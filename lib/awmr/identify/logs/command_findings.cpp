@@ -38,13 +38,13 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
     return {file, 0, Severity::kWarning, "late-commands",
             fmt::format("the vehicle responds {:.3f} +- {:.3f} s before its commands: the time "
                         "stamps of the commands are late, or those of all sensors are early. The "
-                        "fit compensates this; log the commands when they are sent",
+                        "fit compensates for this; log the commands when they are sent",
                         -input.value, input.error)};
   }
   return {file, 0, Severity::kWarning, "actuator-lag",
           fmt::format("the vehicle responds {:.3f} +- {:.3f} s after its commands, {}. The fit "
-                      "compensates this; add the delay to latency_s of the sensors in the vehicle "
-                      "file, so that gains are tuned for it",
+                      "compensates for this; add the delay to latency_s of the sensors in the "
+                      "vehicle file, so that gains are tuned for it",
                       input.value, input.error,
                       with_lag ? "in addition to the motors' lag"
                                : "which is more likely a dead time than motor lag")};
@@ -94,7 +94,7 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
         {file, 0, Severity::kWarning, "sensor-delay",
          fmt::format(
              "{} {} delayed by {:.3f} +- {:.3f} s relative to the commands. The fit compensates "
-             "this; set latency_s in the vehicle file, so that gains are tuned for it",
+             "for this; set latency_s in the vehicle file, so that gains are tuned for it",
              channel == LogChannel::kX ? "the position" : info(channel).name,
              channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
   }
@@ -104,7 +104,7 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
         {file, 0, Severity::kWarning, "sensor-lag",
          fmt::format(
              "{} is low-pass filtered with a time constant of {:.3f} +- {:.3f} s{}; the fit "
-             "compensates this. Log the unfiltered reading, or make the filter faster",
+             "compensates for this. Log the unfiltered reading, or make the filter faster",
              info(quantity.channel).name, value_s, error_s,
              quantity.damping > 0.0
                  ? fmt::format(" (second order, damping {:.2g})", quantity.damping)
@@ -115,9 +115,10 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
     const double width_s = std::sqrt(variance_s2);
     findings.push_back(
         {file, 0, Severity::kWarning, "smoothed-channel",
-         fmt::format("{} is smoothed over the times before and after each row, with a standard "
-                     "deviation of {:.3f} +- {:.3f} s; the fit compensates this. Log the reading "
-                     "itself, without smoothing, interpolation or central differences",
+         fmt::format("{} is smoothed over times before and after each row, by a window with a "
+                     "standard deviation of {:.3f} +- {:.3f} s; the fit compensates for this. "
+                     "Log the reading itself, without smoothing, interpolation or central "
+                     "differences",
                      info(quantity.channel).name, width_s, 0.5 * error_s2 / width_s)});
   }
   return findings;
@@ -130,7 +131,7 @@ std::vector<Finding> scale_findings(const LogFit& fit, const std::string& file) 
     findings.push_back(
         {file, 0, Severity::kWarning, "sensor-scale",
          fmt::format(
-             "{} reads {:.2f} +- {:.2f} % too {}, as {} show. The fit compensates this; "
+             "{} reads {:.2f} +- {:.2f} % too {}, as {} show. The fit compensates for this; "
              "calibrate the sensor, or map its column divided by {:.4f}",
              info(quantity.channel).name, 100.0 * std::abs(scale), 100.0 * error,
              scale > 0.0 ? "much" : "little",
@@ -147,10 +148,10 @@ std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
     findings.push_back(
         {file, 0, Severity::kWarning, "wheel-slip",
          fmt::format(
-             "the wheels that measure {} slip: at the largest force a wheel rolls faster than "
-             "it moves over ground by {}, at smaller forces in proportion less. The fit "
-             "compensates this; measure without driven wheels (optical flow, GNSS, a "
-             "gyroscope, a free wheel)",
+             "the wheels that measure {} slip: at the largest force a wheel rolls faster than it "
+             "moves over ground by {}, at smaller forces in proportion less. The fit compensates "
+             "for this; measure without driven wheels (optical flow, GNSS, a gyroscope, a free "
+             "wheel)",
              info(quantity.channel).name,
              quantity.is_ratio ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip, 100.0 * error)
                                : fmt::format("{:.3f} +- {:.3f} m/s", slip, error))});
@@ -166,16 +167,16 @@ std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& 
     findings.push_back(
         {file, 0, Severity::kWarning, "sway-sensor",
          fmt::format("sway_mps is the sideways speed of a point {:.3f} +- {:.3f} m {} the centre "
-                     "of gravity. The fit compensates this; mount the sensor at the centre of "
-                     "gravity, or subtract its distance ahead times the yaw rate",
+                     "of gravity. The fit compensates for this; mount the sensor at the centre "
+                     "of gravity, or subtract its distance ahead times the yaw rate",
                      std::abs(one.value), one.error, one.value > 0.0 ? "ahead of" : "behind")});
   }
   for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayAngle)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "sway-sensor",
-         fmt::format("the sensor of sway_mps is turned by {:.2f} +- {:.2f} deg to the {}, so that "
-                     "it shows a part of the forward speed. The fit compensates this; align the "
-                     "sensor with the vehicle",
+         fmt::format("the sensor of sway_mps is turned by {:.2f} +- {:.2f} deg to the {}, so "
+                     "that it shows a part of the forward speed. The fit compensates for this; "
+                     "align the sensor with the vehicle",
                      degrees(std::abs(one.value)), degrees(one.error),
                      one.value > 0.0 ? "left" : "right")});
   }
@@ -191,13 +192,13 @@ std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::strin
         {file, 0, Severity::kWarning, "steering-delay",
          latency.value > 0.0
              ? fmt::format("the steering begins to move {:.3f} +- {:.3f} s after its command, in "
-                           "addition to the servo's time constant. The fit compensates this; "
-                           "shorten the servo's frame or bus cycle, or add the delay to latency_s "
-                           "of the sensors in the vehicle file",
+                           "addition to the servo's time constant. The fit compensates for this; "
+                           "shorten the servo's frame or bus cycle, or add the delay to "
+                           "latency_s of the sensors in the vehicle file",
                            latency.value, latency.error)
              : fmt::format("the steering moves {:.3f} +- {:.3f} s before its command relative to "
-                           "the forces: the time stamps of the steering command are late. The fit "
-                           "compensates this; log each command when it is sent",
+                           "the forces: the time stamps of the steering command are late. The "
+                           "fit compensates for this; log each command when it is sent",
                            -latency.value, latency.error)});
   }
   return findings;
@@ -220,9 +221,9 @@ std::vector<Finding> servo_rate_findings(const LogFit& fit, const std::string& f
 
 std::string curve_text(const LogFit& fit, const FoundTerm& curve) {
   return fmt::format(
-      "the steering linkage is curved: at the stop the wheels steer {:.1f} +- {:.1f} % {} than in "
-      "proportion to small commands. The fit compensates this, but simulations and gains do "
-      "not{}; log the measured angle as steering_deg",
+      "the steering linkage is curved: at the stop the wheels steer {:.1f} +- {:.1f} % {} than "
+      "in proportion to small commands. The fit compensates for this, but simulations and tuned "
+      "gains ignore it{}; log the measured angle as steering_deg",
       100.0 * std::abs(curve.value), 100.0 * curve.error,
       curve.value > 0.0 ? "further" : "less far",
       is_much_curved(fit) ? " (the yaw resistance gets no intervals, because the true form of the "
@@ -240,17 +241,18 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
   };
   add(Kind::kSteeringDeadBand, "steering-dead-band", [](const FoundTerm& band) {
     return fmt::format(
-        "steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and larger commands "
-        "move them by this angle less. The fit compensates this, but simulations and gains do "
-        "not; reduce the play of the linkage, or increase the magnitude of every command by "
-        "{:.2f} deg before it is sent, and log the commands without this increase",
+        "steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and larger "
+        "commands move them by this angle less. The fit compensates for this, but simulations "
+        "and tuned gains ignore it; reduce the play of the linkage, or increase the magnitude of "
+        "every command by {:.2f} deg before it is sent, and log the commands without this "
+        "increase",
         degrees(band.value), degrees(band.error), degrees(band.value));
   });
   add(Kind::kSteeringAsymmetry, "steering-asymmetry", [](const FoundTerm& asymmetry) {
     return fmt::format(
-        "at equal commands the wheels steer {:.1f} +- {:.1f} % further to the {} than the mean of "
-        "both sides. The fit compensates this, but simulations and gains do not; adjust the "
-        "linkage",
+        "at equal commands the wheels steer {:.1f} +- {:.1f} % further to the {} than the mean "
+        "of both sides. The fit compensates for this, but simulations and tuned gains ignore it; "
+        "adjust the linkage",
         100.0 * std::abs(asymmetry.value), 100.0 * asymmetry.error,
         asymmetry.value > 0.0 ? "left" : "right");
   });
@@ -258,10 +260,10 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
       [&](const FoundTerm& curve) { return curve_text(fit, curve); });
   add(Kind::kSteeringScale, "steering-scale", [](const FoundTerm& scale) {
     return fmt::format(
-        "the wheels steer to {:.3f} +- {:.3f} times the logged commands, in addition to the curve "
-        "or asymmetry of the linkage. The fit compensates this, but simulations and gains do not; "
-        "map steering_cmd_deg to the angle of the wheels, or log the measured angle as "
-        "steering_deg",
+        "the wheels steer to {:.3f} +- {:.3f} times the logged commands, in addition to the "
+        "curve or asymmetry of the linkage. The fit compensates for this, but simulations and "
+        "tuned gains ignore it; map steering_cmd_deg to the angle of the wheels, or log the "
+        "measured angle as steering_deg",
         1.0 + scale.value, scale.error);
   });
   return findings;
@@ -274,9 +276,9 @@ std::vector<Finding> constant_error_findings(const LogFit& fit, const std::strin
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
     findings.push_back(
         {file, 0, Severity::kWarning, "steering-trim",
-         fmt::format("the vehicle turns as if the front wheels pointed {:.2f} +- {:.2f} deg to the "
-                     "{} at a steering angle of 0; the fit compensates this. Centre the linkage or "
-                     "the servo{}",
+         fmt::format("the vehicle turns as if the front wheels pointed {:.2f} +- {:.2f} deg to "
+                     "the {} at a steering angle of 0; the fit compensates for this. Centre the "
+                     "linkage or the servo{}",
                      degrees(std::abs(trim.value)), degrees(trim.error),
                      trim.value > 0.0 ? "left" : "right",
                      has_kind(fit.quantities, FreeQuantity::Kind::kForceImbalance)
@@ -288,8 +290,8 @@ std::vector<Finding> constant_error_findings(const LogFit& fit, const std::strin
     findings.push_back(
         {file, 0, Severity::kWarning, "force-imbalance",
          fmt::format(
-             "at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of "
-             "both sides; the fit compensates this. Calibrate the motors of each side{}",
+             "at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of both "
+             "sides; the fit compensates for this. Calibrate the motors of each side{}",
              imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
              100.0 * imbalance.error,
              has_kind(fit.quantities, FreeQuantity::Kind::kSteeringTrim)
@@ -324,10 +326,10 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
     findings.push_back(
         {file, 0, Severity::kWarning, "force-saturation",
          fmt::format(
-             "the wheel force is proportional to the command to the power of {:.3f} +- "
-             "{:.3f}: large commands give less force than in proportion. The fit "
-             "compensates this{}, but simulations and gains assume proportional forces: record "
-             "the command raised to the power of {:.2f}, with its sign, as the force",
+             "the wheel force is proportional to the command to the power of {:.3f} +- {:.3f}: "
+             "large commands give less force than in proportion. The fit compensates for this{}, "
+             "but simulations and tuned gains assume proportional forces. As the force, record "
+             "the command raised to the power of {:.2f}, with its sign",
              p, p * exponent.error, withdrawn, p)});
   }
   const double n = sharpness_of(fit);
@@ -339,11 +341,12 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
     findings.push_back(
         {file, 0, Severity::kWarning, "force-saturation",
          fmt::format(
-             "at the largest command of the logs, {:.3g}, the wheels push {:.1f} +- {:.1f} % less "
-             "than in proportion to small commands: tyres slip, or the current or voltage of the "
-             "motors is limited. The fit compensates this{}, but simulations and gains assume "
-             "proportional forces, which is right within {:.0f} % for commands up to {:.2g}. Limit "
-             "wheel_force in the vehicle file to this command, and record logs below it",
+             "at the largest command of the logs, {:.3g}, the wheels push {:.1f} +- {:.1f} % "
+             "less than in proportion to small commands: tyres slip, or the current or voltage "
+             "of the motors is limited. The fit compensates for this{}, but simulations and "
+             "tuned gains assume proportional forces, which is right within {:.0f} % for "
+             "commands up to {:.2g}. Limit wheel_force in the vehicle file to this command, and "
+             "record logs below it",
              full, 100.0 * loss, 100.0 * error, withdrawn, 100.0 * kLinear,
              std::min(linear, full))});
   }

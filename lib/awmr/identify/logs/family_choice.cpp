@@ -117,10 +117,11 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
   const auto [apart, name] = largest_difference(best.fit, alternative.fit);
   if (!alternative.fit.usable || !(gain > 0.0) || !(apart > kApart)) return std::nullopt;
   return Finding{file, 0, Severity::kWarning, "family-undecided",
-                 fmt::format("these logs do not decide between {} and {}: the AIC of the latter is "
-                             "lower by {:.1f}, which is not significant, but {} changes by {:.1f} "
-                             "standard errors. The intervals are valid for {} only; record a log "
-                             "at more different speeds",
+                 fmt::format("these logs do not decide between the resistance families {} and "
+                             "{}. The AIC of the second is lower by {:.1f}, which is not "
+                             "significant, but it changes {} by {:.1f} standard errors. The "
+                             "intervals are valid for {} only; record a log at more different "
+                             "speeds",
                              families_in_words(best.surge, best.yaw),
                              families_in_words(alternative.surge, alternative.yaw), gain, name,
                              apart, families_in_words(best.surge, best.yaw))};

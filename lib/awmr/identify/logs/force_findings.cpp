@@ -83,7 +83,7 @@ std::vector<Finding> stribeck_findings(const LogFit& fit, const std::string& fil
         {file, 0, Severity::kWarning, "stribeck-friction",
          fmt::format("the friction of {} is larger at low speed (Stribeck effect): by {:.2g} +- "
                      "{:.2g} in addition to the Coulomb friction {:.2g}{}. The fit compensates "
-                     "this, but simulations and gains do not, so avoid low speeds{}",
+                     "for this, but simulations and tuned gains ignore it, so avoid low speeds{}",
                      one.what, one.force.value, one.force.error, one.coulomb,
                      one.speed ? fmt::format(", mainly below {:.2g} {}", *one.speed, one.unit) : "",
                      one.is_large() ? fmt::format("; the intervals of {}* are withdrawn, because "
@@ -106,7 +106,8 @@ std::vector<Finding> slope_findings(const LogFit& fit, const std::string& file) 
   return {{file, 0, Severity::kWarning, "slope",
            fmt::format("a constant force pushes the vehicle towards the heading {:.0f} deg with "
                        "{:.3f} +- {:.3f} m/s^2, like ground that falls by {:.2f} deg. The fit "
-                       "compensates this, but simulations do not; record logs on level ground",
+                       "compensates for this, but simulations ignore it; record logs on level "
+                       "ground",
                        degrees(std::atan2(y->value, x->value)), size, error,
                        degrees(std::asin(std::min(1.0, size / kGravity_mps2))))}};
 }
@@ -116,10 +117,11 @@ std::vector<Finding> side_pull_findings(const LogFit& fit, const std::string& fi
   if (!pull) return {};
   return {
       {file, 0, Severity::kWarning, "side-pull",
-       fmt::format("a yaw moment of {:.2g} +- {:.1g} m (over F_max) pulls the vehicle to the {} "
-                   "when it drives forward: a dragging brake, unequal tyres, or a wheel out of "
-                   "line. The fit compensates this, but simulations and gains do not; correct "
-                   "the cause, or tune with an observer (awmr tune --observer)",
+       fmt::format("a yaw moment of {:.2g} +- {:.1g} m (divided by F_max, the largest force of "
+                   "one motor) pulls the vehicle to the {} when it drives forward: a dragging "
+                   "brake, unequal tyres, or a wheel out of line. The fit compensates for this, "
+                   "but simulations and tuned gains ignore it; correct the cause, or tune with "
+                   "an observer (awmr tune --observer)",
                    std::abs(pull->value), pull->error, pull->value > 0.0 ? "left" : "right")}};
 }
 
@@ -127,10 +129,10 @@ std::vector<Finding> turn_drag_findings(const LogFit& fit, const std::string& fi
   const auto drag = significant(fit, ExtraForce::kTurnDrag);
   if (!drag) return {};
   return {{file, 0, Severity::kWarning, "turn-drag",
-           fmt::format("the resistance to driving is larger in turns, by {:.2g} +- {:.2g} of F_max "
-                       "at 1 rad/s and 1 m/s: tyres or tracks scrub. The fit compensates this, but "
-                       "simulations and gains do not, so the vehicle is slower in turns than they "
-                       "predict",
+           fmt::format("the resistance to driving is larger in turns, by {:.2g} +- {:.2g} of "
+                       "F_max at 1 rad/s and 1 m/s: tyres or tracks scrub. The fit compensates "
+                       "for this, but simulations and tuned gains ignore it, so the vehicle is "
+                       "slower in turns than they predict",
                        drag->value, drag->error)}};
 }
 
@@ -155,9 +157,9 @@ std::vector<Finding> force_excess_findings(const LogFit& fit, const std::string&
         {file, 0, Severity::kWarning, std::string(code),
          fmt::format(
              "{} push {:.1f} +- {:.1f} % {} than {} (in logs that only drive forward, every "
-             "negative force brakes). The fit compensates this, but simulations and gains "
-             "do not; divide such commands by {:.3g} before they are sent to the motors, "
-             "and log the commands before this division",
+             "negative force brakes). The fit compensates for this, but simulations and tuned "
+             "gains ignore it; divide such commands by {:.3g} before they are sent to the "
+             "motors, and log the commands before this division",
              which, 100.0 * std::abs(excess->value), 100.0 * excess->error,
              excess->value > 0.0 ? "more" : "less", reference, 1.0 + excess->value)});
   };

@@ -55,9 +55,9 @@ void note_unusual_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>&
   if (range.lo < kUsual.hi && range.hi > kUsual.lo) return;
   stage.findings.push_back(
       {logs.front().file, 0, Severity::kWarning, "inertia-mismatch",
-       fmt::format("the fitted I'z/m' is {:.3g} times Iz/m of the vehicle; the usual range is {:g} "
-                   "to {:g} times. Check the units of the speed and the yaw rate, and the size of "
-                   "the vehicle",
+       fmt::format("the fitted ratio of yaw inertia to mass, I'z/m', is {:.3g} times Iz/m of the "
+                   "vehicle file; {:g} to {:g} times is usual. Check the units of the speed and "
+                   "the yaw rate, and the size of the vehicle",
                    inertia_over_vehicle(vehicle, *inertia->value, *mass->value), kUsual.lo,
                    kUsual.hi)});
 }
@@ -79,8 +79,9 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   if (range.hi > kInertiaOverBox.lo && range.lo < kInertiaOverBox.hi) return {};
   const double times = inertia_over_vehicle(vehicle, *inertia->value, *mass->value);
   return fmt::format(
-      "the fitted I'z/m' is {:.3g} times Iz/m of the vehicle, which no distribution of its mass "
-      "can give: a unit or a sign is wrong{}, or a moment outside the model turns the vehicle",
+      "the fitted ratio of yaw inertia to mass, I'z/m', is {:.3g} times Iz/m of the vehicle "
+      "file, which no distribution of its mass can give: a unit or a sign is wrong{}, or a "
+      "moment outside the model turns the vehicle",
       times, speed_unit_hint(logs, times));
 }
 

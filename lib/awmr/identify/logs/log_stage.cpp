@@ -108,10 +108,11 @@ std::vector<Finding> in_words(const std::vector<LogDisagreement>& disagreements,
 /// Reports `held-out-misses`: a fit of the first half of a log does not predict its last fifth.
 Finding in_words(const HeldOut& missed, const std::string& file) {
   return {file, 0, Severity::kWarning, "held-out-misses",
-          fmt::format("a fit of the first half predicts {} worse than noise and intervals allow "
-                      "(p = {:.2g}); {} changes most, from {:.4g} to {:.4g}. Battery, temperature, "
-                      "ground or load changed, or the model is incomplete, so the intervals are "
-                      "withdrawn. Identify a part under constant conditions ({}, {})",
+          fmt::format("a fit of the first half predicts {} worse than noise and confidence "
+                      "intervals explain (p = {:.2g}); {} changes most, from {:.4g} to {:.4g}. "
+                      "Battery, temperature, ground or load changed, or the model is incomplete, "
+                      "so the intervals are withdrawn. Identify a part under constant conditions "
+                      "({}, {})",
                       missed.rows, missed.p_value, missed.quantity, missed.by_fit, missed.by_rows,
                       option_text("from S"), option_text("until S"))};
 }

@@ -132,10 +132,10 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
   if (names.empty()) return std::nullopt;
   return Finding{
       logs.front().file, 0, Severity::kWarning, "wheel-slip",
-      fmt::format("these logs do not decide between {} and {}: the AIC of the former is lower by "
-                  "only {:.1f}, so the intervals of {} are withdrawn. Log each command when it is "
-                  "sent, and measure the speed without driven wheels (optical flow, GNSS, a free "
-                  "wheel)",
+      fmt::format("these logs do not decide between {} and {}: the AIC of the first is lower by "
+                  "only {:.1f}, so the intervals of {} are withdrawn. Log each command when it "
+                  "is sent, and measure the speed without driven wheels (optical flow, GNSS, a "
+                  "free wheel)",
                   explanation(chosen), explanation(*closest), aic_lead(chosen.fit, closest->fit),
                   fmt::join(names, ", "))};
 }

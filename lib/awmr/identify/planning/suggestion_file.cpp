@@ -72,9 +72,10 @@ std::string missing_sheet(const std::vector<MissingParameter>& missing) {
 /// Part of the field sheet: differential turns that measure the tyre scrub.
 std::string scrub_sheet(const Suggestion& suggestion) {
   if (suggestion.about_scrub.empty()) return {};
-  std::string text =
-      fmt::format("\nfor the choice between differential, steering and combined:\n  {}\n",
-                  suggestion.about_scrub);
+  std::string text = fmt::format(
+      "\nfor the choice between differential, steering and combined yaw control:\n  "
+      "{}\n",
+      suggestion.about_scrub);
   if (suggestion.scrub_turns.empty()) return text;
   text +=
       "  Drive steady differential turns with straight wheels (rows of the turning table, "

@@ -16,11 +16,10 @@ constexpr double kOutlierLevel = 0.05;  ///< significance level for the whole ta
 
 Finding outside_range(const Subject& subject, double beta) {
   const Interval& range = subject.beta_range;
-  return {
-      subject.file, 0, Severity::kWarning, "exponent-at-bound",
-      fmt::format("the exponent {} = {:.4g} is outside the accepted range [{:g}, {:g}], so a power "
-                  "law may not describe these runs; try another family",
-                  info(subject.beta).name, beta, range.lo, range.hi)};
+  return {subject.file, 0, Severity::kWarning, "exponent-at-bound",
+          fmt::format("the exponent {} = {:.4g} is outside the accepted range [{:g}, {:g}], so a "
+                      "power law may not describe these runs; try another resistance family",
+                      info(subject.beta).name, beta, range.lo, range.hi)};
 }
 
 }  // namespace

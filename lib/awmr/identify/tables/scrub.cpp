@@ -174,8 +174,9 @@ void note_standing(Model& model, const TrialSet<TurningRow>& turning,
   }
   note(model, turning, "scrub-holds",
        fmt::format("the vehicle did not turn in {} of {} differential turns (line{} {}). The "
-                   "largest moment among them is {:.3g} m, so the tyre scrub is at least that. Use "
-                   "a larger force difference; awmr suggest lists forces",
+                   "largest moment among them is {:.3g} m, so the tyre scrub (moment to drag the "
+                   "tyres sideways) is at least that. Use a larger force difference; awmr "
+                   "suggest lists forces",
                    standing.size(), standing.size() + turning.by_sides.size(),
                    standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
 }
@@ -199,10 +200,10 @@ void note_limits(Model& model, const TrialSet<TurningRow>& turning, const ScrubM
     const auto fastest = static_cast<std::size_t>(fast - met.rates_radps.begin());
     note(
         model, turning, "scrub-grows",
-        fmt::format("the scrub moment of the tyres (over F_max) changes with the yaw rate: {:.3g} "
-                    "to {:.3g} m in the differential turns at {:.3g} to {:.3g} deg/s. Simulations "
-                    "use the mean, {:.3g} m, at every yaw rate; compare --break-even also "
-                    "considers {:.3g} to {:.3g} m, the fitted line with its 95 % interval",
+        fmt::format("the scrub moment of the tyres (divided by F_max) changes with the yaw rate: "
+                    "{:.3g} to {:.3g} m in the differential turns at {:.3g} to {:.3g} deg/s. "
+                    "Simulations use the mean, {:.3g} m, at every yaw rate; compare --break-even "
+                    "also considers {:.3g} to {:.3g} m, the fitted line with its 95 % interval",
                     met.moments_m[slowest], met.moments_m[fastest], degrees(rates.lo),
                     degrees(rates.hi), scrub.moment_m, scrub.changing_m->lo, scrub.changing_m->hi));
   }

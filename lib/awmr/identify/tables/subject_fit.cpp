@@ -56,8 +56,8 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
 Finding not_compared(const Subject& subject) {
   return about(
       subject, Severity::kWarning, "families-not-compared",
-      fmt::format("the {} resistance has {} rows, and a comparison of families of resistance by "
-                  "AICc needs {}; the power law is used. Record {} more",
+      fmt::format("the {} resistance has {} rows, but a comparison of resistance families by "
+                  "AICc needs {}, so the power law is used. Record {} more rows",
                   name_in(kFitSubjectNames, subject.name), subject.points.size(), kMinToCompare,
                   kMinToCompare - subject.points.size()));
 }
@@ -73,9 +73,9 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
                     subject.points.size()));
   }
   return about(subject, Severity::kError, "not-converged",
-               fmt::format("no resistance family has a {} fit that converged and has an AICc. An "
-                           "AICc needs at least three runs more than the family has parameters; "
-                           "record more runs",
+               fmt::format("no resistance family has a {} fit that converged and has an AICc, by "
+                           "which the families are compared. An AICc needs at least three runs "
+                           "more than the family has parameters; record more runs",
                            name_in(kFitSubjectNames, subject.name)));
 }
 
