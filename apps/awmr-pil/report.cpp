@@ -147,23 +147,24 @@ void evaluate(const PilOptions& options, double period_cycles, Report& report) {
   checks.push_back(at_most("ram", figures.ram_bytes, options.ram_max, "bytes"));
   checks.push_back(at_most("difference from the host's float run", report.from_float.largest(),
                            options.difference_max.value_or(by_table ? 0.0 : 1e-6), ""));
-  checks.push_back({"rows as in the host's float run", report.from_float.same_length ? 0.0 : 1.0,
-                    0.0, report.from_float.same_length, ""});
+  checks.push_back({"row count unlike the host's float run",
+                    report.from_float.same_length ? 0.0 : 1.0, 0.0, report.from_float.same_length,
+                    ""});
   if (report.from_double) {
     checks.push_back(at_most("heading difference from the host's double run, within one sample",
                              report.heading_apart_deg, *options.heading_max_deg, "deg"));
   }
   if (const auto& injected = report.injected) {
     const bool reset = options.injection == Injection::kReset;
-    checks.push_back({reset ? "restarted after the reset" : "injected fault raised",
+    checks.push_back({reset ? "no restart after the reset" : "injected fault not raised",
                       injected->worked ? 0.0 : 1.0, 0.0, injected->worked, ""});
-    checks.push_back({"safe command given", injected->safe ? 0.0 : 1.0, 0.0, injected->safe, ""});
-    checks.push_back({"no other fault", injected->quiet ? 0.0 : 1.0, 0.0, injected->quiet, ""});
+    checks.push_back({"no safe command", injected->safe ? 0.0 : 1.0, 0.0, injected->safe, ""});
+    checks.push_back({"other faults", injected->quiet ? 0.0 : 1.0, 0.0, injected->quiet, ""});
   } else {
     const bool clean = report.chip.start_fault == kFaultNone &&
                        std::all_of(report.chip.rows.begin(), report.chip.rows.end(),
                                    [](const LoopRow& row) { return row.step.output.fault == 0; });
-    checks.push_back({"no fault", clean ? 0.0 : 1.0, 0.0, clean, ""});
+    checks.push_back({"faults", clean ? 0.0 : 1.0, 0.0, clean, ""});
   }
 }
 

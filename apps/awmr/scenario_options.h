@@ -70,10 +70,9 @@ inline void add_plant(CLI::App& command, PlantChoice& choice) {
 inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
   std::vector<std::string> names = names_in(kPlantKindNames);
   names.emplace_back(kBothPlants);
-  add_plant_of(
-      command, choice, std::move(names),
-      "both: each scenario on its own plant (four-wheel if it has tyres, else model), and a "
-      "check of the ranking on the other plant and with slower and faster gains");
+  add_plant_of(command, choice, std::move(names),
+               "both: each scenario on its own plant (four-wheel if it has tyres, else model). The "
+               "ranking is then checked on the other plant, and with slower and faster gains");
 }
 
 /// Returns the tyres in the file of `--tyres`, or the default tyres without such a file. For a

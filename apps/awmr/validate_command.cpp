@@ -189,9 +189,9 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
                  "window (default 0.3)")
       ->check(within(1e-9, 1e6));
   sub.add_flag("--tyres", command.tyres,
-               "Also fit the tyres of the four-wheel model (friction, cornering stiffness) to the "
-               "logs, and test on parts of the logs that were not fitted whether this model or the "
-               "3-DOF model predicts better")
+               "Also fit the tyres of the four-wheel model (friction, cornering stiffness) to "
+               "the logs. Parts of the logs that were not fitted then show whether this model or "
+               "the 3-DOF model predicts better")
       ->needs("--log");
   add_end_options(sub, command.trials, excluded);
   sub.add_flag("--as-is", command.trials.as_is,

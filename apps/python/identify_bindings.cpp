@@ -108,12 +108,12 @@ void bind_identify(py::module_& module) {
       "suggest", suggested, py::arg("model"), py::kw_only(), py::arg("parameter") = "",
       py::arg("repeats") = 3,
       "Returns the trials to record next, best first, as a list of dicts. The keys are `kind`, "
-      "`settings` (text), `numbers` (the settings as a dict of numbers), `parameter` (whose "
-      "standard error the trial reduces), and `std_error_before` and `std_error_after`, this "
-      "standard error before and after the trial, in the parameter's unit. Arguments: `parameter` "
-      "is the parameter whose standard error is to be reduced (\"\": all parameters together), "
-      "`repeats` the number of runs of each trial. Trials for parameters without a value come "
-      "first; these have only the keys `parameter` and `settings`. Raises InputError.");
+      "`settings` (text), `numbers` (the settings as a dict of numbers), and `parameter` (whose "
+      "standard error the trial reduces). `std_error_before` and `std_error_after` are this "
+      "standard error before and after the trial, in the parameter's unit. Arguments: "
+      "`parameter` is the parameter whose standard error is to be reduced (\"\": all parameters "
+      "together), `repeats` the number of runs of each trial. Trials for parameters without a "
+      "value come first; these have only the keys `parameter` and `settings`. Raises InputError.");
 }
 
 }  // namespace awmr::python

@@ -136,12 +136,12 @@ void bind_tune(py::module_& module) {
       "tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
       py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = py::none(),
       "Searches the gains of the controller that minimise the objective and meet the "
-      "constraints, such as T2 < T1. `config`: path of a tune.json; `draws`: number of plants "
-      "drawn from the model's covariance (default 32); `nominal`: tune for the model's own "
-      "parameters, without draws, noise and lag; `observer`: True also tunes a disturbance "
-      "observer, False tunes none, None (default) tunes one if `config` has one or if runs do not "
-      "settle without it. The results equal those of `awmr tune`. Raises Refused if no gains meet "
-      "the constraints, InputError if the model lacks a parameter or `config` is wrong.");
+      "constraints, such as T2 < T1. `config`: path of a tune.json; `draws`: number of random "
+      "vehicles drawn from the model's covariance (default 32); `nominal`: tune for the model's "
+      "own parameters, without draws, noise and lag; `observer`: True also tunes a disturbance "
+      "observer, False tunes none, None (default) tunes one if `config` has one or if runs do "
+      "not settle without it. The results equal those of `awmr tune`. Raises Refused if no gains "
+      "meet the constraints, InputError if the model lacks a parameter or `config` is wrong.");
 }
 
 }  // namespace awmr::python

@@ -252,11 +252,11 @@ Json ranking_json(const Preferences& preferences) {
   json["decision"] = fmt::format(
       "decided: exactly one mode has rank 1 in the ranking and under every change of one "
       "assumption; level: several modes have rank 1 in all of these; undecided: no mode has, or "
-      "the lead rests on one metric and is lost if this metric has half its weight (narrow_lead). "
-      "A mode that completes no run does not have rank 1. Changes: any weights within a factor "
-      "{:g}; with option plant both, also the other plant and, for a single set of gains, the "
-      "rates of "
-      "heading and speed loop multiplied and divided by {:.3g}, each with up to {} samples",
+      "the lead rests on one metric and is lost if this metric has half its weight "
+      "(narrow_lead). A mode that completes no run does not have rank 1. Changes: any weights "
+      "within a factor {:g}; with option plant both, also the other plant; with it and a single "
+      "set of gains, also the rates of heading and speed loop multiplied and divided by {:.3g}. "
+      "The last two have up to {} samples each",
       kWeightFactor, kGainsFactor, kBatchRuns - 1);
   return json;
 }

@@ -46,14 +46,13 @@ inline constexpr std::string_view kScoreFormula =
     "geometric mean over the samples of the weighted geometric mean over the ranked metrics of "
     "(x + f)/(x1 + f), x: the mode's value, x1: that of the first mode in the list, f: the "
     "metric's floor divided by the relevance. A metric that a run lacks counts as that of the "
-    "worst run. A mode is behind if the "
-    "whole 95 % interval of the ratio of its score to that of the leader, the best mode of the "
-    "rank (bootstrap over samples, widened for few samples by Student's t), is above 1 + "
-    "relevance. It is equivalent if the 90 % "
-    "interval is within relevance of 1, or if every ranked metric is equivalent. Otherwise it is "
-    "undecided and shares the rank of the leader. Modes that complete significantly less often "
-    "than the best (exact McNemar test), or never although another mode does, come after the "
-    "others. The scores include runs that were not completed";
+    "worst run. The leader is the best mode of a rank. A mode is behind if the whole 95 % "
+    "interval of the ratio of its score to the leader's is above 1 + relevance (bootstrap over "
+    "samples, widened for few samples by Student's t). It is equivalent if the 90 % interval is "
+    "within relevance of 1, or if every ranked metric is equivalent. Otherwise it is undecided "
+    "and shares the rank of the leader. Modes that complete significantly less often than the "
+    "best (exact McNemar test), or never although another mode does, come after the others. The "
+    "scores include runs that were not completed";
 
 inline constexpr std::string_view kNotRanked =
     "not ranked: the scenario has no heading, line, path or waypoints to follow, or no metric with "

@@ -82,8 +82,8 @@ Status check_shape(const Covariance& covariance, const std::string& place) {
   const std::size_t n = covariance.parameters.size();
   if (n == 0) {
     return input_error(ErrorCode::kNotIdentified, place,
-                       "no fitted parameter has a covariance, so no random plants (samples) can be "
-                       "drawn; identify the model from trials, or do not request samples");
+                       "no fitted parameter has a covariance, so no random vehicles (samples) "
+                       "can be drawn; identify the model from trials, or do not request samples");
   }
   bool square = covariance.matrix.size() == n;
   for (const auto& row : covariance.matrix) square = square && row.size() == n;
@@ -133,8 +133,8 @@ Result<PlantSampler> PlantSampler::make(const Model& model) {
   const std::optional<Eigen::MatrixXd> factor = factor_of(coordinate_covariance(model));
   if (!factor) {
     return input_error(ErrorCode::kContradiction, place + "/matrix",
-                       "this covariance matrix is not positive semi-definite, so no random plants "
-                       "can be drawn; identify the model again");
+                       "this covariance matrix is not positive semi-definite, so no random "
+                       "vehicles (samples) can be drawn; identify the model again");
   }
   PlantSampler sampler;
   sampler.model_ = model;

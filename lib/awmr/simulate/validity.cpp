@@ -99,8 +99,8 @@ std::optional<Finding> missing_intervals(const Model& model) {
   return Finding{
       model.file, 0, Severity::kWarning, "no-interval",
       fmt::format("{} of the model {} no 95 % interval{}: the error of such a value is unknown, "
-                  "and plants drawn from the model do not vary it. Follow the findings of identify "
-                  "and identify again before driving with this model",
+                  "and random vehicles drawn from the model all have the same value. Follow the "
+                  "findings of identify and identify again before driving with this model",
                   fmt::join(missing, ", "), missing.size() == 1 ? "has" : "have",
                   causes.empty() ? "" : fmt::format(" (identify: {})", fmt::join(causes, ", ")))};
 }

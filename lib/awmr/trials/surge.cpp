@@ -19,7 +19,8 @@ const Rate kSpeed{.printed_column = "speed_mps",
 void check_surge_columns(TrialReader& reader) {
   if (!reader.has("tau_speed") && !reader.has("wheel_force")) {
     reader.header_fault(ErrorCode::kMissing,
-                        "no thrust: add a column tau_speed, or wheel_force (F' of one wheel)");
+                        "no thrust: add a column tau_speed (sum of the wheel forces) or "
+                        "wheel_force (of one wheel), divided by F_max");
   }
   if (!reader.has("speed_mps") && !(reader.has("distance_m") && reader.has("elapsed_s"))) {
     reader.header_fault(ErrorCode::kMissing,

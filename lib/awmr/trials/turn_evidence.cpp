@@ -150,7 +150,7 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
   if (!u || !(*u > 0.0) || row.steering_rad == 0.0) return std::nullopt;
   const double most = *u * std::tan(row.steering_rad) / vehicle.front_axle_m;
   return TurnShare{&row, row.yaw_rate_radps / most,
-                   fmt::format("while rolling wheels at the {:.3g} m/s of the surge runs with this "
+                   fmt::format("but rolling wheels at the {:.3g} m/s of the surge runs with this "
                                "force turn the vehicle at {:.3g} rad/s (u "
                                "tan(steering)/front_axle_m)",
                                *u, most)};
@@ -174,9 +174,9 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
   const double most = difference / (2.0 * vehicle.half_track_m);
   return TurnShare{
       &row, row.yaw_rate_radps / most,
-      fmt::format("while the speeds of rolling wheels left and right, according to the surge "
-                  "runs, differ by {:.3g} m/s, which turns the vehicle at {:.3g} rad/s (this "
-                  "difference over 2 half_track_m)",
+      fmt::format("but according to the surge runs, rolling wheels left and right differ by "
+                  "{:.3g} m/s, which turns the vehicle at {:.3g} rad/s (this difference over 2 "
+                  "half_track_m)",
                   difference, most)};
 }
 

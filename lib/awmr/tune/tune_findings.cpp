@@ -62,9 +62,9 @@ std::string advice_for(const std::string& scenario, YawMode mode,
   std::string advice;
   if (const auto& error = found->error) {
     advice = fmt::format(
-        ". With the identified values of all parameters, {:.0f} % settle: errors of the model keep "
-        "runs from settling, most of all that of {} (with its identified value, {:.0f} % settle). "
-        "Record {}, and identify again",
+        ". With the identified values of all parameters, {:.0f} % settle: errors of the model "
+        "keep runs from settling, most of all the error of {} (with its identified value, {:.0f} "
+        "% settle). Record {}, and identify again",
         100.0 * error->share_of_identified, error->quantity, 100.0 * error->settled_share,
         error->trial);
     if (found->changes.empty()) return advice;
@@ -132,9 +132,9 @@ void note_observer(const Tuning& tuning, std::vector<Finding>& findings) {
   if (tuning.observer_added) {
     findings.push_back(
         {"", 0, Severity::kWarning, "observer-added",
-         fmt::format("fewer than {:g} % of the runs{} settle without a disturbance observer, so an "
-                     "observer with a bandwidth of {:.3g} rad/s was tuned, which the firmware "
-                     "runs{}. To tune without an observer: {}",
+         fmt::format("fewer than {:g} % of the runs{} settle without a disturbance observer. An "
+                     "observer with a bandwidth of {:.3g} rad/s was therefore tuned, which the "
+                     "firmware runs{}. To tune without an observer: {}",
                      100.0 * kSettledShare, in_mode, tuning.gains.observer.bandwidth_radps, in_mode,
                      option_text("no_observer"))});
   }

@@ -90,10 +90,11 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
         {coastdown.file, run.line, Severity::kWarning, "implausible-deceleration",
          fmt::format(
              "stopping from {:.3g} m/s in {:.3g} s means an initial deceleration of {:.1f} m/s^2 "
-             "({:.1f} g), more than a tyre can give, and F_max = {:.0f} N per motor. With a tyre "
-             "friction of {:g}, m' is at least {:.3g}. In a quarter of their random vehicles, "
-             "compare and validate raise m' to this value; tune does so only by mass_factors of "
-             "tune.json. Check the stop time, or record the coast-down curve",
+             "({:.1f} g), more than a tyre can give. F_max (largest force of one motor) would be "
+             "{:.0f} N. With a tyre friction of {:g}, m' is at least {:.3g}. In a quarter of "
+             "their random vehicles, compare and validate raise m' to this value; tune does so "
+             "only by mass_factors of tune.json. Check the stop time, or record the coast-down "
+             "curve",
              run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity_mps2,
              mass_kg / mass_norm, kTyreFriction, mass_norm_by_grip(surge, run.initial_speed_mps))});
   }
@@ -101,18 +102,17 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
     findings.push_back(
         {coastdown.file, coastdown.rows.front().line, Severity::kNote, "single-stop-time",
          fmt::format(
-             "there is a single stop time, so the standard error of mass_norm assumes a timing "
-             "error of {:.2g} s, derived from the last digit of the time; repeat the coast-down "
-             "or record its curve",
+             "there is a single stop time. The standard error of mass_norm therefore assumes a "
+             "timing error of {:.2g} s, estimated from the digits of this time; repeat the "
+             "coast-down or record its curve",
              coastdown.rows.front().timing_std_s)});
   }
   if (relative_std_error && *relative_std_error > kFragileShare) {
     findings.push_back(
         {coastdown.file, 0, Severity::kWarning, "fragile-mass",
-         fmt::format("the standard error of mass_norm is {:.0f} % of its value, because "
-                     "m' from a stop time depends on the resistance at very low speed (b1 = "
-                     "{:.3f}); record "
-                     "the whole coast-down curve, or more surge runs at low speed",
+         fmt::format("the standard error of mass_norm is {:.0f} % of its value: m' from a stop "
+                     "time depends on the resistance at very low speed (b1 = {:.3f}). Record the "
+                     "whole coast-down curve, or more surge runs at low speed",
                      100.0 * *relative_std_error, surge.beta)});
   }
 }

@@ -79,11 +79,10 @@ std::string possible_causes(const Channels& channels) {
     if (channels.size() == 1) return sway;
   }
   const std::string causes =
-      "an unmodelled effect acts on the vehicle (a motor driver that brakes at a command of 0, a "
-      "curved throttle, play or a curved linkage of the steering without a steering_deg column, a "
-      "slope, sliding tyres), a value "
-      "in the vehicle file is wrong (half_track_m, front_axle_m, "
-      "steering.max_rate_degps), or a sensor has a bias or drifts";
+      "an unmodelled effect (a motor driver that brakes at a command of 0, a curved throttle, "
+      "play or a curved steering linkage without a steering_deg column, a slope, sliding tyres); "
+      "a wrong value in the vehicle file (half_track_m, front_axle_m, steering.max_rate_degps); "
+      "a sensor with a bias or drift";
   const std::string bias =
       contains(channels, LogChannel::kYawRate)
           ? " (" + option_text("fit bias.yaw_rate_radps") + " estimates a bias of the yaw rate)"

@@ -243,7 +243,7 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
     return fmt::format(
         "steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and larger "
         "commands move them by this angle less. The fit compensates for this, but simulations "
-        "and tuned gains ignore it; reduce the play of the linkage, or increase the magnitude of "
+        "and tuned gains ignore it; reduce the play of the linkage. Or increase the magnitude of "
         "every command by {:.2f} deg before it is sent, and log the commands without this "
         "increase",
         degrees(band.value), degrees(band.error), degrees(band.value));

@@ -117,11 +117,10 @@ std::vector<Finding> side_pull_findings(const LogFit& fit, const std::string& fi
   if (!pull) return {};
   return {
       {file, 0, Severity::kWarning, "side-pull",
-       fmt::format("a yaw moment of {:.2g} +- {:.1g} m (divided by F_max, the largest force of "
-                   "one motor) pulls the vehicle to the {} when it drives forward: a dragging "
-                   "brake, unequal tyres, or a wheel out of line. The fit compensates for this, "
-                   "but simulations and tuned gains ignore it; correct the cause, or tune with "
-                   "an observer (awmr tune --observer)",
+       fmt::format("a yaw moment of {:.2g} +- {:.1g} m (divided by F_max) pulls the vehicle to "
+                   "the {} when it drives forward: a dragging brake, unequal tyres, or a wheel "
+                   "out of line. The fit compensates for this, but simulations and tuned gains "
+                   "ignore it; correct the cause, or tune with an observer (awmr tune --observer)",
                    std::abs(pull->value), pull->error, pull->value > 0.0 ? "left" : "right")}};
 }
 

@@ -279,9 +279,9 @@ ScrubPlan scrub_plan(const Model& model) {
   const std::optional<double> fastest_degps = measured_yaw_rate_degps(model);
   if (!yaw || !surge || !fastest_degps) {
     return {{},
-            "to suggest forces of differential turns, the model needs the surge resistance (record "
-            "surge trials or a log), the yaw resistance (record turning trials or a log) and the "
-            "highest yaw rate (from these trials, or yaw_rate_max_degps in the vehicle file)"};
+            "to suggest forces of differential turns, the model needs the surge resistance, the "
+            "yaw resistance and the highest yaw rate. Record surge and turning trials, or a log; "
+            "the yaw rate can also be yaw_rate_max_degps of the vehicle file"};
   }
   const std::optional<double> fastest_mps = fastest_surge_mps(model);
   const double straight = fastest_mps ? surge->surge(0.5 * *fastest_mps) / vehicle.driven_wheels()

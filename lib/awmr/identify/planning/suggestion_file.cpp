@@ -157,7 +157,7 @@ std::string field_sheet(const Suggestion& suggestion, std::size_t most) {
     text += fmt::format("[ ] {}. {:<9} {}\n", number++, name_in(kTrialKindNames, trial.kind),
                         trial.settings);
     text +=
-        fmt::format("       {}: standard error {:.3g} -> {:.3g};  information +{:.1f}\n",
+        fmt::format("       {}: standard error {:.3g} -> {:.3g};  information gain {:.1f}\n",
                     trial.parameter, trial.std_error_before, trial.std_error_after, trial.d_gain);
   }
   return text + scrub_sheet(suggestion) + coasting_sheet(suggestion);

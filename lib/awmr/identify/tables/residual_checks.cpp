@@ -33,11 +33,10 @@ Finding held_exponent(const Subject& subject, const SteadyFit& fit) {
           ? fmt::format("set \"{}\": [{:g}, {:g}] in the vehicle file to accept larger exponents",
                         surge ? "surge_beta_range" : "yaw_beta_range", range.lo, 2.0 * range.hi)
           : std::string("use a family with Coulomb friction, which describes a force at rest");
-  return {
-      subject.file, 0, Severity::kError, "exponent-at-bound",
-      fmt::format("the search for {} ended at {:.4g}, a limit of the accepted range [{:g}, {:g}], "
-                  "so these runs do not determine the exponent and the fit is refused; {}",
-                  info(subject.beta).name, beta, range.lo, range.hi, remedy)};
+  return {subject.file, 0, Severity::kError, "exponent-at-bound",
+          fmt::format("the search for {} ended at {:.4g}, a limit of the accepted range [{:g}, "
+                      "{:g}]. These runs do not determine the exponent, so the fit is refused; {}",
+                      info(subject.beta).name, beta, range.lo, range.hi, remedy)};
 }
 
 std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit, Family family) {

@@ -190,8 +190,9 @@ void note_limits(Model& model, const TrialSet<TurningRow>& turning, const ScrubM
   if (range && (rates.hi > kLittleFurther * range->hi || kLittleFurther * rates.lo < range->lo)) {
     note(model, turning, "scrub-beyond-trials",
          fmt::format("the differential turns are at {:.3g} to {:.3g} deg/s, the steered turns at "
-                     "{:.3g} to {:.3g} deg/s, so the tyre scrub is computed with an extrapolated "
-                     "yaw resistance; record both kinds of turns at the same yaw rates",
+                     "{:.3g} to {:.3g} deg/s. The tyre scrub is therefore computed with an "
+                     "extrapolated yaw resistance; record both kinds of turns at the same yaw "
+                     "rates",
                      degrees(rates.lo), degrees(rates.hi), degrees(range->lo), degrees(range->hi)));
   }
   if (scrub.changing_m) {

@@ -35,10 +35,9 @@ Eigen::VectorXd signs_of(const Subject& yaw, const TrialSet<TurningRow>& runs) {
 Finding turns_differ(const std::string& file, double moment_m, double std_error_m, double p) {
   return {file, 0, Severity::kWarning, "turns-differ",
           fmt::format("left and right turns differ as if a constant yaw moment of {:.2g} +- "
-                      "{:.1g} m (divided by F_max, the largest force of one motor) turned the "
-                      "vehicle to the {} (p = {:.2g}): unequal motors or drag, or wheels out of "
-                      "line. The parameters of the yaw resistance get no intervals; correct the "
-                      "cause and repeat the turns",
+                      "{:.1g} m (divided by F_max) turned the vehicle to the {} (p = {:.2g}): "
+                      "unequal motors or drag, or wheels out of line. The parameters of the yaw "
+                      "resistance get no intervals; correct the cause and repeat the turns",
                       std::abs(moment_m), std_error_m, moment_m > 0.0 ? "left" : "right", p)};
 }
 
