@@ -138,9 +138,9 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   check.notes.push_back(
       {project.vehicle.string() + ":/sway_alpha", 0, Severity::kNote, "assumed-sway",
        fmt::format(
-           "sway_alpha ({}) is not given: identify assumes the value of common tyres, which can be "
-           "wrong by a factor of {:.1f}. If sideslip matters, give a driving log with sway_mps, or "
-           "this key of vehicle.json",
+           "sway_alpha ({}) is not given: identify assumes the value of common tyres, which can "
+           "be wrong by a factor of {:.1f}. If sideslip matters, give a driving log with "
+           "sway_mps, or set sway_alpha in vehicle.json",
            info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 

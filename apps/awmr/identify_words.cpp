@@ -47,8 +47,8 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
       ->check(one_of(names_in(kErrorModelNames)));
   sub.add_option(
          "--family", words.families,
-         "Family of the resistance laws: power (default; a fit of logs uses another family if "
-         "that is significantly better), coulomb-linear, coulomb-linear-quadratic, "
+         "Family (formula) of the resistance laws: power (default; a fit of logs uses another "
+         "family if that is significantly better), coulomb-linear, coulomb-linear-quadratic, "
          "coulomb-power, dead-zone, or auto (the one with the smallest AICc); surge=NAME or "
          "yaw=NAME selects it for one law")
       ->delimiter(',');

@@ -87,7 +87,7 @@ inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Fin
                    "stiffness {:.3g} per rad); on the parts of the logs that were held out from "
                    "the fit, {}",
                    fit.tyres.friction, fit.tyres.cornering_per_rad,
-                   fit.better ? fmt::format("the {} plant predicts better: rely on results of it",
+                   fit.better ? fmt::format("the {} plant predicts better: rely on its results",
                                             name_in(kPlantKindNames, *fit.better))
                               : "neither plant predicts better")});
   return fit.tyres;

@@ -44,7 +44,7 @@ Status check_against(const TuneConfig& config, const TuneCommand& command) {
   if (command.draws && options.nominal) {
     return input_error(
         ErrorCode::kConflict, "--draws",
-        "the configuration (--config) sets nominal, which uses no draws; remove --draws or "
+        "the configuration (--config) sets nominal, which draws no vehicles; remove --draws or "
         "nominal");
   }
   return {};
@@ -145,8 +145,8 @@ Result<Provenance> provenance_of(const TuneCommand& command, const std::vector<f
 /// Adds the options of the search; returns `--nominal`.
 CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
   auto* nominal = sub.add_flag("--nominal", command.nominal,
-                               "Tune for the model's own parameter values only, without parameter "
-                               "draws, sensor noise, latency or motor lag");
+                               "Tune for the model's own parameter values only, without random "
+                               "parameters, sensor noise, latency or motor lag");
   auto* observer = sub.add_flag_callback(
       "--observer", [&command] { command.observer = true; },
       "Also tune a disturbance observer, for constant disturbances such as a slope or unequal "

@@ -81,11 +81,11 @@ void bind_compare(py::module_& module) {
       "compare", compared, py::arg("model"), py::arg("gains"), py::arg("scenarios"), py::kw_only(),
       py::arg("samples") = 0, py::arg("seed") = 1, py::arg("threads") = 0,
       py::arg("heading_rate_limit") = py::none(),
-      "Compares the yaw-control modes on a list of scenarios, for the model's own values and "
-      "`samples` draws from its covariance. The results equal those of `awmr compare`, for any "
-      "number of threads (0: all cores). `heading_rate_limit`: limit of the rate of heading "
-      "commands in deg/s, \"measured\" (the highest yaw rate of the trials) or \"none\"; default: "
-      "\"measured\" if the model has such a yaw rate, else \"none\". Raises InputError.");
+      "Compares the yaw-control modes on a list of scenarios, for the model's own values and for "
+      "`samples` random vehicles from its covariance. The results equal those of `awmr compare`, "
+      "for any number of threads (0: all cores). `heading_rate_limit`: limit of the rate of "
+      "heading commands in deg/s, \"measured\" (the highest yaw rate of the trials) or \"none\"; "
+      "default: \"measured\" if the model has such a yaw rate, else \"none\". Raises InputError.");
 }
 
 }  // namespace awmr::python

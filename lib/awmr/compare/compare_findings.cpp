@@ -92,7 +92,7 @@ std::vector<Finding> completion_findings(const Comparison& comparison) {
              "vehicle. {}",
              change.scenario, text_of(change), runs, fmt::join(labels, " and "),
              change.kind == ChangeKind::kPlant
-                 ? "Find out which plant describes it: validate both with logs (awmr "
+                 ? "Find out which plant describes the vehicle: validate both with logs (awmr "
                    "validate --tyres)"
                  : "Tune again, or give a longer scenario")});
   }

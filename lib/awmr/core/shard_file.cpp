@@ -100,24 +100,32 @@ std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& pro
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name) {
   if (found_version != version()) {
-    return fmt::format("this part was written by version {} of the program, but this is {}",
-                       found_version, version());
+    return fmt::format(
+        "this part was written by version {} of the program, but this is {}; run "
+        "it again with this version",
+        found_version, version());
   }
   std::set<std::string> options;
   for (const std::string& option : differing(found.options, expected.options)) {
     options.insert(option_text(option));
   }
   if (!options.empty()) {
-    return fmt::format("this part was made with other options ({}) than {}",
-                       fmt::join(options, ", "), name);
+    return fmt::format(
+        "this part was made with other options ({}) than {}; make both with the "
+        "same options",
+        fmt::join(options, ", "), name);
   }
   const auto inputs = inputs_of(found), expected_inputs = inputs_of(expected);
   if (inputs == expected_inputs) return {};
   const std::set<std::string> files = differing(inputs, expected_inputs);
-  return files.empty()
-             ? fmt::format("this part was made from the same inputs as {} in another order", name)
-             : fmt::format("this part was made from other inputs ({}) than {}",
-                           fmt::join(files, ", "), name);
+  return files.empty() ? fmt::format(
+                             "this part was made from the same inputs as {} in another order; run "
+                             "it again with the same order",
+                             name)
+                       : fmt::format(
+                             "this part was made from other inputs ({}) than {}; make both from "
+                             "the same inputs",
+                             fmt::join(files, ", "), name);
 }
 
 /// Describes why `part` cannot be combined with `first`, the first part of the job; empty if it

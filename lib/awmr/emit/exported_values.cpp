@@ -90,9 +90,9 @@ void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode
                      "while the magnitude of this sum is below w0");
   }
   add_width("heading_friction_width", gains.heading.friction_width_radps,
-            "w0: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot + "
-            "lambda e while the magnitude of this sum is below w0; in differential mode the limit "
-            "is 0.02 rad/s without and w0 with an observer");
+            "w0: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot "
+            "+ lambda e while the magnitude of this sum is below w0; in differential mode this "
+            "limit is 0.02 rad/s, with an observer w0");
   add_width("heading_combined_friction_width", gains.friction_width_at(0.5),
             "w0 of the combined mode");
 }

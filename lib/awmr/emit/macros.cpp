@@ -100,9 +100,9 @@ void add_friction_widths(std::vector<Macro>& macros, const ModeGains& gains,
   const Gains<double>& combined = gains.in(YawMode::kCombined);
   add("AWMR_HEADING_FRICTION_WIDTH_RADPS", YawMode::kSteering,
       gains.in(YawMode::kSteering).heading.friction_width_radps,
-      "w0, rad/s: in steering mode the fed-forward Coulomb friction is proportional to "
-      "psi_d_dot + lambda e while the magnitude of this sum is below w0; in differential mode "
-      "the limit is 0.02 rad/s without and w0 with an observer",
+      "w0, rad/s: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot "
+      "+ lambda e while the magnitude of this sum is below w0; in differential mode this limit "
+      "is 0.02 rad/s, with an observer w0",
       "/heading/friction_width_radps");
   add("AWMR_HEADING_COMBINED_FRICTION_WIDTH_RADPS", YawMode::kCombined,
       combined.friction_width_at(0.5), "rad/s: w0 of the combined mode",

@@ -269,8 +269,8 @@ std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample&
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const std::string& name = sample.names[i];
     if (name == column) {
-      guesses.push_back(
-          {column, name, Confidence::kSure, "it has awmr's name", first_of(sample.values[i])});
+      guesses.push_back({column, name, Confidence::kSure, "the column already has awmr's name",
+                         first_of(sample.values[i])});
       continue;
     }
     const Words words = by_letters ? with_body_velocity(words_of(name)) : words_of(name);

@@ -311,8 +311,8 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
     return Contradiction{column, fmt::format("{}: {}", observed, wrong), mapping};
   }
   return Contradiction{column, fmt::format("{}: {}; or {}", observed, wrong, kReversed), mapping,
-                       fmt::format("find out which is true; only if it is the force, map it with "
-                                   "{}",
+                       fmt::format("find out which is true; only if the force is wrong, map it "
+                                   "with {}",
                                    option_text("column '" + mapping + "'"))};
 }
 

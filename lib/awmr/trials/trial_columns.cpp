@@ -183,7 +183,7 @@ std::string trials_with(const std::string& column) {
 /// Returns the reason why a mapping is unused although a file has its source columns.
 std::string why_unused(const ColumnMapping& mapping) {
   return fmt::format(
-      "no file with the columns of this formula needs {}, which is a column of {} trials; correct "
+      "the files with the columns of this formula do not use {}, a column of {} trials; correct "
       "the formula or remove it{}",
       mapping.name, trials_with(mapping.name), why_no_formula(mapping));
 }

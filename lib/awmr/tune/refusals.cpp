@@ -71,8 +71,8 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
           "local_evaluations{}",
           goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
           e.goal_quantile[worst], unsettled_text(objective, context, found.nearest.gains),
-          is_rate_limited ? "; one default scenario is slow, because it limits the heading rate to "
-                            "the highest measured yaw rate: " +
+          is_rate_limited ? ". One default scenario is slow, because it limits the heading rate "
+                            "to the highest measured yaw rate; " +
                                 option_text("heading_rate_limit") + " none removes that scenario"
                           : ""));
 }

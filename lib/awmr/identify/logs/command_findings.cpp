@@ -379,8 +379,8 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   for (Finding& finding : findings) {
     if (finding.code == "force-saturation" && saturates_much(fit)) continue;
     finding.message +=
-        ". This value has no interval, because a model error may have caused it: do not change the "
-        "vehicle because of it before the cause of that error is known";
+        ". This value has no interval, because a model error may have caused it. Find the cause "
+        "of that error before you change the vehicle";
   }
   return findings;
 }

@@ -131,7 +131,7 @@ std::vector<Finding> turn_drag_findings(const LogFit& fit, const std::string& fi
            fmt::format("the resistance to driving is larger in turns, by {:.2g} +- {:.2g} of "
                        "F_max at 1 rad/s and 1 m/s: tyres or tracks scrub. The fit compensates "
                        "for this, but simulations and tuned gains ignore it, so the vehicle is "
-                       "slower in turns than they predict",
+                       "slower in turns than simulated",
                        drag->value, drag->error)}};
 }
 
