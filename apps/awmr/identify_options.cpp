@@ -65,8 +65,8 @@ tl::unexpected<Error> unknown_request(std::string_view name,
   const std::vector<std::string> automatic = automatic_terms();
   if (std::ranges::find(automatic, name) != automatic.end()) {
     return input_error(ErrorCode::kUnknownName, "--fit",
-                       fmt::format("'{}' cannot be requested: a fit of logs estimates it by itself "
-                                   "if the logs indicate it",
+                       fmt::format("'{}' cannot be requested: a fit of logs estimates it by "
+                                   "itself if the logs indicate it; leave it out; leave it out",
                                    name));
   }
   const auto id = parameter_by_name(name);

@@ -90,7 +90,9 @@ Status check_shape(const Covariance& covariance, const std::string& place) {
   if (!square) {
     return input_error(
         ErrorCode::kWrongType, place + "/matrix",
-        fmt::format("the matrix must be {0} by {0}, one row and column per parameter", n));
+        fmt::format("the matrix must be {0} by {0}, one row and column per parameter; identify "
+                    "again; identify again",
+                    n));
   }
   return {};
 }

@@ -170,7 +170,9 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
   const std::map<TopicKey, Listed> listed = list_topics(contents, wanted, signals);
   if (signals.header.size() > kMaxSignals) {
     return input_error(ErrorCode::kTooLarge, file,
-                       fmt::format("there are more than {} signals", kMaxSignals));
+                       fmt::format("there are more than {} signals, the most that awmr reads; "
+                                   "export fewer, the most that awmr reads; export fewer",
+                                   kMaxSignals));
   }
   const auto take = [&](std::uint8_t type, std::string_view record, std::size_t offset) -> Status {
     if (type == kFormatType) return {};

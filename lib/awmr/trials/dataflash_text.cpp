@@ -258,7 +258,9 @@ Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& f
   const std::map<TextTopic, ListedText> listed = list_text_topics(contents, wanted, signals);
   if (signals.header.size() > kMaxSignals) {
     return input_error(ErrorCode::kTooLarge, file,
-                       fmt::format("there are more than {} signals", kMaxSignals));
+                       fmt::format("there are more than {} signals, the most that awmr reads; "
+                                   "export fewer, the most that awmr reads; export fewer",
+                                   kMaxSignals));
   }
   AWMR_RETURN_IF_ERROR(for_each_line(whole, [&](const Cells& cells, int line) -> Status {
     if (cells.front() == "FMT") return {};

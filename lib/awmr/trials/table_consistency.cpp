@@ -210,8 +210,8 @@ void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
   table.findings.push_back(
       {table.file, line, Severity::kWarning, "coast-beyond-surge",
        fmt::format("a coast-down begins at {:.3g} m/s, {:.2g} times the fastest surge run "
-                   "({:.3g} m/s): m' depends on a resistance that no run measured, or the speed is "
-                   "in another unit (km/h are 3.6 times m/s)",
+                   "({:.3g} m/s): m' depends on a resistance that no run measured. Record faster "
+                   "surge runs, or check the unit of the speeds (km/h are 3.6 times m/s)",
                    fastest_mps, fastest_mps / driven_mps, driven_mps)});
 }
 

@@ -65,7 +65,11 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
     }
   }
   if (reading.signals.header.size() > kMaxSignals) {
-    return wrong(reading, offset, fmt::format("there are more than {} signals", kMaxSignals));
+    return wrong(reading, offset,
+                 fmt::format("there are more than {} signals, the most that "
+                             "awmr reads; export fewer, the most that awmr "
+                             "reads; export fewer",
+                             kMaxSignals));
   }
   if (!reading.subscriptions.emplace(*id, std::move(subscription)).second) {
     return wrong(reading, offset, fmt::format("a second topic has the id {}", *id));

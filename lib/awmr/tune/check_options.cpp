@@ -104,8 +104,8 @@ void check_open(const TuneOptions& options, std::vector<Fault>& faults) {
   for (const Interval& force : open.wheel_forces) {
     if (force.lo >= -1.0 && force.lo < force.hi && force.hi > 0.0 && force.hi <= 1.0) continue;
     faults.push_back({ErrorCode::kOutOfRange, "",
-                      fmt::format("open: found the wheel forces [{}, {}], but -1 <= min < max and "
-                                  "0 < max <= 1 are required",
+                      fmt::format("open: found the wheel forces [{}, {}]; give forces with -1 <= "
+                                  "min < max and 0 < max <= 1",
                                   force.lo, force.hi)});
   }
   if (std::max(open.mass_factors.size(), open.wheel_forces.size()) > kMaxOpenValues) {
