@@ -66,7 +66,7 @@ tl::unexpected<Error> unknown_request(std::string_view name,
   if (std::ranges::find(automatic, name) != automatic.end()) {
     return input_error(ErrorCode::kUnknownName, "--fit",
                        fmt::format("'{}' cannot be requested: a fit of logs estimates it by "
-                                   "itself if the logs indicate it; leave it out; leave it out",
+                                   "itself if the logs indicate it; leave it out",
                                    name));
   }
   const auto id = parameter_by_name(name);

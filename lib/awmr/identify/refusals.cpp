@@ -72,12 +72,12 @@ std::string_view remedy_of(ParameterId id, const TrialData& data, const Vehicle&
   const bool is_surge = is_surge_law(id) || id == ParameterId::kMassNorm;
   using enum LogChannel;
   if (!data.logs.empty() && is_surge && !is_logged(data, {kSpeed, kX})) {
-    return "logs with speed_mps, or with both x_m and y_m, which the logs given lack (or map "
-           "columns to these names)";
+    return "logs with speed_mps, or with both x_m and y_m, which these logs lack (or map columns "
+           "to these names)";
   }
   if (!data.logs.empty() && is_turning && !is_logged(data, {kYawRate, kHeading, kX})) {
-    return "logs with yaw_rate_radps or heading_deg, which the logs given lack (or map columns "
-           "to these names)";
+    return "logs with yaw_rate_radps or heading_deg, which these logs lack (or map columns to "
+           "these names)";
   }
   return trial_of(vehicle, id);
 }

@@ -60,7 +60,7 @@ std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& 
       !std::all_of(matrix.begin(), matrix.end(), is_row)) {
     json.fault(ErrorCode::kWrongType, "matrix",
                fmt::format("the matrix must be {0} rows of {0} numbers, one per entry of "
-                           "parameters; identify again; identify again",
+                           "parameters; identify again",
                            size));
     return rows;
   }

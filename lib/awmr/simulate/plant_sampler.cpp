@@ -91,7 +91,7 @@ Status check_shape(const Covariance& covariance, const std::string& place) {
     return input_error(
         ErrorCode::kWrongType, place + "/matrix",
         fmt::format("the matrix must be {0} by {0}, one row and column per parameter; identify "
-                    "again; identify again",
+                    "again",
                     n));
   }
   return {};

@@ -171,7 +171,7 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
   if (signals.header.size() > kMaxSignals) {
     return input_error(ErrorCode::kTooLarge, file,
                        fmt::format("there are more than {} signals, the most that awmr reads; "
-                                   "export fewer, the most that awmr reads; export fewer",
+                                   "export fewer",
                                    kMaxSignals));
   }
   const auto take = [&](std::uint8_t type, std::string_view record, std::size_t offset) -> Status {

@@ -259,7 +259,7 @@ Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& f
   if (signals.header.size() > kMaxSignals) {
     return input_error(ErrorCode::kTooLarge, file,
                        fmt::format("there are more than {} signals, the most that awmr reads; "
-                                   "export fewer, the most that awmr reads; export fewer",
+                                   "export fewer",
                                    kMaxSignals));
   }
   AWMR_RETURN_IF_ERROR(for_each_line(whole, [&](const Cells& cells, int line) -> Status {

@@ -66,9 +66,8 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   }
   if (reading.signals.header.size() > kMaxSignals) {
     return wrong(reading, offset,
-                 fmt::format("there are more than {} signals, the most that "
-                             "awmr reads; export fewer, the most that awmr "
-                             "reads; export fewer",
+                 fmt::format("there are more than {} signals, the most that awmr reads; export "
+                             "fewer",
                              kMaxSignals));
   }
   if (!reading.subscriptions.emplace(*id, std::move(subscription)).second) {
