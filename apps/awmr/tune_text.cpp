@@ -116,10 +116,10 @@ std::string evaluation_table(const std::vector<EvaluatedGains>& all,
   if (all.empty()) return {};
   const std::vector<EvaluatedGains>& rows = by_scenario.empty() ? all : by_scenario;
   std::string text =
-      fmt::format("  {:<12} {:<10} {:>7} {:>14} {:>10} {:>9} {:>11}\n", "fresh draws", "gains",
-                  "settled", "settling s", "overs. deg", "IAE deg s", "steer deg/s");
+      fmt::format("  {:<12} {:<10} {:>7} {:>14} {:>10} {:>9} {:>11}\n", "new vehicles", "gains",
+                  "settled", "settling s", "overshoot", "IAE deg s", "steer deg/s");
   text += fmt::format("  {:<12} {:<10} {:>7} {:>7} {:>6} {:>10} {:>9} {:>11}\n", "", "", "%",
-                      "median", "95 %", "95 %", "95 %", "95 %");
+                      "median", "95 %", "deg, 95 %", "95 %", "95 %");
   std::string_view scenario;
   for (const EvaluatedGains& evaluated : rows) {
     if (evaluated.scenario != scenario) text += fmt::format("  {}\n", evaluated.scenario);
@@ -146,14 +146,15 @@ std::string goals_text(const std::vector<EvaluatedGoal>& all) {
     for (const GoalLimit& limit : evaluated.goal.at_most) {
       limits += fmt::format("{}{} <= {:g}", limits.empty() ? "" : ", ", limit.figure, limit.most);
     }
-    text +=
-        fmt::format("  {:<6} {}, {}{}: {:.1f} % of {} draws ({:.1f} to {:.1f}), required {:g} %\n",
-                    name_in(kGoalVerdictNames, evaluated.verdict), limits, name_of(evaluated.mode),
-                    evaluated.goal.is_soft ? ", soft" : "", 100.0 * evaluated.held / evaluated.runs,
-                    evaluated.runs, 100.0 * evaluated.ci95.lo, 100.0 * evaluated.ci95.hi,
-                    100.0 * evaluated.goal.share);
+    text += fmt::format(
+        "  {:<6} {}, {}{}: {:.1f} % of {} new vehicles (95 %: {:.1f} to {:.1f}), "
+        "required {:g} %\n",
+        name_in(kGoalVerdictNames, evaluated.verdict), limits, name_of(evaluated.mode),
+        evaluated.goal.is_soft ? ", soft" : "", 100.0 * evaluated.held / evaluated.runs,
+        evaluated.runs, 100.0 * evaluated.ci95.lo, 100.0 * evaluated.ci95.hi,
+        100.0 * evaluated.goal.share);
   }
-  return text.empty() ? text : "  goals, on fresh draws\n" + text;
+  return text.empty() ? text : "  goals, on new vehicles\n" + text;
 }
 
 /// gains_table() of one search.

@@ -161,8 +161,7 @@ std::string summary_of(const ValidateCommand& command, const Validation& validat
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
   const char* const title = validation.trials.empty()
                                 ? ""
-                                : "on the same trials that the model was fitted to (in "
-                                  "sample)\n";
+                                : "on the trials to which the model was fitted, not on new data\n";
   std::string text = title + brief_of(validation) + logs_table(validation);
   for (const Acceptance& drive : validation.drives) text += acceptance_table(drive);
   return text;

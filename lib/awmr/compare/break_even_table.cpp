@@ -83,8 +83,8 @@ std::string measured_text(const BreakEven& entry) {
   }
   if (!entry.measured_degps) {
     return fmt::format(
-        "this vehicle: at least {:.3g} m,\n"
-        "  with which the vehicle did not turn (awmr suggest lists larger forces)\n",
+        "this vehicle: at least {:.3g} m,\n  because the vehicle did not turn with this moment "
+        "(awmr suggest lists larger forces)\n",
         entry.measured_m->lo);
   }
   return fmt::format("measured in this vehicle: {:.3g} to {:.3g} m\n", entry.measured_m->lo,

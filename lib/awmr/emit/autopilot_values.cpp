@@ -80,7 +80,7 @@ struct Autopilot {
   }
 };
 
-constexpr const char* kNoGains = "it is computed from gains, which were not given (option --gains)";
+constexpr const char* kNoGains = "it is computed from gains, but none were given (option --gains)";
 constexpr const char* kNoMass = "the model lacks mass_norm";
 constexpr const char* kNoInertia = "the model lacks inertia_norm";
 constexpr const char* kNoYaw = "the model lacks the yaw law";

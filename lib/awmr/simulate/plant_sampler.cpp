@@ -190,8 +190,8 @@ Result<Model> PlantSampler::draw_model(std::uint64_t seed, int sample) const {
     }
   }
   return input_error(ErrorCode::kNotIdentified, model_.file + ":/covariance",
-                     fmt::format("all {} random draws have a negative exponent or term of a "
-                                 "resistance; identify the model from more trials",
+                     fmt::format("all {} randomly drawn vehicles have a negative exponent or "
+                                 "term of a resistance; identify the model from more trials",
                                  kMaxTries));
 }
 

@@ -118,7 +118,8 @@ std::vector<Finding> imprecise_parameters(const Model& model) {
         {model.file, 0, Severity::kWarning, "imprecise-parameter",
          fmt::format("{} is {:.3g} {} with a standard error of {:.3g} times this value: vehicles "
                      "drawn from the model differ from each other by large factors, and results "
-                     "over these draws depend mainly on this error. Record {}, and identify again",
+                     "over these vehicles depend mainly on this error. Record {}, and identify "
+                     "again",
                      parameter.symbol, *value, parameter.unit, sigma,
                      trial_of(model.vehicle, parameter.id))});
   }

@@ -277,8 +277,8 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (!sums) {
     return fail(
         finding(first, Severity::kError, "tyres-not-converged",
-                "the fit to every other window, with which the plants are compared, does not "
-                "converge; record a longer drive"));
+                "the fit to every second window of the logs does not converge, so the plants "
+                "cannot be compared; record a longer drive"));
   }
   TyreFit tyres{
       .tyres = tyres_at(shown->fit.at),
