@@ -314,7 +314,7 @@ TEST(SteadyRunsOfALog, AreDifferentialTurnsWithoutSteering) {
   EXPECT_NEAR(runs.turning.rows[0].yaw_rate_radps, 0.4, 1e-3);
   // tau_turn = 2 d (F'R - F'L)                                                      [paper (41)]
   EXPECT_NEAR(runs.turning.rows[0].tau_turn_m, 2.0 * vehicle.half_track_m * 0.4, 1e-12);
-  EXPECT_THAT(findings.back().message, HasSubstr("F'L = 0.2, F'R = -0.2"));
+  EXPECT_THAT(findings.back().message, HasSubstr("force_left 0.2, force_right -0.2"));
 }
 
 TEST(SteadyWheelsOfALog, AreTheSidesOfATurnAndTheVehicleIfItDrivesStraight) {

@@ -172,14 +172,14 @@ Finding note_of(const SteadyRun& run, const Vehicle& vehicle, const std::string&
   const SteadySegment& segment = run.segment;
   const bool by_sides = segment.turning && !vehicle.has_steering();
   return {file, segment.line, Severity::kNote, "steady-segment",
-          fmt::format(
-              "steady from {:.3f} to {:.3f} s: {} run, {}, {} {:.4g} +- {:.2g} {}", segment.begin_s,
-              segment.end_s, segment.turning ? "turning" : "surge",
-              by_sides ? fmt::format("F'L = {:.4g}, F'R = {:.4g}", run.sides.left, run.sides.right)
-                       : fmt::format("F' = {:.4g}, steering {:.3g} deg", run.wheel_force,
-                                     degrees(run.steering_rad)),
-              segment.turning ? "yaw rate" : "speed", segment.mean_rate, segment.std_error,
-              segment.turning ? "rad/s" : "m/s")};
+          fmt::format("steady from {:.3f} to {:.3f} s: {} run, {}, {} {:.4g} +- {:.2g} {}",
+                      segment.begin_s, segment.end_s, segment.turning ? "turning" : "surge",
+                      by_sides ? fmt::format("force_left {:.4g}, force_right {:.4g}",
+                                             run.sides.left, run.sides.right)
+                               : fmt::format("wheel_force {:.4g}, steering {:.3g} deg",
+                                             run.wheel_force, degrees(run.steering_rad)),
+                      segment.turning ? "yaw rate" : "speed", segment.mean_rate, segment.std_error,
+                      segment.turning ? "rad/s" : "m/s")};
 }
 
 }  // namespace

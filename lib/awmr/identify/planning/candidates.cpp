@@ -38,17 +38,16 @@ double relative_scatter(const Model& model, TrialKind kind) {
 /// Candidate surge runs. They measure ln u, with the steady speed u under tau_speed. The standard
 /// error of the mean of the runs is the relative scatter over sqrt(runs).
 CandidateTrial surge_candidate(double tau, double wheel_force, double scatter, double runs) {
-  return {
-      .trial = {.kind = TrialKind::kSurge,
-                .settings = fmt::format("straight, tau_speed {:.3g} (F' = {:.3g}), {:g} runs over "
-                                        "10 m after reaching steady speed",
-                                        tau, wheel_force, runs),
-                .numbers = {{"tau_speed", tau}, {"runs", runs}}},
-      .standardised = [=](const Plant<double>& p) {
-        const double u =
-            steady_rate(p.surge, tau - driven_wheels(p) * p.wheel_dead_zone).value_or(kAtRest);
-        return std::vector{std::sqrt(runs) * std::log(u) / scatter};
-      }};
+  return {.trial = {.kind = TrialKind::kSurge,
+                    .settings = fmt::format("straight, tau_speed {:.3g} (wheel_force {:.3g}), {:g} "
+                                            "runs over 10 m after reaching steady speed",
+                                            tau, wheel_force, runs),
+                    .numbers = {{"tau_speed", tau}, {"runs", runs}}},
+          .standardised = [=](const Plant<double>& p) {
+            const double u =
+                steady_rate(p.surge, tau - driven_wheels(p) * p.wheel_dead_zone).value_or(kAtRest);
+            return std::vector{std::sqrt(runs) * std::log(u) / scatter};
+          }};
 }
 
 /// Candidate steered turns. They measure ln r, with the steady yaw rate r under the yaw moment
@@ -57,7 +56,8 @@ CandidateTrial surge_candidate(double tau, double wheel_force, double scatter, d
 CandidateTrial turning_candidate(double steering_rad, double wheel_force, double scatter,
                                  double runs) {
   return {.trial = {.kind = TrialKind::kTurning,
-                    .settings = fmt::format("steering {:.3g} deg, F' = {:.3g}, {:g} full turns",
+                    .settings = fmt::format("steering {:.3g} deg, wheel_force {:.3g}, {:g} full "
+                                            "turns",
                                             degrees(steering_rad), wheel_force, runs),
                     .numbers = {{"steering_deg", degrees(steering_rad)},
                                 {"wheel_force", wheel_force},
@@ -74,7 +74,8 @@ CandidateTrial turning_candidate(double steering_rad, double wheel_force, double
 /// yaw rate r under the yaw moment tau_turn = 2 d (F'R - F'L) (d: half of the track width).
 CandidateTrial sides_candidate(SideForces<double> force, double scatter, double runs) {
   return {.trial = {.kind = TrialKind::kTurning,
-                    .settings = fmt::format("F'L = {:.3g}, F'R = {:.3g}, {:g} full turns",
+                    .settings = fmt::format("force_left {:.3g}, force_right {:.3g}, {:g} full "
+                                            "turns",
                                             force.left, force.right, runs),
                     .numbers = {{"force_left", force.left},
                                 {"force_right", force.right},
@@ -300,8 +301,8 @@ ScrubPlan scrub_plan(const Model& model) {
   }
   if (plan.turns.size() < kTurns) {
     plan.about += fmt::format(
-        "; the wheel forces suffice for only {} of {} yaw rates at a mean F' of {:.3g}. Three "
-        "turns are needed: repeat turns, also at other speeds",
+        "; the wheel forces suffice for only {} of {} yaw rates at a mean wheel force of {:.3g}. "
+        "Three turns are needed: repeat turns, also at other speeds",
         plan.turns.size(), kTurns, straight);
   }
   return plan;
