@@ -57,8 +57,8 @@ void add_fit_options(CLI::App& sub, IdentifyWords& words) {
                  "with less weight for large errors, huber, cauchy or tukey")
       ->check(one_of(names_in(kLossNames)));
   sub.add_flag("--joint", words.command.identify.joint,
-               "Fit the surge resistance (a1, b1) and m' (mass over F_max) together to the surge "
-               "runs and the coast-down curves");
+               "Fit the surge resistance (a1, b1) and m' (mass divided by F_max) together to the "
+               "surge runs and the coast-down curves");
   sub.add_option("--fit", words.requested,
                  "Parameters to fit, e.g. surge.alpha,mass_norm; for logs also all, "
                  "input_delay_s, bias.yaw_rate_radps, ...")

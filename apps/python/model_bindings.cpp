@@ -238,16 +238,16 @@ void bind_gains(py::module_& module) {
   py::class_<G> bound(
       module, "Gains",
       "The controller's gains, all > 0. Heading law: slope lambda_ of the sliding surface (1/s), "
-      "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary layer "
-      "(rad/s), and a friction width (rad/s). At yaw rates below the friction width, Coulomb "
-      "friction is fed forward only in part. The friction width depends on the mode: "
+      "largest corrective yaw acceleration mu (rad/s^2), half width epsilon of the boundary "
+      "layer (rad/s), and a friction width (rad/s). At yaw rates below the friction width, "
+      "Coulomb friction is fed forward only in part. The friction width depends on the mode: "
       "friction_width_radps in steering mode, combined_friction_width_radps in combined mode "
-      "(default: half of friction_width_radps, at least 0.02), 0.02 in differential mode. With an "
-      "observer, it is friction_width_radps in all modes. Speed law: largest corrective "
+      "(default: half of friction_width_radps, at least 0.02), 0.02 in differential mode. With "
+      "an observer, it is friction_width_radps in all modes. Speed law: largest corrective "
       "acceleration speed_mu (m/s^2), half width speed_epsilon of the boundary layer (m/s). "
-      "Disturbance observer (all three 0: no observer): observer_bandwidth_radps, and the largest "
-      "compensated yaw moment observer_yaw_max_m (m) and force observer_surge_max, both over "
-      "F_max.");
+      "Disturbance observer (all three 0: no observer): observer_bandwidth_radps, and the "
+      "largest compensated yaw moment observer_yaw_max_m (m) and force observer_surge_max, both "
+      "divided by F_max.");
   bound.def(py::init(&gains_from), py::kw_only(), py::arg("lambda_"), py::arg("mu"),
             py::arg("epsilon"), py::arg("speed_mu"), py::arg("speed_epsilon"),
             py::arg("friction_width_radps") = kFrictionWidth_radps.min,

@@ -78,9 +78,9 @@ void bind_simulate(py::module_& module) {
   py::class_<EvaluatedRun>(module, "Run", "One simulated run.")
       .def_property_readonly(
           "columns", run_columns,
-          "run.csv as a dict of NumPy arrays, units in the names: t_s, x_m, y_m, "
-          "psi_rad (unwrapped), u_mps, v_mps, r_radps, force_left, force_right "
-          "(over F_max), steering_rad, ...; the commands of a row hold until the next row")
+          "run.csv as a dict of NumPy arrays, units in the names: t_s, x_m, y_m, psi_rad "
+          "(unwrapped), u_mps, v_mps, r_radps, force_left, force_right (divided by F_max), "
+          "steering_rad, ...; the commands of a row hold until the next row")
       .def_property_readonly(
           "metrics", [](const EvaluatedRun& evaluated) { return metrics_dict(evaluated.metrics); },
           "dict of the metrics of comparison.csv, units in the names; None if a metric does not "

@@ -173,19 +173,20 @@ void bind_trials(py::module_& module) {
       .def_readonly("vehicle", &TrialsOfFiles::vehicle)
       .def_readonly("findings", &TrialsOfFiles::findings)
       .def_property_readonly("surge", surge_of,
-                             "straight runs: tau_speed (drive force over F_max), speed_mps, ...")
+                             "straight runs: tau_speed (drive force divided by F_max), "
+                             "speed_mps, ...")
       .def_property_readonly(
           "turning", turning_of,
-          "steady turns: steering_rad (left positive), wheel_force (over F_max), "
+          "steady turns: steering_rad (left positive), wheel_force (divided by F_max), "
           "yaw_rate_radps, ...")
       .def_property_readonly("coastdown", stop_times_of,
                              "coast-downs by stop time: initial_speed_mps, stop_time_s")
       .def_property_readonly("curves", curves_of, "list of coast-down curves: t_s, speed_mps")
       .def_property_readonly(
           "logs", logs_of,
-          "list of driving logs, each a dict of columns: t_s, force_left and force_right (force of "
-          "each wheel of that side over F_max), and, if logged, steering_cmd_rad and the sensor "
-          "channels. A channel is NaN in rows without a reading");
+          "list of driving logs, each a dict of columns: t_s, force_left and force_right (force "
+          "of each wheel of that side divided by F_max), and, if logged, steering_cmd_rad and "
+          "the sensor channels. A channel is NaN in rows without a reading");
   module.def("load_trials", load, py::arg("vehicle"), py::kw_only(), py::arg("surge") = py::none(),
              py::arg("turning") = py::none(), py::arg("coastdown") = std::monostate{},
              py::arg("log") = std::monostate{}, py::arg("columns") = std::vector<std::string>{},

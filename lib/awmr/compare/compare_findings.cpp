@@ -41,9 +41,10 @@ void note_scrub(const Model& model, std::vector<Finding>& findings) {
       {model.file, 0, Severity::kNote, "scrub-simulated",
        fmt::format(
            "the simulated 3-DOF model includes the measured tyre scrub, a yaw moment of {:.3g} m "
-           "(over F_max; 95 %: {:.3g} to {:.3g}): all of it in differential turns, in combined "
-           "turns in proportion to the moment by wheel-force differences. The controller does not "
-           "compensate it. Add {} to compute the scrub at which another mode becomes as good",
+           "(divided by F_max; 95 %: {:.3g} to {:.3g}): all of it in differential turns, in "
+           "combined turns in proportion to the moment by wheel-force differences. The "
+           "controller does not compensate it. Add {} to compute the scrub at which another mode "
+           "becomes as good",
            model.yaw_scrub->moment_m, model.yaw_scrub->ci95_m.lo, model.yaw_scrub->ci95_m.hi,
            option_text("break_even"))});
 }

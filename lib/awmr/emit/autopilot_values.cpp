@@ -112,8 +112,8 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
   const double closed_s = gains.epsilon / gains.mu;
   pilot.add(
       p, "1/(m/s)",
-      fmt::format("m'/(4 T); m': mass over F_max, T = eps_s/mu_s = {:.4g} s: time constant of the "
-                  "closed loop",
+      fmt::format("m'/(4 T); m': mass divided by F_max, T = eps_s/mu_s = {:.4g} s: time constant "
+                  "of the closed loop",
                   closed_s),
       [closed_s](const Plant<double>& plant) { return plant.mass_norm / (4.0 * closed_s); }, usual);
   pilot.add(
@@ -218,8 +218,9 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const HeadingGains<double> gains = pilot.source.gains->in(YawMode::kDifferential).heading;
   const double closed_s = 1.0 / (gains.lambda + gains.mu / gains.epsilon);
   pilot.add("RO_YAW_RATE_P", "1/(rad/s)",
-            fmt::format("I'z/(4 d T); I'z: yaw inertia over F_max; d: half track; T = {:.4g} s: "
-                        "time constant of the closed yaw-rate loop, 1/(lambda + mu/epsilon)",
+            fmt::format("I'z/(4 d T); I'z: yaw inertia divided by F_max; d: half track; T = "
+                        "{:.4g} s: time constant of the closed yaw-rate loop, 1/(lambda + "
+                        "mu/epsilon)",
                         closed_s),
             [closed_s](const Plant<double>& plant) {
               return plant.inertia_norm / (4.0 * plant.half_track_m * closed_s);

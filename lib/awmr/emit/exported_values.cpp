@@ -65,8 +65,12 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
     add("front_axle_m", vehicle.front_axle_m, "m", "l_f: centre of gravity to front axle");
   }
   add("half_track_m", vehicle.half_track_m, "m", "d: centre line to the middle of a wheel");
-  add("wheel_force_min", vehicle.wheel_force.lo, "1", "least F' of a wheel, over F_max");
-  add("wheel_force_max", vehicle.wheel_force.hi, "1", "largest F' of a wheel, over F_max");
+  add("wheel_force_min", vehicle.wheel_force.lo, "1",
+      "F': least force of a wheel, divided by "
+      "F_max");
+  add("wheel_force_max", vehicle.wheel_force.hi, "1",
+      "F': largest force of a wheel, divided by "
+      "F_max");
   if (vehicle.has_steering()) {
     add("steering_max_deg", vehicle.steering_max_deg, "deg",
         "d_max: largest steering angle to either side");
@@ -121,9 +125,9 @@ void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool 
   add("observer_bandwidth_radps", gains.observer.bandwidth_radps, "rad/s",
       "L: bandwidth of the disturbance observer");
   add("observer_yaw_max_m", gains.observer.yaw_max_m, "m",
-      "largest moment over F_max that the observer compensates");
+      "largest moment that the observer compensates, divided by F_max");
   add("observer_surge_max", gains.observer.surge_max, "1",
-      "largest force over F_max that the observer compensates");
+      "largest force that the observer compensates, divided by F_max");
 }
 
 }  // namespace

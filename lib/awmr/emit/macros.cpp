@@ -66,9 +66,10 @@ void add_vehicle(std::vector<Macro>& macros, const Vehicle& vehicle, const std::
       "front_axle_m");
   add("AWMR_HALF_TRACK_M", vehicle.half_track_m, "d, m: centre line to a wheel", "half_track_m");
   add("AWMR_WHEEL_FORCE_MIN", vehicle.wheel_force.lo,
-      "F'min, 1: least force of one wheel over F_max", "wheel_force/min", MacroRange::kAnySign);
+      "F'min, 1: least force of one wheel, divided by F_max", "wheel_force/min",
+      MacroRange::kAnySign);
   add("AWMR_WHEEL_FORCE_MAX", vehicle.wheel_force.hi,
-      "F'max, 1: largest force of one wheel over F_max", "wheel_force/max");
+      "F'max, 1: largest force of one wheel, divided by F_max", "wheel_force/max");
   add("AWMR_STEERING_MAX_RAD", radians(vehicle.steering_max_deg),
       vehicle.has_steering() ? "d_max, rad: stop of the front wheels, either side"
                              : "d_max, rad: there is no steering",

@@ -93,7 +93,7 @@ std::string intro_text(const Model& model, const EmitInputs& inputs) {
       "/* awmr_params.h: parameters and gains of \"{}\", made by awmr {}.\n"
       "   model: {}, SHA-256 {}\n"
       "   gains: {}, SHA-256 {}\n"
-      "{}   Forces are over F_max, the largest force of one motor, in N. */\n"
+      "{}   Forces are divided by F_max, the largest force of one motor, in N. */\n"
       "#ifndef AWMR_PARAMS_H\n"
       "#define AWMR_PARAMS_H\n\n",
       comment_safe(model.vehicle.name), version(), comment_safe(file_name(model)),

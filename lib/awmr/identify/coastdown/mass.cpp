@@ -311,8 +311,8 @@ Finding assumed_back_emf(const std::string& file) {
       file, 0, Severity::kNote, "back-emf-assumed",
       "mass_norm assumes that at a constant command the force of a motor does not fall with the "
       "speed. For voltage-driven motors that coast at a command of 0, m' is too large by the "
-      "factor 1 + n k_e u/g1 (n: number of driven wheels, u: speed, g1: surge resistance over "
-      "F_max). Set motor.back_emf_s_per_m (k_e) in the vehicle file (0 for motors with a "
+      "factor 1 + n k_e u/g1 (n: number of driven wheels, u: speed, g1: surge resistance divided "
+      "by F_max). Set motor.back_emf_s_per_m (k_e) in the vehicle file (0 for motors with a "
       "constant force), or identify it from a log with driven and coasting sections"};
 }
 

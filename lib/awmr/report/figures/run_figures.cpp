@@ -162,7 +162,7 @@ void add_run_figures(const Json& data, FiguresOfResults& all) {
     all.figures.push_back(heading_figure(one));
     all.figures.push_back(speed_figure(one));
     all.figures.push_back(figure_over_time(
-        one, "forces", "Left and right wheel forces over F_max",
+        one, "forces", "Left and right wheel forces divided by F_max",
         {panel_of(one, "force_left", {"F′_{L}"}), panel_of(one, "force_right", {"F′_{R}"})}));
     all.figures.push_back(figure_over_time(one, "steering", "Steering angle, commanded and actual",
                                            {panel_of(one, "steering_cmd_deg", {"δ_{cmd}", "deg"}),
