@@ -11,6 +11,9 @@ namespace {
 
 /// Bisection steps for each end of an interval.
 constexpr int kHalvings = 6;
+/// Shares of the reduction of mu and mu_s that are tried on all draws, in this order. The last is
+/// the best gains themselves.
+constexpr double kReductions[] = {1.0, 0.75, 0.5, 0.25, 0.0};
 /// A constraint is active if its residual is above this. The residual is 0 at the limit and
 /// negative if the constraint is met.
 constexpr double kActive = -0.01;
@@ -66,24 +69,29 @@ SettledGains settle(const TuneOptions& options, const ConstraintContext& context
   TuneOptions quiet = options;
   quiet.progress = {};
   Problem problem(quiet, context, searched);
-  SettledGains settled;
-  Point point = problem.space().point_of(best.gains);
+  const Point point = problem.space().point_of(best.gains);
   const double objective = problem.look_at(std::span(&point, 1)).front().candidate.objective;
   // Reducing mu may increase the objective by half of kIndifferent. Reducing mu_s may use up the
   // rest.
   const Interval heading =
       stretch(problem, point, kHeading, (1.0 + 0.5 * kIndifferent) * objective);
-  settled.mu = {best.gains.heading.mu * std::exp(heading.lo),
-                best.gains.heading.mu * std::exp(heading.hi)};
-  point = scaled(point, kHeading, heading.lo);
-  const Interval speed = stretch(problem, point, kSpeed, (1.0 + kIndifferent) * objective);
-  settled.speed_mu = {best.gains.speed.mu * std::exp(speed.lo),
-                      best.gains.speed.mu * std::exp(speed.hi)};
-  point = scaled(point, kSpeed, speed.lo);
+  const Interval speed = stretch(problem, scaled(point, kHeading, heading.lo), kSpeed,
+                                 (1.0 + kIndifferent) * objective);
+  std::vector<Point> reduced;
+  for (const double share : kReductions) {
+    reduced.push_back(scaled(scaled(point, kHeading, share * heading.lo), kSpeed, share * speed.lo));
+  }
   Problem on_all(quiet, context, all);
-  const Candidate least = on_all.look_at(std::span(&point, 1)).front().candidate;
-  settled.gains = least.feasible() ? least.gains : best.gains;
-  return settled;
+  const auto seen = on_all.look_at(reduced);
+  const double most = (1.0 + kIndifferent) * seen.back().candidate.objective;
+  const auto chosen = std::find_if(seen.begin(), seen.end() - 1, [most](const auto& one) {
+    return one.candidate.feasible() && one.candidate.objective <= most;
+  });
+  const bool is_reduced = chosen != seen.end() - 1;
+  const Gains<double> gains = is_reduced ? chosen->candidate.gains : best.gains;
+  return {gains,
+          {gains.heading.mu, best.gains.heading.mu * std::exp(heading.hi)},
+          {gains.speed.mu, best.gains.speed.mu * std::exp(speed.hi)}};
 }
 
 Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& options,

@@ -10,14 +10,13 @@
 
 namespace awmr {
 
-/// Gains with the ranges of mu and mu_s in which the objective is nearly constant.
+/// Gains with the ranges of mu and mu_s in which the objective is nearly constant. The lower ends
+/// are those of `gains`.
 struct SettledGains {
   Gains<double> gains{};
-  /// Range of mu, rad/s^2, at constant mu/epsilon, in which the objective is at most kIndifferent/2
-  /// worse than the best.
+  /// Range of mu, rad/s^2, at constant mu/epsilon.
   Interval mu;
-  /// Range of mu_s, m/s^2, at constant mu_s/epsilon_s and with the smallest mu, in which the
-  /// objective is at most kIndifferent worse than the best.
+  /// Range of mu_s, m/s^2, at constant mu_s/epsilon_s and with the smallest mu.
   Interval speed_mu;
 };
 
@@ -25,8 +24,11 @@ struct SettledGains {
 /// smallest mu that meets every constraint and has an objective at most kIndifferent/2 worse than
 /// that of `best` on the draws of the search; then the smallest mu_s, with an objective at most
 /// kIndifferent worse. Inside the boundary layers only the two ratios act, so without this rule the
-/// seed of the search would determine mu. If the reduced gains violate a constraint on the draws of
-/// `all`, the gains of `best` are kept.
+/// seed of the search would determine mu.
+///
+/// The reduced gains must also meet the constraints, and be at most kIndifferent worse than `best`,
+/// on the draws of `all`. Otherwise both reductions are made smaller (kReductions), or `best` is
+/// kept.
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 
