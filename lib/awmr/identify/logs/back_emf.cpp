@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// Total time, s, with the motors off while the vehicle probably still rolls, that is, within
-/// kRolls_s after driving. Gaps between rows of the log are not counted.
+/// Total time, s, with the motors off in which the vehicle probably still rolls: the first kRolls_s
+/// after driving. Gaps between rows of the log are not counted.
 double coasting_s(const DrivingLog& log) {
   constexpr double kRolls_s = 3.0;
   const double gap_s = kGapSteps * log.median_step_s();
@@ -72,7 +72,8 @@ LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options) {
 }
 
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms) {
-  constexpr double kWorthATry = 4.0;  // estimated decrease of -2 ln L
+  // Smallest estimated decrease of -2 ln L for which a fit is tried.
+  constexpr double kWorthATry = 4.0;
   const auto candidate_term = std::ranges::find(candidate_terms, ParameterId::kBackEmf);
   if (candidate_term == candidate_terms.end()) return false;
   if (!fit.usable || fit.candidate_gain[at(candidate_term - candidate_terms.begin())] > kWorthATry)

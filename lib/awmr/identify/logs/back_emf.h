@@ -1,6 +1,7 @@
 /// Estimation of the motors' back-EMF k_e from logs. Private to identify/.
 ///
-/// While the motors drive, back-EMF cannot be separated from a linear resistance. Straight ahead,
+/// While the motors drive, back-EMF acts like a linear resistance, so the logs cannot separate the
+/// two. Straight ahead,
 ///     m' du/dt = n (F' - k_e u) - g1(u)
 /// n: number of driven wheels; F': force, over F_max, that the command gives one wheel at
 /// standstill; k_e in s/m. With the motors off, only g1 acts. To identify k_e, logs must contain
@@ -15,20 +16,23 @@
 namespace awmr {
 
 /// Returns the reason why these logs cannot separate k_e from the resistance. Empty if all logs
-/// together have at least 1 s of coasting (both forces 0). Only the first 3 s after driving count
-/// as coasting.
+/// together have at least 1 s of coasting (both forces 0). Coasting counts only in the first 3 s
+/// after driving, because the vehicle may stand still later.
 std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 
-/// Returns the options with k_e free, and with an initial guess of k_e if there was none.
+/// Returns the options with k_e as an estimated parameter, and with an initial guess of k_e if
+/// there was none.
 LogFitOptions with_back_emf(LogFitOptions options);
 
-/// Returns the options with k_e free if `fit` estimates it, else unchanged options.
+/// Returns the options with k_e as an estimated parameter if `fit` estimates it, else unchanged.
 LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options);
 
-/// True if a further fit should also estimate k_e. One of these reasons suffices: the score test of
-/// k_e predicts that -2 ln L decreases by more than 4; a channel has a slow drift, which may hide
-/// the effect of k_e; `fit` did not converge. False if k_e is not in `candidate_terms`, the terms
-/// that `fit` tested.
+/// True if a further fit should also estimate k_e, for one of these reasons:
+///   - The score test of k_e (score_test.h) predicts that -2 ln L decreases by more than 4.
+///   - A channel has a slow drift, which may hide the effect of k_e.
+///   - `fit` did not converge.
+///
+/// False if k_e is not in `candidate_terms`, the terms that `fit` tested.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
 /// True if `with`, the fit that estimates k_e, identifies k_e and has an AIC that is lower than

@@ -145,11 +145,11 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
 }
 
 /// Returns the delay or command error that the common fit lacks and that differs most between the
-/// logs. A score test on each log estimates the value of every such term. Empty if the values of no
-/// term scatter between the logs by more than three standard errors (root mean square).
+/// logs. A score test on each log estimates every such term. Empty if no term scatters between the
+/// logs by more than three standard errors (root mean square).
 ///
-/// The standard errors are those of the noise model. The scatter between blocks of a log cannot
-/// show a difference between logs, because all blocks of a log have the same command error.
+/// The standard errors are those of the noise model. The scatter between blocks of a log is not
+/// used, because all blocks of a log have the same command error.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {

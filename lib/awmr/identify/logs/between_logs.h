@@ -15,9 +15,10 @@ namespace awmr {
 struct LogDisagreement {
   std::string name;
   double p_value = 1.0;  ///< p value of the hypothesis that the value is the same in all logs
-  std::vector<std::string> files;  ///< logs of which each determines the quantity
-  std::vector<double> values;      ///< estimate from each of these logs
-  bool withdraws = false;          ///< true: all intervals of the common fit are invalid
+  /// Files of the logs that determine the quantity, each on its own.
+  std::vector<std::string> files;
+  std::vector<double> values;  ///< estimate from each of these logs
+  bool withdraws = false;      ///< true: all intervals of the common fit are invalid
   /// True: the quantity gets no value, because its widened interval is too wide.
   bool refuses = false;
 };
@@ -25,8 +26,8 @@ struct LogDisagreement {
 /// Result of compare_logs().
 struct LogComparison {
   std::vector<LogDisagreement> disagreements;
-  /// Result of the prediction of the last fifth of a single log by a fit of its first half. Present
-  /// only if this prediction fails although the two halves of the log agree.
+  /// Test of a fit of the first half of a single log on its last fifth. Present only if the fit
+  /// fails this test although the two halves of the log agree.
   std::optional<HeldOut> missed;
 };
 
@@ -40,17 +41,17 @@ struct LogComparison {
 /// tau^2 is the variance between logs. The logs disagree if p < 0.001 (Bonferroni over all
 /// quantities). The standard error of the common fit is then raised to at least the standard error
 /// of the mean, which includes tau^2. The interval covers the mean over such logs, not an
-/// individual log. A quantity gets no value if its raised standard error exceeds kUnknown times its
-/// large change (identifiability.h). Sensor biases are not compared, because they may differ
-/// between logs.
+/// individual log. A quantity gets no value if its raised standard error exceeds the limit of
+/// identifiability (kUnknown in identifiability.h). Sensor biases are not compared, because they
+/// may differ between logs.
 ///
 /// The common fit may lack a delay or command error that differs between the logs, for example a
-/// steering trim that was changed between two logs. A score test of each such term is therefore
-/// made on every log. If the results for a term differ between the logs by more than three standard
-/// errors, the term with the largest difference is fitted to each log.
+/// steering trim that was changed between two logs. A score test (score_test.h) therefore estimates
+/// each such term from every log. If the estimates of a term differ between the logs by more than
+/// three standard errors, the term with the largest difference is fitted to each log.
 ///
-/// A disagreement on one of the following terms makes all intervals of the common fit invalid,
-/// because the other quantities absorb the effect:
+/// If the logs disagree on one of the following terms, all intervals of the common fit are invalid,
+/// because the other quantities absorb the effect of the term:
 ///   - the term that was fitted in addition;
 ///   - errors of the commands in the common fit: steering trim, dead band and asymmetry of the
 ///     steering, force imbalance, saturation and exponent of the forces;

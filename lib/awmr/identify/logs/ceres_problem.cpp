@@ -22,8 +22,8 @@ double prior_residual(const LogProblem& problem, std::size_t i, double x) {
   return (x - problem.initial[i]) / prior_std(problem, i);
 }
 
-/// Work of one evaluation of all windows with derivatives: integration steps times numbers per
-/// step, as counted by Effort.
+/// Work (Effort) of one evaluation of all windows with derivatives: integration steps times the
+/// number of integrated values per step.
 std::int64_t numbers_integrated(const LogProblem& problem) {
   double numbers = 0.0;
   for (const FitWindow& window : problem.windows) {
@@ -43,8 +43,8 @@ std::int64_t numbers_integrated(const LogProblem& problem) {
 /// little more time than the residuals.
 ///
 /// A coordinate is fixed while it is at its bound and the cost decreases towards values beyond the
-/// bound. For this, the derivatives with respect to the coordinate are set to 0. (Ceres would
-/// instead cut the step at the bound, which makes the step of the other coordinates wrong.)
+/// bound. To fix it, the derivatives with respect to it are set to 0. (Ceres would instead cut the
+/// step at the bound, which makes the step of the other coordinates wrong.)
 class Evaluator : public ceres::EvaluationCallback {
  public:
   Evaluator(const LogProblem& problem, const SearchPoint& point)

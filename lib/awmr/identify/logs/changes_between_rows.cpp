@@ -27,8 +27,8 @@ Finding changes_between_rows_finding(const std::string& file) {
           "when it is sent"};
 }
 
-/// Cost and times of the changes of the commands that a Gauss-Newton step of all coordinates and
-/// initial states predicts.
+/// Prediction by one Gauss-Newton step of all coordinates and initial states: the cost, and the
+/// times at which commands change.
 struct Predicted {
   double squares = 0.0;              ///< twice the predicted cost
   std::vector<double> change_times;  ///< WindowErrors::change_times
@@ -102,10 +102,10 @@ UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& poi
   return {lead > threshold, between.change_times};
 }
 
-/// Options of a fit with uncertain times of the changes: begins at the stopped fit `at_rows`, with
-/// its back-EMF and a motor lag above `step_s`, the row spacing. Its delays and shorter lags are
-/// left out, because wrong times of the changes can cause them. The terms of its families are left
-/// out, too: the fit begins with the families of `power_law`.
+/// Options of a fit with uncertain times of the changes. It begins at the stopped fit `at_rows`,
+/// with its back-EMF and with a motor lag above `step_s`, the row spacing. Delays and shorter lags
+/// of `at_rows` are left out, because wrong times of the changes can cause them. The terms of its
+/// families are left out, too: the new fit begins with the families of `power_law`.
 LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_law,
                            double step_s) {
   LogFitOptions from = with_back_emf_as_in(at_rows, power_law);
@@ -145,9 +145,10 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
 }
 
 bool are_times_between_rows(const std::vector<double>& times) {
-  // Variance of x^2, if x is uniformly distributed with the mean 0 and the variance 1.
+  // Variance of x^2 if x is uniform with the mean 0 and the variance 1, like the time of a change
+  // between two rows.
   constexpr double kVariance = 0.8;
-  // Accepted excess of the mean square, in its standard errors.
+  // Accepted excess of the mean square over 1, in its standard errors.
   constexpr double kErrors = 2.0;
   double squares = 0.0;
   for (const double time : times) squares += time * time;
@@ -157,8 +158,8 @@ bool are_times_between_rows(const std::vector<double>& times) {
 
 FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const IdentifyOptions& options) {
-  // The fit with uncertain times may use a third of the remaining work (Effort). Enough work is
-  // then left for the other fits if its result is rejected.
+  // Share of the remaining work (Effort) for the fit with uncertain times: a third. Enough work is
+  // left for the other fits if its result is rejected.
   constexpr std::int64_t kEffortShare = 3;
   LogFitOptions tests = power_law;
   tests.tests_changes = std::ranges::none_of(logs, [](const DrivingLog& log) {

@@ -11,22 +11,23 @@
 
 namespace awmr {
 
-/// True if the commands probably change between rows. Compares -2 ln L of the marginal likelihood
-/// with an uncertain time for every change (changes_before_rows()) and with changes at the rows:
-/// the first has to be lower by more than 20 plus 2 per change. The likeliest times also have to be
-/// between the rows (are_times_between_rows()). All quantities of the fit and all terms of
-/// further_terms() are free, so that delays and lags do not count. `point`: solution of `problem`.
-/// `candidate_terms`: further free parameters (LogFitOptions::candidate_terms).
+/// True if the commands probably change between rows. Compares two assumptions: every change has an
+/// unknown time before its row (changes_before_rows()), or every change is exactly at its row. With
+/// unknown times, -2 ln L (integrated over the times) has to be lower by more than 20 plus 2 per
+/// change, and the likeliest times have to pass are_times_between_rows(). All quantities of the fit
+/// and all terms of further_terms() are free, so that a delay or lag is not mistaken for such
+/// changes. `point`: solution of `problem`. `candidate_terms`: further free parameters
+/// (LogFitOptions::candidate_terms).
 bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
                               const std::vector<ParameterId>& candidate_terms);
 
-/// True if the likeliest times of the changes scatter no more than times between two rows do; a
-/// larger scatter is the effect of another error of the model. `times`: differences from their
-/// expected values, in standard deviations (LogFit::change_times).
+/// True if the likeliest times of the changes scatter like times between two rows. A larger scatter
+/// is the effect of another error of the model. `times`: likeliest minus expected times, in
+/// standard deviations (LogFit::change_times).
 bool are_times_between_rows(const std::vector<double>& times);
 
-/// First fit of the logs. In `logs`, the commands are as in this fit: they change at the rows, or
-/// at uncertain times between the rows.
+/// First fit, and the logs as this fit used them: with commands that change at the rows, or at
+/// uncertain times between the rows.
 struct FirstFit {
   std::vector<DrivingLog> logs;
   FamilyFit fit;

@@ -82,9 +82,9 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// Selects the errors from which a channel's drift is estimated, to save time. Returns all errors
-/// if there are fewer than 40 000, otherwise 20 000 to 30 000 of them, in whole windows spread over
-/// the logs. (20 000 errors determine the standard deviations to 1 %.)
+/// Selects the errors from which a channel's drift is estimated, to save time: 20 000 to 30 000 of
+/// them, in whole windows spread over the logs. Returns all errors if there are fewer than 40 000.
+/// (20 000 errors determine the standard deviations to 1 %.)
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;

@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// The error e_k of sample k at the time t_k is the sum of white noise of the sensor and a drift d.
-/// The drift is correlated in time; model errors and sensor filters cause it.
+/// The error e_k (model minus reading) of sample k at the time t_k is the sum of white noise of the
+/// sensor and a drift d. The drift is correlated in time; model errors and sensor filters cause it.
 ///
 ///     e_k = d(t_k) + white_k,   E[white_k^2] = sigma_w^2,   E[d^2] = sigma_d^2
 ///
@@ -32,7 +32,7 @@ struct ChannelNoise {
   double frequency_radps = 0.0;  ///< omega of a second-order drift; 0: first order
   double damping = 0.0;          ///< zeta of a second-order drift, > 0
   double differenced = 0.0;      ///< theta of differenced noise, 0 to 1; 0: not differenced
-  double sensor_std = 0.0;       ///< standard deviation of white noise by sensor_noise(), SI
+  double sensor_std = 0.0;       ///< sensor noise: standard deviation by sensor_noise(), SI
   int count = 0;                 ///< number of samples
   double cost = 0.0;             ///< -2 ln L of the channel's errors, up to a constant
 
@@ -45,8 +45,8 @@ struct ChannelNoise {
     return drift_std > 0.0 ? (second_order() ? 4 : 3) : differenced > 0.0 ? 2 : 1;
   }
   /// True if the drift is too large and too slow to come from a sensor filter. It is then a model
-  /// error or a drift of the sensor itself. One of these conditions suffices, with the sensor noise
-  /// `sensor_std`:
+  /// error or a drift of the sensor itself. `longest_s`: correlation time, s, that a filter rarely
+  /// reaches. With the sensor noise `sensor_std`, one of these conditions suffices:
   ///   - drift_std is above 0.5 times the sensor noise, and the correlation time is at least
   ///     `longest_s`;
   ///   - drift_std is above 1.5 times the sensor noise, and the correlation time is at least half
@@ -87,8 +87,9 @@ struct ErrorSeries {
 /// The errors of a fit by channel, one series per window.
 using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 
-/// -2 ln L of errors under a noise model, up to a constant: sum ln S_k + nu_k^2/S_k, with the
-/// innovations nu_k and their variances S_k (whitener.h).
+/// -2 ln L of errors under a noise model, up to a constant: sum ln S_k + nu_k^2/S_k. The innovation
+/// nu_k is the part of error k that the errors before it do not predict, S_k its variance
+/// (whitener.h).
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
 /// Returns the most likely noise model of these errors (maximum likelihood). Begins with white
@@ -97,9 +98,10 @@ double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 ///   2. If step 1 counts: replace the first-order drift by a second-order drift.
 ///   3. Replace the result by differenced noise.
 ///
-/// `free_share`: degrees of freedom of the fit over the number of errors, in (0, 1]; the variances
-/// are divided by it. `before`: noise model of the previous round. The result keeps its sensor_std.
-/// If `before` has a second-order drift, the search of step 2 starts there.
+/// `free_share`: degrees of freedom of the fit over the number of errors, in (0, 1]. The variances
+/// are divided by it, because a fit makes the errors smaller than the noise. `before`: noise model
+/// of the previous round of settle_noise(). The result has the sensor_std of `before`. If `before`
+/// has a second-order drift, the search of step 2 starts there.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

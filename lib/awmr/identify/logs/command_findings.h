@@ -18,8 +18,8 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
 
 /// True if the fit has found a large saturation of the forces: more than 5 % of the force is lost
 /// at the largest command, or the exponent of the forces is below 0.95. The intervals of such a fit
-/// are too narrow, because they do not include the unknown form of the saturation. A wrong form
-/// falsifies the force of small commands, and with it all other values.
+/// are too narrow, because the true form of the saturation is unknown. A wrong form makes the force
+/// of small commands wrong, and with it all other values.
 bool saturates_much(const LogFit& fit);
 
 }  // namespace awmr

@@ -59,8 +59,8 @@ struct CommandPath {
   /// earlier commands would still give one.
   bool switches_off = false;
 
-  /// Changes of the commands at uncertain times, in the order of their rows. The column of the
-  /// derivatives with respect to the time of changes[i] is `first_change_column` + i.
+  /// Changes of the commands at uncertain times, in the order of their rows. The time of changes[i]
+  /// is the column `first_change_column` + i of the derivatives.
   std::span<const UncertainChange> changes = {};
   std::size_t first_change_column = 0;
 
@@ -106,8 +106,9 @@ struct DelayedCommand {
   SideForces<double> by_exponent{};    ///< d force / d ln p
   SideForces<double> by_saturation{};  ///< d force / d L
   SideForces<double> by_sharpness{};   ///< d force / d ln n
-  /// Column of the latest change of the forces at an uncertain time. Set only for motors with lag.
-  /// The derivative with respect to this time is `by_delay`, as earlier changes act no longer.
+  /// Column of the latest change of the forces, if its time is uncertain. Set only for motors with
+  /// lag. `by_delay` is used as the derivative with respect to this time: the effect of earlier
+  /// changes is assumed to have decayed.
   std::optional<std::size_t> change_column = {};
   double steering_by_trim = 0.0;       ///< d steering / d trim: 1 with a trim in the path, else 0
   double steering_by_dead_band = 0.0;  ///< d steering / d dead band

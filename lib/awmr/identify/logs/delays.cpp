@@ -102,8 +102,8 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
-/// Candidates that are much less significant than the strongest one are skipped. They are tested
-/// again after the best term was added.
+/// Candidates that are much less significant than the strongest one are not tried now, to save
+/// time. They are tested again after the best term was added.
 constexpr double kComparable = 0.2;  // smallest significance over that of the strongest
 constexpr double kBeyondDoubt = 20.0;
 
@@ -154,8 +154,8 @@ void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss
   if (found_s > 0.0) lowest.consider(tried(settled, {{motor_lag(), found_s}}, loss));
 }
 
-/// Tries an error of the steering linkage with a stop that limits the command, if it limits the
-/// angle in `fit`, the trial with this error, and the logs have commands near the stop.
+/// `fit` is a trial with an error of the steering linkage and a stop that limits the angle. If the
+/// logs have commands near the stop, tries the same error with a stop that limits the command.
 void consider_angle_beyond_stop(const NoiseIteration& settled, const CandidateTerm& candidate,
                                 const NoiseIteration& fit, Loss loss, LowestAic& lowest) {
   FreeTerm term{candidate.quantity, candidate.value};

@@ -127,8 +127,8 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                              apart, families_in_words(best.surge, best.yaw))};
 }
 
-/// The finding of a search that reached its limit. `before`: what it had not done, with the
-/// families of `fit`.
+/// The finding of a search that reached its limit. `before`: steps that the search did not reach,
+/// with the families of `fit`.
 Finding not_finished(const std::string& file, std::string_view before, const FamilyFit& fit) {
   return {
       file, 0, Severity::kWarning, "families-not-compared",
@@ -138,8 +138,8 @@ Finding not_finished(const std::string& file, std::string_view before, const Fam
                   before, families_in_words(fit.surge, fit.yaw), option_text("family surge=..."))};
 }
 
-/// A fit is stopped early if its LogFit::relative_error exceeds that of the best fit by more than
-/// this factor.
+/// A fit is stopped early, to save time, if its LogFit::relative_error exceeds that of the best fit
+/// by more than this factor.
 constexpr double kFarWorse = 1.5;
 
 /// Limit of LogFit::relative_error above which a fit that competes with `best` is stopped early.
@@ -159,8 +159,8 @@ std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lea
 }
 
 /// Fits the families `others` of one axis (yaw if `of_yaw`, else surge), and stores the best family
-/// in `result.best`. If one of the others beats the family that was the best before, the search for
-/// that family is first repeated, because it may have failed (searched_again()).
+/// in `result.best`. If another family beats the previous best one, the fit of the previous best is
+/// first repeated (searched_again()), because its search may have failed.
 void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool of_yaw,
              const std::vector<Families>& others, double lead, BestFamily& result) {
   std::vector<FamilyFit> fits;

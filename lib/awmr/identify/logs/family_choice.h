@@ -10,8 +10,8 @@ namespace awmr {
 
 /// Options of best_family(), which compares the families of a fit `first` with other families.
 struct FamilyContest {
-  OpenAxes open = {};  ///< axes whose family is compared; other axes keep theirs
-  /// a power law is replaced only if the AIC of a family is lower by more than this.
+  OpenAxes open = {};  ///< axes (surge, yaw) whose family is compared; other axes keep theirs
+  /// A power law is replaced only if the AIC of another family is lower by more than this.
   double lead = 0.0;
   /// True: compares the families of an axis (surge or yaw) only if there is a reason. One of these
   /// suffices: a score test or a slow drift indicates that a term is missing, the fit did not

@@ -25,8 +25,8 @@ bool is_over(const LogFitOptions& options);
 /// has the delays and command errors of `fit`, and does not search for others.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
-/// Sets each term of `values` that `free` does not contain to its value in `power_law`. A term that
-/// a fit does not estimate otherwise keeps the value of another fit.
+/// Sets each term of `values` that the next fit does not estimate (not in `free`) to its value in
+/// `power_law`. Without this, such a term would keep the value that an earlier fit estimated.
 void reset_terms(const std::vector<ParameterId>& free, const ParameterValues<double>& power_law,
                  ParameterValues<double>& values);
 

@@ -19,7 +19,7 @@ struct Families {
 /// only in the surge family (if not).
 std::vector<Families> other_families(const Families& from, bool of_yaw);
 
-/// Axes whose family may be changed.
+/// Axes whose family the fit may change, because the user did not select it.
 struct OpenAxes {
   bool surge = true;
   bool yaw = false;
@@ -29,9 +29,9 @@ struct OpenAxes {
 
 /// Selects families by rough fits (fit_roughly()), starting at the optimum of `first`. Each round
 /// tries every change of the family of one open axis. It also tries an additional delay of the
-/// commands or lag of the motors, and back-EMF if it is a candidate term of `power_law`, because a
-/// wrong family can compensate for these. The best change is kept if it lowers
-/// LogFit::relative_error by more than 2 % (back-EMF: by a third); there are at most eight rounds.
+/// commands, a lag of the motors and, if it is a candidate term of `power_law`, back-EMF, because a
+/// wrong family can imitate these. The best change is kept if it lowers LogFit::relative_error by
+/// more than 2 % (back-EMF: by a third). There are at most eight rounds.
 ///
 /// Let E be the amount by which the relative error exceeds 1. Returns the last rough fit if its E
 /// is less than 0.7 times that of the families of `first`. Otherwise returns the rough fit of these

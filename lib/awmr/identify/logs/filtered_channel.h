@@ -20,8 +20,8 @@ struct SensorFilter {
 };
 
 /// Output y of a filter of first order with the input u and the time constant T, and the
-/// derivatives of y with respect to the columns of the fit (linear_stepper.h). With the time h
-/// between two rows and e = exp(-h/T),
+/// derivatives of y with respect to the columns (unknowns) of the fit, see linear_stepper.h. With
+/// the time h between two rows and e = exp(-h/T),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///     q = (T/h)(1 - e)   continuous filter: T dy/dt = u - y, u linear between rows
@@ -32,8 +32,8 @@ template <class Scalar>
 class FilterStage {
  public:
   /// `direction`: time constant of this stage, divided by that of the whole filter (complex for a
-  /// filter of second order). `first`: initial output. `by_column`: its derivatives with respect to
-  /// the estimated quantities, the columns of the Jacobian.
+  /// filter of second order). `first`: initial output. `by_column`: derivatives of `first`, one per
+  /// column.
   FilterStage(const SensorFilter& filter, Scalar direction, Scalar first,
               std::vector<Scalar> by_column)
       : lag_s_(direction * filter.lag.delay_s),
@@ -68,8 +68,8 @@ class FilterStage {
 ///
 /// A filter of second order is computed as two stages in series, with the complex time constants T
 /// exp(i phi) and T exp(-i phi), cos phi = zeta. The output y starts at the first reading of the
-/// window. The noise of that reading decays with the time constant T. The first of the two stages
-/// starts as if the input had risen at a constant rate before.
+/// window; the effect of this reading's noise decays with the time constant T. The output of the
+/// first stage is not measured. It starts as if the input had risen at a constant rate before.
 class FilteredChannel {
  public:
   /// `first`: first reading of the window. `columns`: number of columns of the fit, one for each

@@ -13,7 +13,7 @@
 namespace awmr {
 namespace {
 
-// a force is reported if it is above this many standard errors.
+// A force is reported if it is above this many standard errors.
 constexpr double kStandardErrors = 2.0;
 
 /// An identified quantity with its standard error.

@@ -95,7 +95,7 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
   if (!any_log(problem, has_both_directions)) return;
   // A fit contains either wheel slip or an excess of wheel forces, because wheel_slip.h computes
-  // the slip without the excess.
+  // the slip without this excess.
   if (!has_force_excess(quantities) && !has_kind(quantities, FreeQuantity::Kind::kWheelSlip)) {
     found.push_back(extra_force(ExtraForce::kBrakeForce));
     found.push_back(extra_force(ExtraForce::kReverseForce));
@@ -139,8 +139,9 @@ void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-/// Adds errors of the steering: the angle at a command of 0, and, if the logs have commands, dead
-/// band, asymmetry and curve of the linkage. With one of the last two in the fit, also the scale.
+/// Adds errors of the steering: the angle at a command of 0 and, if the logs have steering
+/// commands, dead band, asymmetry and curve of the linkage. If the fit already has asymmetry or
+/// curve, also adds the scale of the angles.
 void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   if (!any_log(problem, has_steering_changes)) return;
@@ -168,7 +169,7 @@ double begin_of(const FreeQuantity& quantity) {
 }
 
 /// Every term that a user can request by name. The other terms cannot be free from the start of a
-/// fit: they need a value from the logs (the largest command or speed, or the rate of the servo),
+/// fit. They need a value from the logs (the largest command or speed, or the rate of the servo),
 /// or another term in the fit.
 std::vector<FreeQuantity> all_terms() {
   std::vector<FreeQuantity> terms{input_delay(),    steering_delay(),     motor_lag(),

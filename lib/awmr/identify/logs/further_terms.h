@@ -16,15 +16,16 @@ namespace awmr {
 ///   - symmetric smoothing of the channels that are often filtered, unless a filter or smoothing is
 ///     already estimated;
 ///   - an additional delay of the steering, if the servo's time constant is free;
-///   - a steering trim, if the steering moves, and with steering commands also a dead band, an
-///     asymmetry and a curve, and with one of these in the fit the scale of the angles;
+///   - a steering trim, if the steering moves;
+///   - a dead band, an asymmetry and a curve of the steering, if it moves by logged commands;
+///   - the scale of the steering angles, if the fit has such an asymmetry or curve;
 ///   - a force imbalance, if left and right forces differ;
 ///   - a saturation of the forces, or an exponent below 1;
 ///   - forces of extra_forces.h (add_forces() in further_terms.cpp);
 ///   - a scale error of the yaw rate if the heading or a position is measured, and of the speed if
 ///     a position is measured;
-///   - slip of the wheels that measure the speed, or the yaw rate if left and right forces differ,
-///     unless an excess of wheel forces is estimated;
+///   - slip of the wheels that measure the speed or, if left and right forces differ, the yaw rate.
+///     It is left out if an excess of wheel forces is estimated;
 ///   - position and direction of a sensor of the sideways (sway) speed.
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 

@@ -82,9 +82,9 @@ Places places_of(const LogProblem& problem, const std::vector<double>& coordinat
   return places;
 }
 
-/// Information and score of the compared coordinates c, each in units of its large change. The
-/// biases b are eliminated: with information H and score S of all coordinates, the result is H_cc -
-/// H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
+/// Information and score of the compared coordinates c, each in units of its large change
+/// (FreeQuantity::large_change). The biases b are eliminated: with information H and score S of all
+/// coordinates, the result is H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
 FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::VectorXd& scale,
                             const Places& places) {
   const FitEvidence all = fit_evidence(sums, scale.size());

@@ -32,10 +32,11 @@ struct HeldOut {
 ///
 ///     d = -H^-1 S,   cov d = f^2 H^-1 + C,   X^2 = d^T (cov d)^-1 d,   chi-squared
 ///
-/// H and S are information and score of the rows at the fit's coordinates, after elimination of the
-/// initial states and biases. C is the covariance of the fit. f is the largest factor by which the
-/// standard errors of the fit were raised. d is restricted to the directions that the rows
-/// determine (identifiability.h). Quantities at an end of their range are fixed.
+/// H and S are information and score (curvature and gradient of -ln L) of the rows at the fit's
+/// coordinates, after elimination of the initial states and biases. C is the covariance of the fit.
+/// f is the largest factor by which the standard errors of the fit were raised. d is restricted to
+/// the directions that the rows determine (identifiability.h). Quantities at an end of their range
+/// are fixed.
 ///
 /// The noise levels are those of the fit. (Noise levels estimated from the tested rows would absorb
 /// a change of the vehicle as sensor drift.) Returns empty if the rows determine no direction or

@@ -16,14 +16,13 @@
 namespace awmr {
 namespace {
 
-/// Largest standard error of an identified quantity, in its large changes
-/// (FreeQuantity::large_change).
+/// Largest standard error of an identified quantity, in units of FreeQuantity::large_change.
 ///
 /// The limit is lower for the sway resistance a_s, so that 1/a_s is at least 4 standard errors from
 /// 0. Reason: the logs measure 1/a_s, because the lateral speed is v ~ m' r u / a_s. The standard
-/// error of ln a_s is a_s times that of 1/a_s. If noise makes a_s too small, it makes the standard
-/// error of ln a_s too small as well. With the limit of the other quantities, such values would be
-/// accepted too often.
+/// error of ln a_s is a_s times that of 1/a_s, so noise that makes a_s too small also makes this
+/// standard error too small. With the limit of the other quantities, such values would be accepted
+/// too often.
 double unknown_from(const FreeQuantity& q) {
   constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;
@@ -36,9 +35,9 @@ std::string uncertainty_text(double std, double unknown = kUnknown) {
   return fmt::format("the standard error is {:.2g} times the accepted limit", std / unknown);
 }
 
-/// Refuses every quantity with a considerable part in a direction that the logs do not determine.
-/// `direction`: this direction in the space of the coordinates, of length 1. `std`: standard error
-/// along it.
+/// Refuses every quantity that contributes considerably to a direction that the logs do not
+/// determine. `direction`: unit vector in the space of the coordinates. `std`: standard error along
+/// it.
 void refuse_direction(const Eigen::VectorXd& direction, double std,
                       const std::vector<FreeQuantity>& quantities,
                       std::vector<std::string>& refusal_reason) {

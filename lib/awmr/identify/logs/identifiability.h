@@ -12,10 +12,10 @@
 
 namespace awmr {
 
-/// Largest standard error of an identified quantity, in units of the change of its coordinate that
-/// counts as large (FreeQuantity::large_change). At this limit, the 95 % interval of a quantity
-/// with a logarithmic coordinate extends from 1/2.7 to 2.7 times its value, and that of an exponent
-/// is +-1.
+/// Limit of the standard error of an identified quantity, in large changes
+/// (FreeQuantity::large_change: the change of its coordinate that counts as large). At this limit,
+/// the 95 % interval of a quantity with a logarithmic coordinate extends from 1/2.7 to 2.7 times
+/// its value, and that of an exponent is +-1.
 inline constexpr double kUnknown = 0.5;
 
 /// Covariance and identifiability of the n coordinates of a log fit.
@@ -40,10 +40,10 @@ struct Identifiability {
 
 /// Computes the covariance of the coordinates and decides which quantities are identified.
 ///
-/// The covariance follows from the information H (n x n), a weak prior P and the scores s_b of m
-/// parts of the logs. The scatter of the scores corrects errors of the noise model. C is the
-/// covariance by the noise model, V that by the scatter. In units of large changes
-/// (FreeQuantity::large_change),
+/// The covariance follows from the information H (n x n), a weak prior P and the scores s_b
+/// (gradients of -ln L) of m parts of the logs. The noise model may be wrong. The scatter of the
+/// scores shows this, and raises the standard errors: C is the covariance by the noise model, V
+/// that by the scatter. In units of large changes (FreeQuantity::large_change),
 ///
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
 ///     D_ii^2 = max(1, V_ii / C_ii)
@@ -59,11 +59,10 @@ struct Identifiability {
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
-/// Refuses every quantity whose search ended at an end of its range, and every quantity whose
-/// correlation with such a quantity exceeds 0.3 in magnitude. A resistance has the Coulomb friction
-/// c, the coefficient alpha, the exponent beta, the quadratic coefficient q and the dead zone. If
-/// c, q or the dead zone is refused, alpha is refused too. If alpha is refused, beta is refused
-/// too.
+/// Refuses (gives no value to) every quantity whose search ended at an end of its range, and every
+/// quantity whose correlation with such a quantity exceeds 0.3 in magnitude. Terms of a resistance
+/// that make no sense without each other are refused together: alpha if the Coulomb friction c, the
+/// quadratic coefficient q or the dead zone is refused, and the exponent beta if alpha is refused.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

@@ -17,10 +17,10 @@ namespace {
 /// Usual range of I'z/m' of real vehicles, divided by the I'z/m' of a uniform box.
 constexpr Interval kUsual{0.3, 2.0};
 
-/// Names a unit of the speed column that would explain a too large I'z/m'. Reason: if the logged
-/// speed is k times the true speed, the fitted m' is 1/k of the true m', and I'z/m' is k times the
-/// true ratio. Returns empty if I'z/m' is not too large, or if the logs have positions, because the
-/// speed was already compared with these.
+/// Names a unit of the speed column that would explain a too large I'z/m'. If the logged speed is k
+/// times the true speed, the fitted m' is 1/k of the true m', and I'z/m' is k times the true ratio.
+/// Empty if I'z/m' is not too large, or if the logs have positions, because these were already
+/// compared with the speed.
 std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_over_box) {
   const bool is_compared = std::ranges::all_of(
       logs, [](const DrivingLog& log) { return log[LogChannel::kX] || !log[LogChannel::kSpeed]; });

@@ -9,9 +9,9 @@
 namespace awmr {
 namespace {
 
-/// Least-squares change of a window's initial state per change of each coordinate, (J_s^T J_s)^-1
-/// J_s^T J_t. J_t and J_s are the Jacobians of the residuals with respect to the coordinates and
-/// the initial state.
+/// Change of a window's initial state that best compensates a change of each coordinate, (J_s^T
+/// J_s)^-1 J_s^T J_t. J_t and J_s are the Jacobians of the residuals with respect to the
+/// coordinates and the initial state.
 Eigen::MatrixXd compensation(const WindowSums& window, Eigen::Index n) {
   const Eigen::Index k = window.products.rows() - 1 - n;
   return solve_ldlt(window.products.block(n, n, k, k), window.products.block(n, 0, k, n));

@@ -10,10 +10,10 @@
 
 namespace awmr {
 
-/// True if straight lines between the rows describe the commands better than steps. This is the
-/// case if a joystick or a controller changes the commands more often than the log has rows.
-/// Returns false without a fit if the commands of any log change in less than half of its rows, or
-/// if its commands were already replaced by such lines or by held set-points.
+/// True if straight lines between the rows describe the commands better than steps. This is so if a
+/// joystick or a controller changes the commands more often than the log has rows. Returns false
+/// without a fit if the commands of any log change in less than half of its rows, or if they were
+/// already replaced by such lines or by held set-points (set_points.h).
 ///
 /// Otherwise fits the resistance families of `first` to interpolated(logs), with a free delay of
 /// the commands. Returns true if the AIC of this fit is lower than that of `first` by more than

@@ -58,8 +58,8 @@ Plant<double> with_stribeck(Plant<double> p, const ExtraForces& extra) {
   return p;
 }
 
-/// True if the rates depend on the force `one`: if its size is not 0, or if it is free. `other`:
-/// quantity of the same force, for which the same holds if it is free.
+/// True if the rates depend on the force `one`: if its size is not 0, or if a free quantity belongs
+/// to it (`one` itself, or `other`, a second quantity of the same force).
 bool has_force(const ExtraForces& extra, ExtraForce one, ExtraForce other) {
   return extra[one] != 0.0 || std::ranges::any_of(extra.columns, [&](const ExtraColumn& column) {
            return column.force == one || column.force == other;

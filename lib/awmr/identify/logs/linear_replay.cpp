@@ -7,9 +7,10 @@
 namespace awmr {
 namespace {
 
-/// Updates the derivatives with respect to the time at which other rows of the log begin to act, if
-/// it is uncertain: `before` are the rows that acted until then, `after` the new ones. The forces
-/// of motors with lag are left out, because they do not jump (DelayedCommand::change_column).
+/// Updates the derivatives with respect to the time of a command change, if this time is uncertain.
+/// `before`: rows of the log whose commands acted until the change; `after`: the new ones. The
+/// forces of motors with lag are left out, because they do not jump
+/// (DelayedCommand::change_column).
 void change_time_of_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                          const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   if (stepper.columns() == 0 || path.changes.empty()) return;
@@ -22,9 +23,9 @@ void change_time_of_rows(const LogSignals& signals, ActingRows before, const Act
                       command_of_rows(log, after, path), motion);
 }
 
-/// Updates the derivatives with respect to the delays at a time at which other rows of the log
-/// begin to act: `before` are the rows that acted until then, `after` the new ones. The forces of
-/// motors with lag are left out, because they do not jump.
+/// Updates the derivatives with respect to the delays at a command change. `before`: rows of the
+/// log whose commands acted until the change; `after`: the new ones. The forces of motors with lag
+/// are left out, because they do not jump.
 void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                  const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   change_time_of_rows(signals, before, after, path, stepper, motion);

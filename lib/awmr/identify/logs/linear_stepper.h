@@ -14,8 +14,8 @@
 
 namespace awmr {
 
-/// State at one time with its derivatives with respect to the columns of a fit. A column is a free
-/// quantity or a free component of the initial state.
+/// State at one time with its derivatives with respect to the columns of a fit. A column is an
+/// unknown of the fit: a free quantity or a free component of the initial state.
 struct LinearMotion {
   State<double> state{};
   /// Derivatives, [kStateSize][columns]; empty if there are no columns.

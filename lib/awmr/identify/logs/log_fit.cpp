@@ -29,9 +29,8 @@ namespace {
 /// 000 samples, the last step is therefore shorter than 0.01 standard errors.
 constexpr double kFine = 1e-9;
 
-/// Largest number of rough optima of the multistart from which the final search is tried. They are
-/// tried one after the other, best first, until the simulation of the logs is finite where the
-/// search ends.
+/// Largest number of rough optima of the multistart from which the final search is tried, best
+/// first. The next one is tried only if the simulation of the logs diverges where the search ends.
 constexpr std::size_t kTries = 3;
 
 LogFit without_solution(std::string why, std::vector<SearchStart> starts) {

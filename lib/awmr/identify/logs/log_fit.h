@@ -25,9 +25,11 @@ struct LogFit {
   /// One per quantity; empty text: the quantity is identified.
   std::vector<std::string> refusal_reason;
   NoiseLevels noise;
-  double change_cost = 0.0;          ///< sum of WindowErrors::change_cost at the optimum
-  std::vector<double> change_times;  ///< WindowErrors::change_times of all windows
-  ErrorsByChannel errors;            ///< model + bias - measured at the optimum, SI; not whitened
+  /// Part of -2 ln L due to uncertain times of command changes (WindowErrors::change_cost).
+  double change_cost = 0.0;
+  /// Likeliest times of these changes, all windows (WindowErrors::change_times).
+  std::vector<double> change_times;
+  ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI; not whitened
   /// One per term in LogFitOptions::candidate_terms: the decrease of -2 ln L, >= 0, that a score
   /// test predicts if the term were also estimated.
   std::vector<double> candidate_gain;

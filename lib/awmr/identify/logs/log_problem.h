@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// Standard deviation of the weak prior of each coordinate, in units of its large change
-/// (FreeQuantity::large_change).
+/// Standard deviation of the weak prior of each coordinate, in large changes
+/// (FreeQuantity::large_change). A smaller value would bias estimates towards their initial guess.
 inline constexpr double kPriorStd = 5.0;
 
 /// Data of the problem. The cost is half the sum of squares of two kinds of residuals: those of all
@@ -46,8 +46,8 @@ struct SearchPoint {
   std::vector<double> initial_states;
 };
 
-/// Longest integration step, s, at these coordinates. It is that of replay_step_s() for the other
-/// time constants of the vehicle, with these limits:
+/// Longest integration step, s, at these coordinates: the step of replay_step_s() without sway and
+/// servo, with these limits:
 ///   - Fast sway shortens the step to no less than 1/4 of the row spacing, and a fast servo to no
 ///     less than 1/8. (Still faster sway is slowed down, see LinearPlant::sway_pace.)
 ///   - The step is at most the row spacing, because a longer step lengthens the straight line that
@@ -58,7 +58,7 @@ struct SearchPoint {
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 
 /// Builds the least-squares problem at the initial guess. The noise is that by sensor_noise(), and
-/// the samples have no weights of a robust loss. The logs must outlive the problem.
+/// all samples have the weight 1 (a robust loss acts later). The logs must outlive the problem.
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Replaces the noise levels of the problem by those in `levels`. A channel that is not in `levels`

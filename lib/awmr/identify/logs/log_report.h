@@ -34,8 +34,8 @@ void withdraw_intervals(EstimatorReport& report);
 /// Removes standard error and interval of the quantity with this name.
 void withdraw_interval(EstimatorReport& report, std::string_view name);
 
-/// Withdraws the intervals of the model parameters in `report` that differ from those in `other` by
-/// more than one standard error. Returns their names.
+/// Withdraws the intervals of the model parameters in `report` whose values differ from those in
+/// `other` by more than one standard error. Returns the names of these parameters.
 std::vector<std::string> withdraw_different(const EstimatorReport& other, EstimatorReport& report);
 
 }  // namespace awmr

@@ -143,16 +143,16 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(requested, parameter.id) || !known.value;
     // Back-EMF and the servo's time constant stay fixed if the logs cannot identify them. (If the
-    // time constant of a servo whose command never changes were free, the fitted steering angle at
-    // the beginning of each window would act like a trim.)
+    // steering command never changes, a free time constant would be harmful: the fitted steering
+    // angle at the beginning of each window would then act like a trim.)
     const bool never_acts =
         parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
     if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
-    // In logs with turns, every other parameter that the logs cannot identify affects the remaining
-    // parameters. It stays free, so that their intervals include its uncertainty. It is refused
-    // after the fit.
+    // In logs with turns, every other parameter that the logs cannot identify still affects the
+    // remaining ones. It stays free during the fit, so that their intervals include its
+    // uncertainty, and is refused afterwards.
     if (!why.empty() && (!turning || never_acts)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);

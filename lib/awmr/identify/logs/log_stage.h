@@ -18,7 +18,7 @@ struct LogStage {
   struct Main {
     ParameterId id;
     Estimate estimate;
-    Eigen::Index place;  ///< index in `block` of the parameter's row and column
+    Eigen::Index place;  ///< index of the parameter in `block`
     double jacobian;     ///< d value / d coordinate
   };
   std::vector<Main> main;

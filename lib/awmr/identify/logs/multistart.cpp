@@ -15,7 +15,7 @@ namespace {
 /// limited to its range. Terms that only some resistance families have do not change.
 ///
 /// A random number is drawn for every quantity, even if it is not used. The guess of one quantity
-/// then does not depend on which others are in `guessed`.
+/// then does not depend on whether another one is in `guessed`.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;

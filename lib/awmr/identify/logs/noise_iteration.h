@@ -16,8 +16,8 @@ struct NoiseIteration {
   bool gave_up = false;      ///< true: first_cost exceeds NoiseRounds::give_up_above
 };
 
-/// Collects the errors (not whitened) by channel. With a robust loss, clips them at three robust
-/// standard deviations, so that outliers do not increase the estimated noise.
+/// Collects the errors (before whitening) by channel. With a robust loss, clips them at three
+/// robust standard deviations, so that outliers do not increase the estimated noise.
 ErrorsByChannel errors_by_channel(const LogProblem& problem,
                                   const std::vector<WindowErrors>& errors, Loss loss);
 
@@ -28,8 +28,8 @@ struct NoiseRounds {
   double give_up_above = std::numeric_limits<double>::infinity();
   /// True: the search starts at the result of a fit to a part of the same logs, with its noise
   /// levels. The first round then uses the normal integration steps, and may be the only round.
-  /// False: the first round uses longer steps (rough_step_s()), and at least one more round
-  /// follows.
+  /// False: the first round uses longer steps (rough_step_s()) to save time, and at least one more
+  /// round follows.
   bool is_near = false;
 };
 

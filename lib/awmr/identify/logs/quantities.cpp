@@ -21,8 +21,8 @@ Interval parameter_bounds(const FreeQuantity& quantity, double initial, const Ve
     return {vehicle.yaw_beta_range.lo, vehicle.yaw_beta_range.hi};
   }
   if (quantity.scale == Scale::kLinear) return {0.0, 1e6};
-  // The servo's time constant is limited to kSlowestServo_s. Reason: the servo and the yaw motion
-  // are two lags in series, and a search could exchange their time constants (I'z/g3' for the yaw
+  // The servo's time constant is limited to kSlowestServo_s. Reason: servo and yaw motion are two
+  // lags in series, and a search could exchange the time constants of the two (I'z/g3' for the yaw
   // motion).
   const double most = quantity.is(ParameterId::kSteeringTimeConstant)
                           ? to_coordinate(quantity.scale, kSlowestServo_s)

@@ -92,8 +92,8 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Simula
   }
 }
 
-/// Residual of the weak prior of one component of a window's initial state. The prior is centred on
-/// the measured value.
+/// Residual of the weak prior of one component of a window's initial state. The prior keeps the
+/// component near its measured value.
 double pull(const InitialComponent& component, const FitWindow& window, double initial) {
   return (initial - channel_of(window.measured, component.channel)) / component.prior_std;
 }

@@ -18,10 +18,11 @@ struct WindowErrors {
   Eigen::VectorXd raw;  ///< the n errors, model + bias - measured, SI
   /// The n errors, whitened, divided by their standard deviation and weighted.
   Eigen::VectorXd standardised;
-  /// Part of -2 ln L of the uncertain times at which commands change (marginalised()). The errors
-  /// are those at the likeliest times.
+  /// Contribution of uncertain times of command changes to -2 ln L (marginalised()). The errors are
+  /// those at the likeliest times.
   double change_cost = 0.0;
-  /// Likeliest time of each of these changes, less its mean, in standard deviations of its prior.
+  /// Likeliest time of each of these changes minus its expected time, in standard deviations of its
+  /// prior.
   Eigen::VectorXd change_times;
   bool finite = false;  ///< false if the simulation is not finite
 };
@@ -43,9 +44,9 @@ struct WindowSums {
   /// if no change has an uncertain time.
   Eigen::MatrixXd products_at_known_times;
   double change_cost = 0.0;  ///< ln det of marginalised()
-  /// One row for each of the m changes at uncertain times. The last column has the likeliest times
-  /// (WindowErrors::change_times). The columns before it have the amounts by which these times
-  /// decrease if an unknown (quantity or initial state) increases by 1: [m][q + k + 1].
+  /// One row for each of the m changes at uncertain times: [m][q + k + 1]. The last column has the
+  /// likeliest times (WindowErrors::change_times). The columns before it have the amounts by which
+  /// these times decrease if an unknown (quantity or initial state) increases by 1.
   Eigen::MatrixXd change_times;
   bool finite = false;  ///< false if the simulation or its derivatives are not finite
 

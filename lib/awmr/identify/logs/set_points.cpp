@@ -80,9 +80,9 @@ std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
   return is_usual ? usual : 0;
 }
 
-/// Returns the index of the set-point of each row. Set-points are the rows at which a line ends,
-/// and the rows at multiples of rows_of_set_point() after them. The values on the lines may be
-/// exact or rounded. Empty if the signal is not interpolated between set-points.
+/// Returns, for each row, the index of the row with its set-point. Set-points are the rows at which
+/// a line ends, and the rows at multiples of rows_of_set_point() after them. The values on the
+/// lines may be exact or rounded. Empty if the signal is not interpolated between set-points.
 std::optional<std::vector<std::size_t>> set_points_of(const Signal& t_s, const Signal& signal) {
   constexpr double kExact = 1e-3;  // tolerance for exact values, relative to the resolution
   // Tolerance for rounded values: 0.5 for the row itself, 0.5 for its two neighbours.

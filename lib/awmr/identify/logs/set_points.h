@@ -14,8 +14,8 @@
 
 namespace awmr {
 
-/// Returns the logs with every interpolated command replaced by its last set-point. If one of the
-/// forces is interpolated, both are replaced.
+/// Returns the logs with every interpolated command replaced by the last set-point before it. If
+/// one of the forces is interpolated, both are replaced.
 ///
 /// A command counts as interpolated if it changes in at least 40 rows, and if most of these rows
 /// lie on straight lines whose lengths are multiples of the same number of rows. This number of

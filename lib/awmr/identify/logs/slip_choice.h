@@ -8,10 +8,10 @@
 
 namespace awmr {
 
-/// Compares the explanations of a fit `chosen` that has significant wheel slip or late commands.
-/// The logs are fitted with the other explanations too: late commands in place of the slip, slip in
-/// place of the late commands, or the other form of slip (WheelSlip::is_ratio). In all of them, the
-/// reading rises earlier than the model would otherwise predict, so they are easily confused.
+/// Tries other explanations of a fit `chosen` that has significant wheel slip or late commands:
+/// late commands in place of the slip, slip in place of the late commands, and the other form of
+/// slip (WheelSlip::is_ratio). With each of them, a reading rises earlier than the logged commands
+/// explain, so a fit can confuse them.
 ///
 /// The fit with the lowest AIC becomes `chosen`. If the AIC of another fit is higher by less than
 /// 10, withdraws the intervals of the parameters that differ between the two fits by more than one

@@ -38,7 +38,7 @@ bool limits_command(const std::vector<FreeQuantity>& quantities) {
   return std::ranges::any_of(quantities, &FreeQuantity::is_beyond_stop);
 }
 
-/// Sets which of the two the stop limits, in an error of the linkage.
+/// Sets for an error of the linkage whether the stop limits the command (else the angle).
 void set_limit(bool is_of_command, FreeQuantity& q) {
   q.is_beyond_stop = q.is_of_linkage() && is_of_command;
 }

@@ -22,9 +22,9 @@ namespace awmr {
 /// would point beyond the stop if nothing limited them.
 bool is_stop_reached(const LogProblem& problem, const SearchPoint& point);
 
-/// Fits the logs with the stop limiting the command if it limits the angle in `settled`, and the
-/// other way round. Returns this fit if its AIC is lower. Empty if it is not, or if
-/// is_stop_reached() is false.
+/// Fits the logs with the other meaning of the stop: it limits the command if it limits the angle
+/// in `settled`, and vice versa. Returns this fit if its AIC is lower. Empty if it is not lower, or
+/// if is_stop_reached() is false.
 std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Loss loss);
 
 /// Compares the two limits for the converged fit `chosen`. The fit with the lower AIC becomes
@@ -33,14 +33,14 @@ std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Los
 /// `steering-stop` that names them. Empty if nothing was withdrawn.
 std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
-/// Widens the intervals of the fit by the unknown scale s of the steering angles, if it has an
-/// asymmetry e or a curve k of the linkage, but does not estimate the scale.
+/// Widens the intervals of the fit `chosen` because the scale s of the steering angles is unknown.
+/// Only for fits with an asymmetry e or a curve k of the linkage that do not estimate the scale.
 ///
 /// With forces that are equal left and right, angles of s times the assumed ones have nearly the
-/// same effect as I'z, yaw and sway resistance divided by s. The terms define s = 1 for the mean of
-/// left and right, and for small commands. The linkage may as well be right on one side, or at the
-/// stop, so ln s has the prior standard deviation sqrt(e^2 + ln(1 + k)^2). The logs are fitted once
-/// more with this scale. The differences Delta of the coordinates add
+/// same effect as I'z, yaw and sway resistance divided by s. The terms e and k define s = 1 for the
+/// mean of left and right, and for small commands. The true linkage may instead be right on one
+/// side, or at the stop, so ln s has the prior standard deviation sqrt(e^2 + ln(1 + k)^2). The logs
+/// are fitted once more with angles of this scale. The changes Delta of the coordinates add
 ///
 ///     Delta Delta^T/(1 + D),   D: increase of -2 ln L by this scale, at least 0
 ///

@@ -41,8 +41,8 @@ double demanded_rate_radps(const NoiseIteration& settled) {
                   radians(model.vehicle.steering_max_rate_degps));
 }
 
-/// Returns a fit that shows a rate limit of the servo best. For long logs this is a new fit to the
-/// windows with the largest ranges of steering commands. For short logs it is `settled` itself.
+/// Returns a fit in which a rate limit of the servo shows most clearly. For long logs this is a new
+/// fit of the windows with the largest ranges of steering commands. For short logs it is `settled`.
 NoiseIteration with_largest_steering(const NoiseIteration& settled, Loss loss) {
   if (!is_long(settled.problem)) return settled;
   const std::vector<FitWindow>& windows = settled.problem.windows;

@@ -48,7 +48,7 @@ std::vector<double> at_rows(const std::vector<double>& signal,
   return values;
 }
 
-/// A command at these rows.
+/// A command at these rows: an inserted row has the new command.
 std::vector<double> held_at_rows(const std::vector<double>& command,
                                  const std::vector<PlannedRow>& rows) {
   std::vector<double> values;

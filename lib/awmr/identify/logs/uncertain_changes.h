@@ -2,8 +2,8 @@
 /// Private to identify/.
 ///
 /// The time of a change is t + o, where t is the time of its row and o is normal with a mean and a
-/// standard deviation s. The residuals r are linear in the times o, with the Jacobian J_o. The
-/// cost of a fit is that at the likeliest times, which are eliminated from all sums:
+/// standard deviation s. The residuals r are linear in the times o, with the Jacobian J_o. The cost
+/// of a fit is the minimum over these times, which are thus eliminated from all sums:
 ///
 ///     min over o of |r + J_o o|^2 + |(o - mean)/s|^2
 #pragma once
@@ -27,8 +27,8 @@ struct UncertainChange {
 /// the window does not count.
 std::vector<UncertainChange> uncertain_changes(const LogWindow& window);
 
-/// All changes within the window. Each has its time between its row and the row before, with equal
-/// probability. Empty if the window has too many changes (kMaxChangeShare).
+/// All changes within the window. The time of each is uniformly distributed between its row and the
+/// row before. Empty if the window has too many changes (kMaxChangeShare).
 std::vector<UncertainChange> changes_before_rows(const LogWindow& window);
 
 /// Largest number of changes per row of a window whose times are estimated. If commands change more

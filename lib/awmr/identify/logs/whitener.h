@@ -1,4 +1,5 @@
-/// Kalman filter that whitens the residuals of a channel. Private to identify/.
+/// Kalman filter that whitens the residuals of a channel: removes their correlation in time.
+/// Private to identify/.
 #pragma once
 
 #include <algorithm>

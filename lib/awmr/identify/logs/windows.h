@@ -1,7 +1,7 @@
 /// Division of the logs into windows for the fit. Private to identify/.
 ///
 /// Each window has its own fitted initial state (multiple shooting without continuity constraints),
-/// so that a disturbance affects only one window.
+/// so that a disturbance affects only one window, not the rest of the log.
 #pragma once
 
 #include <cstdint>
