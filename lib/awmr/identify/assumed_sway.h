@@ -1,15 +1,15 @@
 /// Default sway resistance for models without a value from the vehicle file or a log: the value of
 /// common tyres, with the spread between tyres as its uncertainty. Private to identify/.
 ///
-/// A tyre's lateral force is c times its load m g times its slip angle. At the forward speed u and
-/// the lateral speed v the slip angle is v/u. The sway resistance sway.alpha is this force divided
-/// by v and by F_max = m/m':
+/// A tyre's lateral force is its cornering stiffness c times its load m g times its slip angle. At
+/// the forward speed u and the lateral speed v the slip angle is v/u. The sway resistance
+/// sway.alpha is this force divided by v and by F_max = m/m':
 ///
 ///     F_y = c m g v/u,    sway.alpha = F_y/(v F_max) = c g m'/u
 ///
 /// c in 1/rad is 15 for rubber on asphalt, 5 for hard plastic, and less than 1 for wheels that
-/// already slide, as in the turns of a skid-steered vehicle. The value used is 2.8, with the 95 %
-/// interval 0.5 to 16 (ln c normal). u is half of the highest speed in the trials.
+/// already slide, as in the turns of a skid-steered vehicle. The value used is 2.8, the geometric
+/// mean of the 95 % interval 0.5 to 16 (ln c normal). u is half of the highest speed in the trials.
 #pragma once
 
 #include <optional>

@@ -17,12 +17,12 @@ struct Identification {
 };
 
 /// Identifies the model of a vehicle. `findings`: findings from reading the data, which come first
-/// in the model's record. Errors (input): contradictory options, such as a robust loss with the
-/// log-linear method; an option without the trials that it needs; a requested parameter or family
-/// that the vehicle cannot have; back-EMF, given or requested, together with a surge or turning
-/// table; and the errors of run_log_stage() (log_stage.h). A parameter that the data do not
-/// identify is not an error: it gets no value and the finding `not-identifiable`, and is listed in
-/// `refused` if it was requested or the data should measure it (refuse_what_is_missing()).
+/// in the model's record. A parameter that the data do not identify is not an error: it gets no
+/// value and the finding `not-identifiable`. It is listed in `refused` if it was requested or the
+/// data should measure it (refuse_what_is_missing()). Errors (input): contradictory options, such
+/// as a robust loss with the log-linear method; an option without the trials that it needs; a
+/// requested parameter or family that the vehicle cannot have; back-EMF, given or requested,
+/// together with a surge or turning table; and the errors of run_log_stage() (log_stage.h).
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
 

@@ -58,13 +58,13 @@ inline std::string title_of(Loss loss) {
   return title;
 }
 
-/// Resistance family to fit.
+/// Resistance family (form of the resistance law) to fit.
 struct FamilyChoice {
   /// Absent: the family with the smallest AICc (tables) or AIC (logs).
   std::optional<Family> family = Family::kPower;
-  /// True if the user selected the family. If false and the logs suggest a missing term, the other
-  /// families are fitted to the logs too, and one that is significantly better replaces the power
-  /// law.
+  /// True if the user selected the family. If false, it is only a default: if the logs suggest a
+  /// missing term, other families are fitted to them too, and one that is significantly better
+  /// replaces the power law.
   bool requested = false;
 };
 

@@ -87,7 +87,7 @@ bool is_steered(const DrivingLog& log) {
                              [](double angle_rad) { return angle_rad != 0.0; });
 }
 
-/// True if a log has what measures the parameter.
+/// True if a log has the channels and commands that measure the parameter.
 bool is_shown(ParameterId id, const DrivingLog& log) {
   using enum LogChannel;
   const bool has_turns = log[kYawRate] || log[kHeading] || log[kX];
@@ -105,8 +105,8 @@ bool is_shown(ParameterId id, const DrivingLog& log) {
   }
 }
 
-/// True if it is an error that the logs do not identify `id`: the user named it, or it has no other
-/// value and a log has what measures it.
+/// True if it is an error that the data do not identify `id`: the user named it, or it has no other
+/// value and a table or log should measure it.
 bool is_required(ParameterId id, const TrialData& data, const IdentifyOptions& options,
                  const Estimate& estimate) {
   if (!options.requested.empty()) return true;

@@ -13,7 +13,8 @@ namespace awmr {
 namespace {
 
 /// Two models describe the curves about equally well if their AICc differ by less than this. A
-/// difference of 10 is a likelihood ratio of 150.
+/// difference of 10 is a likelihood ratio of 150. With a larger value, more intervals of m' are
+/// withdrawn.
 constexpr double kClose = 10.0;
 
 /// The data of all candidates.

@@ -15,13 +15,13 @@ namespace awmr {
 /// Model of the curves, chosen by choose_coast_model().
 struct CoastModel {
   CoastStart start;  ///< m' and, if there is a filter, its time constant
-  /// Another solution that describes the curves nearly as well; absent if there is none. For
-  /// example, if the resistance is proportional to the speed, the curve does not change if the time
-  /// constants of the filter and of the motion (m'/a1) are exchanged.
+  /// Another solution that describes the curves nearly as well; absent if there is none. Example:
+  /// if the resistance is proportional to the speed, the time constants of filter and motion
+  /// (m'/a1) can be exchanged without a change of the curve.
   std::optional<CoastStart> other;
   /// Noise of the residuals of a fit in which the surge law may vary within its covariance.
   ChannelNoise noise;
-  double longest_s = 0.5;  ///< drifts with a longer correlation time are model errors
+  double longest_s = 0.5;  ///< s; a drift with a longer correlation time is a model error
 
   bool is_inadequate() const { return noise.of_the_model(longest_s); }
   bool withdraws_intervals() const { return other || noise.overwhelms_sensor(longest_s); }

@@ -43,8 +43,8 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   return next > T(0.0) ? next : T(0.0);
 }
 
-/// Largest number of steps between two samples: half an hour in steps of 2 ms. A search that needs
-/// more steps has a diverging time of motors-off t0, so Ceres rejects the point.
+/// Largest number of steps between two samples: half an hour in steps of 2 ms. Only a search with a
+/// diverging time of motors-off t0 needs more; Ceres then rejects the point.
 constexpr double kMaximumSteps = 1e6;
 
 /// Output of the filter T y' = u - y after the time h, if its output was y and its input changes

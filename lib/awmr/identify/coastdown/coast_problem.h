@@ -15,9 +15,9 @@
 namespace awmr {
 
 /// A run's time of motors-off t0 and its speed u0 at that time. If the record begins before
-/// motors-off, the speed begins with a plateau; its mean and its end are the initial guesses of u0
+/// motors-off, the speed begins with a plateau. Its mean and its end are the initial guesses of u0
 /// and t0. Without a detected plateau, u0 starts at the first sample's speed, and t0 is fixed at
-/// the first sample's time. Because a plateau may be too short to be detected, t0 is fitted if that
+/// the first sample's time. Because a short plateau may go undetected, t0 is also fitted if that
 /// lowers AIC.
 struct CoastInitialState {
   double block[2];         ///< u0 in m/s, t0 in s

@@ -23,8 +23,8 @@ struct MassResult {
   std::optional<double> by_grip;
   std::optional<JointFit> joint;  ///< joint fit, if requested and converged
   std::optional<CoastFit> alone;  ///< fit of the curves, if there is no surge law
-  /// Reason why stop times or curves give no m'. The reason can be set although m' was estimated,
-  /// if the other kind of trial determines it.
+  /// Reason why stop times or curves give no m'. May be set although m' was estimated: one kind of
+  /// trial failed and the other determines it.
   std::string reason;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;

@@ -23,8 +23,8 @@ using compass::Parameters;
 using compass::Points;
 using Covariance = Eigen::Matrix<double, 5, 5>;
 
-/// Number of equal sectors of the circle for the jackknife. Residuals within a sector may be
-/// correlated.
+/// Number of equal sectors of the circle for the jackknife: 10 degrees each. Residuals within a
+/// sector may be correlated.
 constexpr int kSectors = 36;
 /// Largest accepted gap between neighbouring headings of the readings of a calibration turn.
 constexpr double kLargestGapDeg = 30.0;

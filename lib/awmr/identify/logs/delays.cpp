@@ -166,8 +166,9 @@ void consider_angle_beyond_stop(const NoiseIteration& settled, const CandidateTe
 
 /// Makes a short fit (one round) with each candidate term, and returns the fit with the lowest AIC.
 /// If no term lowers AIC, returns the fit with the most significant candidate, provided that its
-/// score test exceeds 20 standard errors. Otherwise returns empty. Reason: AIC may rise in one round
-/// even if the term has a large effect, because the drift of the noise model had absorbed it before.
+/// score test exceeds 20 standard errors (kBeyondDoubt). Otherwise returns empty. Reason: in one
+/// round, AIC may rise even if the term has a large effect, because the drift of the noise model
+/// had absorbed this effect before.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   LowestAic lowest(settled);
   // Fit with the most significant candidate, if above kBeyondDoubt.

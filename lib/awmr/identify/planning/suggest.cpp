@@ -51,8 +51,8 @@ Uncertainty uncertainty_of(const Model& model) {
     covariance(eigen_index(i), eigen_index(i)) = kUnknownStd * kUnknownStd;
   }
   // I'z from a coast-down is m' times a constant, so the covariance is singular. A small
-  // independent error of each parameter makes it invertible, and a trial that measures I'z can then
-  // separate I'z from m'.
+  // independent error of each parameter makes it invertible. A trial that measures I'z can then
+  // improve I'z without m'.
   constexpr double kIndependentStd = 1e-4;
   covariance.diagonal().array() += kIndependentStd * kIndependentStd;
   return {std::move(ids), std::move(covariance)};

@@ -23,7 +23,7 @@ std::vector<Diagnostic> residual_tests(const Subject& subject, const SteadyFit& 
 
 /// The warning `outlier` for each run that deviates significantly from the curve of the other runs:
 /// Student's t, 5 % for the whole table (Bonferroni). If the runs were timed, their time must
-/// deviate significantly as well. The reason: a stop-watch error is a larger share of a fast run's
+/// deviate significantly as well. Reason: a stop-watch error is a larger share of a fast run's
 /// short time, so the fastest run could look like an outlier by its force alone.
 std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProblem& problem,
                                       const SteadyFit& fit);

@@ -15,8 +15,8 @@
 namespace awmr {
 namespace {
 
-/// Lower bound of beta if the error is of speed or time: these residuals need the inverse of the
-/// curve.
+/// Lower bound of beta if the error is of speed or time. These residuals need the inverse of the
+/// curve, which does not exist for beta = 0.
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
 /// Steady rate g^-1(force) at a force, with its derivatives; 0 if the force is below Coulomb

@@ -24,7 +24,8 @@ class SteadySearch {
   SteadySearch& operator=(const SteadySearch&) = delete;
 
   /// Minimises until no coordinate changes. A coordinate that stays at a bound is fixed while the
-  /// others are fitted. It is freed again if the cost then decreases away from the bound.
+  /// others are fitted. It is freed again if the cost then decreases when it moves away from the
+  /// bound.
   void solve();
   /// Repeats solve() until the coordinates converge. Each round recomputes the scale of the robust
   /// loss from the residuals.

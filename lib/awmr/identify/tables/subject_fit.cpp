@@ -20,7 +20,7 @@ namespace {
 /// is a likelihood ratio of e^5.
 constexpr double kTablesPlainlyBetter = 10.0;
 
-/// Smallest number n of runs for which AICc exists: its denominator n - p - 2 must be positive, and
+/// Smallest number n of runs for which AICc exists. Its denominator n - p - 2 must be positive, and
 /// the smallest families have p = 2 parameters.
 constexpr std::size_t kMinToCompare = 5;
 

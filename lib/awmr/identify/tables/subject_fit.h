@@ -22,10 +22,10 @@ struct SubjectFit {
   /// The chosen fit, followed by the fits under the other error models (noise_average.h). Empty
   /// without a chosen fit.
   std::vector<NoiseAlternative> alternatives;
-  /// The chosen law does not describe the rows: another family than the power law describes them
-  /// much better (`power-law-inadequate`), or left and right turns differ (`turns-differ`). The
-  /// values that follow from it get no intervals, because their errors are those of the law and not
-  /// of the measurements.
+  /// True if the chosen law does not describe the rows: another family than the power law describes
+  /// them much better (`power-law-inadequate`), or left and right turns differ (`turns-differ`).
+  /// The values that follow from the law then get no intervals, because their errors are those of
+  /// the law and not of the measurements.
   bool is_inadequate = false;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
