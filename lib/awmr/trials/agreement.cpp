@@ -14,8 +14,8 @@ constexpr double kAutomaticTiming_s = 1e-3;
 constexpr double kCourseError = 0.005;
 constexpr double kLargestRoundingShare = 0.05;
 
-/// Decimal places of a number: 79.16 has 2, 1e-05 has 5. Only 12 significant digits count: if a
-/// mapping scales a column, rounding errors change the digits after them.
+/// Decimal places of a number: 79.16 has 2, 1e-05 has 5. Only 12 significant digits count, because
+/// a mapping that scales a column changes the digits after them by rounding.
 int decimal_places(double value) {
   const std::string text = fmt::format("{:.11e}", value);  // d.ddddddddddde[+-]dd
   const std::size_t exponent_mark = text.find('e');

@@ -26,8 +26,8 @@ constexpr double kSignificance = 5.0;
 constexpr double kMinScale = 0.03;
 constexpr double kMinOffset_rad = 0.0175;
 
-/// Divides the log into about `count` windows of 1 to 5 s. In a longer window, the noise of its
-/// first and last reading matters less, but more errors by sideslip and heading accumulate.
+/// Divides the log into about `count` windows of 1 to 5 s. In a longer window, the noise of the
+/// first and last reading matters less, but errors by sideslip and heading accumulate.
 std::vector<LogWindow> calibration_windows(const DrivingLog& log, double count = 20.0) {
   constexpr double kShortest_s = 1.0;
   constexpr double kLongest_s = 5.0;
@@ -55,8 +55,8 @@ std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
 }
 
 /// Fits y = X k by least squares in three rounds. Outliers are removed before the second and the
-/// third round. Returns empty if X is rank-deficient, or if the rows left are at most twice as many
-/// as the coefficients.
+/// third round. Empty if X is rank-deficient, or if at most twice as many rows are left as there
+/// are coefficients.
 std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   constexpr int kRounds = 3;
   Regression found;
@@ -116,8 +116,8 @@ struct CourseFit {
 };
 
 /// Fits the complex factor k between measured and integrated displacement (calibration_checks.h).
-/// The headings are first multiplied by `heading_factor`. Empty if a channel is missing, with fewer
-/// than 15 windows, or if the windows do not determine k.
+/// `heading_factor` is applied to the headings first, to test another scale of the heading. Empty
+/// if a channel is missing, with fewer than 15 windows, or if the windows do not determine k.
 std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor = 1.0) {
   for (const LogChannel channel :
        {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kHeading}) {
@@ -330,7 +330,8 @@ std::optional<Finding> turn_mismatch(const DrivingLog& log,
                   fmt::join(options, " and ")));
 }
 
-/// `scale`: s of calibration_checks.h.
+/// Finding for a speed whose scale differs from that of the positions. `scale`: s of
+/// calibration_checks.h.
 std::optional<Finding> speed_mismatch(const DrivingLog& log, const Calibration& scale,
                                       std::span<const ColumnMapping> mappings) {
   if (!is_off_one(scale)) return std::nullopt;

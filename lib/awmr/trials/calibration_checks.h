@@ -3,8 +3,9 @@
 ///
 /// The log is divided into windows [t0, t1] of a twentieth of its length (1 to 5 s). In each window
 /// the displacement of the position p = x + i y is compared with the integral of the speed u along
-/// the heading psi. The complex factors k, k_b, k_c and k_d are fitted to all windows, with r the
-/// yaw rate:
+/// the heading psi. The complex factors k, k_b, k_c and k_d are fitted to all windows. The terms
+/// with k_b, k_c and k_d absorb effects that would otherwise look like an error of k. With the yaw
+/// rate r,
 ///
 ///     p(t1) - p(t0) = k a + k_b b + k_c c + k_d d,   k = s exp(i phi)
 ///     a = int u exp(i psi) dt                displacement by speed and heading
@@ -13,12 +14,13 @@
 ///     d = int exp(i psi) du                  latency of speed or position
 ///
 /// s is the ratio of the position's scale to the speed's scale (1 if both are right). phi is the
-/// angle from the heading to the course over ground (the direction of motion). In a log without a
-/// heading, psi is the integral of the yaw rate. Its unknown initial value does not change the
-/// length of a displacement, so only lengths are compared. Here the factors of c and d are i k_c
-/// and k_d, with k_c and k_d real: sideslip acts across the heading, latency of the speed along it.
-/// Their squares are neglected. The constant n is due to noise of the positions, * marks the
-/// complex conjugate:
+/// angle from the heading to the course over ground (the direction of motion).
+///
+/// In a log without a heading, psi is the integral of the yaw rate. Its unknown initial value does
+/// not change the length of a displacement, so only lengths are compared. The factors of c and d
+/// are then i k_c and k_d, with k_c and k_d real: sideslip acts across the heading, latency of the
+/// speed along it. Their squares are neglected. The constant n is due to noise of the positions, *
+/// marks the complex conjugate:
 ///
 ///     |p(t1) - p(t0)|^2 = s^2 |a|^2 + 2 s Re(k_b* a b*) + |k_b|^2 |b|^2 + 2 s k_c Im(a c*)
 ///                         + 2 s k_d Re(a d*) + n
@@ -29,10 +31,10 @@
 ///
 ///     psi(t1) - psi(t0) = k int r dt + k_0 (t1 - t0) + k_1 (r(t1) - r(t0))
 ///
-/// Heading and yaw rate can agree although both have the same wrong scale, such as from wheel
-/// odometry with a wrong track width. Then the angle from a to the displacement grows with the
-/// heading. Here k is the ratio of the change of course to the change of heading (windows of a
-/// sixtieth of the log, 1 to 5 s):
+/// Heading and yaw rate can agree although both have the same wrong scale, for example from wheel
+/// odometry with a wrong track width. The angle from a to the displacement then grows with the
+/// heading. In this equation, k is the ratio of the change of course to the change of heading
+/// (windows of a sixtieth of the log, 1 to 5 s):
 ///
 ///     arg((p(t1) - p(t0))/a) = phi + (k - 1) (psi(t0) + psi(t1))/2
 ///                              + k_2 (psi(t1) - psi(t0)) + k_3 t0
@@ -62,9 +64,9 @@ std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 
 /// Returns the warnings `heading-offset` (heading_offset_rad() is not empty) and `scale-mismatch`
 /// (the scales of two channels differ by more than 3 % and by more than five standard errors). If
-/// heading and yaw rate differ, and the positions agree with one of them, `scale-mismatch` names
-/// the other one. It names both if the positions do not decide, or if heading and yaw rate agree
-/// with each other but not with the positions. `mappings`: column mappings used to read the log.
+/// heading and yaw rate differ, `scale-mismatch` names the one that disagrees with the positions,
+/// or both if the positions do not decide. It also names both if heading and yaw rate agree with
+/// each other, but not with the positions. `mappings`: column mappings used to read the log.
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings);
 

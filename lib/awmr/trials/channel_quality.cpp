@@ -61,8 +61,8 @@ std::vector<double> gaps_of(const Changes& changes) {
 }
 
 /// True for a coarse sensor without noise: at least 95 % of the changes are one step of the
-/// resolution, and fewer than 80 % of the gaps between changes are multiples of one interval. (A
-/// slow sensor changes at multiples of its sample interval.)
+/// resolution, and fewer than 80 % of the gaps between changes are multiples of one interval. (The
+/// changes of a slow sensor are at multiples of its sample interval.)
 bool changes_step_by_step(const Changes& changes, double quantum) {
   constexpr double kNearlyAll = 0.95;
   constexpr double kRegular = 0.8;
@@ -119,11 +119,13 @@ bool all_equal(std::span<const double> values) {
 }
 
 /// Returns the limit of the deviation |off| (off_median()) above which a reading is a spike. It is
-/// the largest of
-///   - 7 standard deviations of the noise, times 1 + 5/sqrt(n). The standard deviation is the 75 %
-///     quantile of |off|, divided by 1.04. It is estimated from the n readings that are not the
-///     middle of five equal ones (an encoder at rest). 5/sqrt(n) allows for the estimation error;
-///   - three times the 80 % quantile of the change between readings, for sharp changes of motion;
+/// the largest of these values:
+///   - 7 standard deviations of the noise, times 1 + 5/sqrt(n), which allows for the estimation
+///     error. The standard deviation is the 75 % quantile of |off|, divided by 1.04. It is
+///     estimated from n readings: all but those in the middle of five equal ones (an encoder at
+///     rest);
+///   - three times the 80 % quantile of the change between readings, because motion can change
+///     sharply;
 ///   - a tenth of the range between the 2 % and the 98 % quantile of the values;
 ///   - three times the resolution.
 double spike_limit(std::span<const double> value, std::span<const double> off, double quantum) {
@@ -148,8 +150,8 @@ double spike_limit(std::span<const double> value, std::span<const double> off, d
 }
 
 /// True if reading `k` is near the straight line through two readings on one side (-1: before, 1:
-/// after). The first of the two is the nearest reading that is not itself a possible spike, the
-/// second is its neighbour. If true, reading `k` is a sharp change of motion, not a spike.
+/// after). Reading `k` is then a sharp change of motion, not a spike. The first of the two is the
+/// nearest reading that is not itself a possible spike, the second is its neighbour.
 bool is_reached_from(std::span<const double> value, std::span<const double> off, double limit,
                      std::size_t k, std::ptrdiff_t side) {
   const auto rows = static_cast<std::ptrdiff_t>(value.size());
@@ -210,9 +212,9 @@ std::vector<RowSpan> equal_runs(std::span<const double> value) {
 }
 
 /// Returns the time, s, during which the command in `run` differs by more than `notable` from its
-/// value at the start of `run`. Means over 0.3 s are compared: a speed controller changes its
-/// command in every row, although the mean stays about the same. The last 0.3 s of the run do not
-/// count.
+/// value at the start of `run`. Means over 0.3 s are compared, because a speed controller changes
+/// its command in every row, although the mean stays about the same. The last 0.3 s of the run do
+/// not count.
 double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,
                  double notable) {
   constexpr double kMean_s = 0.3;
@@ -237,8 +239,8 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
 ///   - it is constant for at least eight times as many rows as the 90 % quantile of all constant
 ///     spans;
 ///   - the command changed for 0.3 s or more in this time.
-/// Exceptions: near 0 the vehicle rests, and a value that stays constant so long more than once is
-/// a set-point.
+/// Two cases are not stuck: a value near 0 (the vehicle rests), and a value that stays constant so
+/// long more than once (a set-point).
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {
   const std::vector<RowSpan> runs = equal_runs(value);
@@ -298,7 +300,7 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
     }
     i = end;
   }
-  // A signal with few distinct values repeats each of them often, so that a repeated largest value
+  // A signal with few distinct values repeats each of them often. A repeated largest value then
   // does not show saturation.
   constexpr std::size_t kMinLevels = 20;
   if (levels < kMinLevels) return;

@@ -13,7 +13,7 @@ namespace awmr {
 namespace {
 
 /// Minimum number of rows of a curve: two determine the initial speed and the deceleration, one
-/// checks them.
+/// more checks them.
 constexpr std::size_t kShortestCurve = 3;
 
 bool is_curve(const TrialReader& reader) { return reader.has("t_s") && reader.has("speed_mps"); }

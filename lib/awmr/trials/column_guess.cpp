@@ -171,8 +171,8 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
                        (*time)->meaning + "; it is also read without a mapping"});
   }
   if (!guesses.empty()) return;
-  // A column named by a unit alone counts as time only if its values rise in every row: `ms` may
-  // also mean m/s, but a speed does not rise in every row.
+  // A column named by a unit alone counts as time only if its values rise in every row, which those
+  // of a speed do not: `ms` may also mean m/s.
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const Words words = words_of(sample.names[i]);
     const auto unit = unit_in(words, Dimension::kTime);
@@ -195,8 +195,8 @@ std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample&
   return std::nullopt;
 }
 
-/// Clears each guess whose source column is constant while other channels of the file move: a
-/// constant column is then not a measurement.
+/// Clears each guess whose source column is constant while other channels of the file move, because
+/// such a column is not a measurement.
 void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   for (ColumnGuess& guess : guesses) {
     const auto source = source_of(guess, sample);
@@ -225,8 +225,8 @@ void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& gues
   }
 }
 
-/// Sorts the guesses for one column by confidence. If none is kSure and several are kLikely, the
-/// kLikely ones become kUnsure, because the user must choose between them.
+/// Sorts the guesses for one column by confidence. If several are kLikely and none is kSure, the
+/// user must choose, so the kLikely ones become kUnsure.
 void settle(std::span<ColumnGuess> guesses) {
   std::stable_sort(guesses.begin(), guesses.end(), [](const ColumnGuess& a, const ColumnGuess& b) {
     return a.confidence < b.confidence;

@@ -23,7 +23,7 @@ constexpr std::array<MotionLimit, 8> kMotionLimits{{{"x_m", 0.2, true},
                                                     {"yaw_rate_radps", 0.1, false}}};
 constexpr std::array<LogChannel, 4> kMotionChannels{LogChannel::kHeading, LogChannel::kSpeed,
                                                     LogChannel::kSway, LogChannel::kYawRate};
-/// Minimum number of values for calling a channel constant; fewer may be equal by chance.
+/// Minimum number of equal values of a constant channel; fewer may be equal by chance.
 constexpr std::size_t kMinValues = 10;
 
 bool is_constant(std::span<const double> values) {

@@ -22,8 +22,9 @@ struct ConstantChannel {
 };
 
 /// Returns which of speed, lateral speed, yaw rate and heading are constant (in 10 rows or more)
-/// while another channel shows motion: at least a speed or lateral speed of 0.05 m/s, a yaw rate of
-/// 0.1 rad/s, a heading change of 5 deg or a position change of 0.2 m. Empty for a vehicle at rest.
+/// while another channel shows motion. Motion is a speed or lateral speed of at least 0.05 m/s, a
+/// yaw rate of 0.1 rad/s, a heading change of 5 deg or a position change of 0.2 m. Empty for a
+/// vehicle at rest.
 std::vector<ConstantChannel> constant_channels(const ColumnValues& values);
 
 }  // namespace awmr

@@ -14,7 +14,7 @@ namespace {
 /// smaller.
 constexpr double kRest_mps = 0.1;
 /// If the heading changes by more than this from one reading to the next, it is a jump of a GPS
-/// course. Noise and turns on the spot are smaller.
+/// course. Noise and turns on the spot change the heading less between two readings.
 constexpr double kFar_rad = 20.0 * pi<double>() / 180.0;
 
 double difference(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)); }

@@ -12,7 +12,8 @@ namespace awmr {
 /// Signals of several CSV files.
 struct CsvTopics {
   Signals signals = {};
-  std::vector<std::size_t> mapped = {};  ///< mappings of t_s that were used: indices in `mappings`
+  /// Indices in `mappings` of the mappings to t_s that were used.
+  std::vector<std::size_t> mapped = {};
 };
 
 /// Reads the files as signals. A signal is named `FILE.COLUMN` (FILE without extension), and also

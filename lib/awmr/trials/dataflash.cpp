@@ -18,8 +18,9 @@ constexpr std::string_view kRecordSync("\xA3\x95", 2);
 constexpr std::uint8_t kFormatType = 128;
 constexpr std::size_t kFormatBytes = 89;
 
-/// Finds the field that numbers the sensors of a record type. An FMTU record (TimeUS, type, units,
-/// multipliers) marks this field with the unit '#'. Stores it as Format::instance of the type.
+/// Finds the field of a record type that numbers similar sensors: an FMTU record (TimeUS, type,
+/// units, multipliers) marks it with the unit '#'. Stores the field as Format::instance of the
+/// type.
 void mark_instance(std::string_view record, const dataflash::Format& fmtu,
                    dataflash::Formats& formats) {
   std::optional<std::uint8_t> type;

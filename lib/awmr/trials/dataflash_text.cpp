@@ -87,8 +87,9 @@ std::optional<std::string> binary_format(const Cells& cells) {
 /// Formats by the name at the beginning of a line.
 using NamedFormats = std::map<std::string, dataflash::Format, std::less<>>;
 
-/// Finds the field that numbers the sensors of a record type. An FMTU line (TimeUS, type, units,
-/// multipliers) marks this field with the unit '#'. Stores it as Format::instance of the type.
+/// Finds the field of a record type that numbers similar sensors: an FMTU line (TimeUS, type,
+/// units, multipliers) marks it with the unit '#'. Stores the field as Format::instance of the
+/// type.
 void mark_instance_by_units(const Cells& cells, NamedFormats& formats) {
   constexpr std::size_t kType = 2, kUnits = 3;
   const auto type = cells.size() > kUnits ? number_of<std::uint8_t>(cells[kType]) : std::nullopt;

@@ -25,8 +25,8 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
 constexpr double kEndOfScale = 0.005;
 // Assumption: the largest force in the trials of a vehicle is at least this fraction of full power.
 constexpr double kMinShare = 0.2;
-// Forces that exceed F'max by at most this factor are taken as forces that were divided by too
-// small a force instead of F_max.
+// Forces that exceed F'max by at most this factor are taken as multiples of a force that is a
+// little smaller than F_max.
 constexpr double kPlainlyBeyond = 1.05;
 
 constexpr ForceUnit kMicroseconds{
@@ -132,8 +132,8 @@ ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>
                          const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
   const ForceSpan of_one{thrust.least / n, thrust.largest / n};
-  // tau_speed is n F', the sum over n driven wheels. F' is at most 1, so a tau_speed of up to n has
-  // the right unit, even if it exceeds the vehicle's limit n F'max.
+  // tau_speed is n F', the sum over n driven wheels. F' is at most 1, so a tau_speed of up to n can
+  // be in the right unit, even if it exceeds the vehicle's limit n F'max.
   const bool is_sum = is_share_of_f_max(of_one);
   ForceUnits units;
   if (wheels && !is_sum) {

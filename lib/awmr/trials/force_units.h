@@ -11,8 +11,8 @@
 ///     acceleration n F/m 0.1 to 30 m/s^2   possibly newtons (n driven wheels, mass m in kg)
 ///     2 to 60                              possibly volts
 ///
-/// Only a force at full power identifies a scale for certain. Therefore the largest force in all
-/// tables of a vehicle decides the unit of every force column.
+/// Only a force at full power identifies a scale for certain. The largest force in all tables of a
+/// vehicle is the one nearest to full power, so it decides the unit of every force column.
 #pragma once
 
 #include <optional>
@@ -85,8 +85,8 @@ struct ThrustUnits {
 ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>& wheels,
                          const Vehicle& vehicle);
 
-/// Advice for messages: `units.remedy`, then "map it with --column 'A' (percent) or with ...". Has
-/// no full stop, so that ", or accept it with --as-is" can follow.
+/// Advice for messages: `units.remedy`, then "map it with --column 'A' (percent) or with ...".
+/// Without a full stop, so that the caller can append ", or accept it with --as-is".
 std::string remedy_of(const ForceUnits& units, std::span<const UnitFix> unit_fixes,
                       std::span<const ColumnMapping> mappings);
 

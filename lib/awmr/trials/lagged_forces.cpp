@@ -8,7 +8,8 @@ namespace {
 
 /// Largest magnitude of the delay of the commands, positive or negative.
 constexpr double kLongestDelay_s = 1.0;
-// After this many time constants, the effect of a command is exp(-40) = 4e-18.
+// After this many time constants, the rest of a command's effect is exp(-40) = 4e-18, below
+// rounding.
 constexpr double kForgotten = 40.0;
 
 /// Decay of the difference between motor force and command in a time h. T is the time constant of

@@ -28,8 +28,8 @@ struct TrialFiles {
   std::vector<std::filesystem::path> coastdowns = {};
   /// Driving logs: commands and measurements by time.
   std::vector<std::filesystem::path> logs = {};
-  /// True: finds the parts of the logs with steady motion (steady.h), and adds each as a row of the
-  /// surge or turning table. For vehicles with a log but without these tables.
+  /// True: also uses parts of the logs with steady motion (steady.h) as rows of the surge or
+  /// turning table. For vehicles with a log but without these tables.
   bool steady_from_logs = false;
   /// Options for reading every file, such as column mappings.
   TrialOptions options = {};

@@ -29,8 +29,9 @@ struct ChannelInfo {
 const ChannelInfo& info(LogChannel channel);
 
 /// A measured channel. A row is "fresh" if its value is a measurement. A sensor that is slower than
-/// the log repeats its last value: repeated values are not fresh. A sensor with coarse resolution
-/// is fresh in every row. Spikes, stuck and saturated values are not fresh (channel_quality.h).
+/// the log repeats its last value until its next reading; these repetitions are not fresh. A sensor
+/// with coarse resolution is fresh in every row. Spikes, stuck and saturated values are not fresh
+/// (channel_quality.h).
 struct Measured {
   std::vector<double> value;  ///< one value per row, SI; the heading has no jumps by full turns
   std::vector<bool> fresh;    ///< for each row: true if the value is a measurement
@@ -43,8 +44,9 @@ struct Measured {
 /// One run of a driving log. Every vector has one entry per row.
 struct DrivingLog {
   std::string file;
-  std::vector<int> line;            ///< by row: line in the file
-  std::vector<std::size_t> mapped;  ///< mappings that were used: indices in TrialOptions::columns
+  std::vector<int> line;  ///< by row: line in the file
+  /// Column mappings that were used: indices in TrialOptions::columns.
+  std::vector<std::size_t> mapped;
   /// True: joined from signals of different rates; time steps are unequal.
   bool joined = false;
   /// True: rows were inserted between the rows of the file. Their commands are interpolated, and
@@ -54,7 +56,8 @@ struct DrivingLog {
   /// had interpolated were replaced by such set-points.
   bool has_held_set_points = false;
   /// By row: standard deviation, s, of the time at which the commands changed to those of the row.
-  /// 0: the time is known. Empty: all times are known.
+  /// A log shows commands only at its rows, so this time can be uncertain. 0: the time is known.
+  /// Empty: all times are known.
   std::vector<double> change_std_s = {};
   /// True: x (east) and y (north) were computed from latitude and longitude.
   bool is_geographic = false;

@@ -54,9 +54,8 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
 }
 
-/// Returns the command that moves a channel, for each row, in an arbitrary unit. For heading and
-/// yaw rate, it is about the yaw moment (of force difference and steering); for other channels, the
-/// thrust.
+/// Returns, for each row, the command that moves a channel, in an arbitrary unit: for heading and
+/// yaw rate about the yaw moment (of force difference and steering), for other channels the thrust.
 std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
   const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
   std::vector<double> activity(log.rows());
@@ -77,8 +76,8 @@ std::vector<double> picked(const std::vector<double>& values,
   return some;
 }
 
-/// Computes channel_quality() for a channel that has values only in `rows`. The result nevertheless
-/// covers all rows of the log: rows without a value are marked as no measurements.
+/// Computes channel_quality() for a channel that has values only in `rows`. The result covers all
+/// rows of the log. Rows without a value are marked as no measurements.
 ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel channel,
                           const DrivingLog& log, const std::vector<double>& values) {
   const std::vector<double> activity = activity_for(channel, log);
@@ -168,8 +167,7 @@ void join_position(DrivingLog& log) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const bool new_x = x.value[i] != x.value[i - 1];
     const bool new_y = y.value[i] != y.value[i - 1];
-    // If a new value of x is a spike or saturated, neither x nor y of this row is used. The same
-    // holds for a new value of y.
+    // If a new value of x or of y is a spike or saturated, neither x nor y of this row is used.
     const bool set_aside = (new_x && !x.fresh[i]) || (new_y && !y.fresh[i]);
     x.fresh[i] = y.fresh[i] = (new_x || new_y) && !set_aside;
   }

@@ -4,8 +4,8 @@
 ///
 /// From the vehicle file: sample_time_s is compared with the row spacing, wheel_force with the
 /// forces, the steering stop with the steering angles. The other comparisons need no model of the
-/// vehicle. They are made over windows of one second, except the change of a reading, which is
-/// taken between two readings:
+/// vehicle. All but one are made over windows of one second. The exception is the change of a
+/// reading, which is compared between two successive readings:
 ///
 ///     change of heading      with   integral of the yaw rate
 ///     distance of positions  with   integral of the speed
@@ -40,9 +40,9 @@ struct Contradiction {
 };
 
 /// Returns the columns with a wrong unit or sign; empty if all channels agree. `mappings`: column
-/// mappings used to read the log; corrections name the columns of the file from them. A comparison
-/// is skipped if its signals are weak (a straight drive, a vehicle at rest) or if the log has too
-/// few windows.
+/// mappings used to read the log; the corrections name the file's columns as these mappings do. A
+/// comparison is skipped if its signals are weak (a straight drive, a vehicle at rest) or if the
+/// log has too few windows.
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 

@@ -91,9 +91,9 @@ bool has_readings(const DrivingLog& log, std::size_t row) {
       });
 }
 
-/// Moves the ends of the windows to rows with new readings, because a slow sensor measured a
-/// repeated value earlier than the time of its row. An end moves forward into the next window, or
-/// back if no new reading follows there. A window that loses more than half its rows is dropped.
+/// Moves the ends of the windows to rows with new readings, because a repeated value was measured
+/// earlier than the time of its row. An end moves forward into the next window, or back if no new
+/// reading follows there. A window that loses more than half its rows is dropped.
 std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   std::vector<LogWindow> moved;
   for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -198,8 +198,8 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   const bool steering_only = dd < 1e-6 * ss;
   const bool sides_only = ss < 1e-6 * dd;
   // The effects of steering and of force difference can be separated only if their moments are not
-  // proportional. A controller that uses both at once makes them proportional. Above a correlation
-  // of 0.9, a joint fit would mainly fit the inertia, which this regression neglects.
+  // proportional. They are proportional if a controller uses both at once. Above a correlation of
+  // 0.9, a joint fit would mainly fit the effect of the inertia, which this regression neglects.
   const bool apart = determinant > 0.19 * ss * dd && !steering_only && !sides_only;
   if (n < 10.0 || rr <= 0.0) return {};
   constexpr double kSignificant = 5.0;  // smallest significant coefficient, in standard errors

@@ -41,9 +41,9 @@ struct Evidence {
   const Vehicle& vehicle;
   std::span<const ColumnMapping> mappings;  ///< column mappings used to read the log
   std::vector<EvidenceWindow> windows;      ///< consecutive windows without overlap
-  /// Windows for robust_ratio(), which needs twenty: those in `windows` and, if they are fewer than
-  /// twenty, also windows shifted by thirds of their length. A log of ten seconds is then enough to
-  /// detect a wrong unit.
+  /// Windows for robust_ratio(), which needs twenty. If `windows` has fewer, this list also has
+  /// windows shifted by thirds of their length. A log of ten seconds then suffices to detect a
+  /// wrong unit.
   std::vector<EvidenceWindow> overlapping;
 
   bool has(LogChannel channel) const { return log[channel].has_value(); }
@@ -78,16 +78,16 @@ struct RobustRatio {
 };
 
 /// Returns the median of y/x over the half of the pairs (x, y) with the larger |x|. Empty if this
-/// half has fewer than 10 pairs, or if `spread` would exceed 0.6: the two signals are then not
-/// proportional.
+/// half has fewer than 10 pairs. Empty also if `spread` would exceed 0.6, because the two signals
+/// are then not proportional.
 std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y);
 
 /// Coefficients of a linear regression of the yaw rate on the yaw moments tau_steering (of the
 /// steering) and tau_diff (of the force difference), as in EvidenceWindow:
 ///     yaw rate = steering * tau_steering + sides * tau_diff
 /// A coefficient whose magnitude is below five standard errors is set to 0. With fewer than 10
-/// windows, both coefficients are 0. If the moments are too correlated to be separated, each is
-/// fitted alone.
+/// windows, both coefficients are 0. If the moments are so correlated that a joint fit cannot
+/// separate their effects, each is fitted alone.
 struct MomentShares {
   double steering = 0.0;  ///< 1/(m s)
   double sides = 0.0;     ///< 1/(m s)

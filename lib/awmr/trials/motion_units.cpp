@@ -51,8 +51,8 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
-/// If turning_rate() is below this value, the column is assumed to be in rad/s: at less than 2
-/// deg/s the vehicle would hardly turn.
+/// If turning_rate() is below this value, the column is taken as rad/s. In deg/s, the vehicle would
+/// turn at less than 2 deg/s, that is, hardly at all.
 constexpr double kSlowTurn = 2.0;
 /// Typical yaw rate while turning: the 75 % quantile over windows, in the unit of the column.
 double turning_rate(const Evidence& evidence) {
@@ -90,8 +90,8 @@ std::optional<double> turned_over_rate(const Evidence& evidence) {
   if (!ratio) return std::nullopt;
   const double size = std::abs(ratio->ratio);
   if (agree(size)) return std::nullopt;
-  // The median is subtracted from both signals, because a large gyro bias changes the ratio of the
-  // signals, but not the ratio of their deviations from the medians.
+  // A large gyro bias changes the ratio of the signals, but not the ratio of their deviations from
+  // the medians. The medians are therefore subtracted first.
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
   if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   return size;
@@ -131,9 +131,9 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
                        "data sheets"};
 }
 
-/// Ratio of the yaw rate to that of wheels that roll without sliding, u tan(d)/(2 l_f) (u: speed,
-/// d: steering angle, 2 l_f: about the wheelbase). Uses windows with about equal forces left and
-/// right.
+/// Ratio of the yaw rate to that of wheels that roll without sliding, u tan(d)/(2 l_f). u: speed;
+/// d: steering angle; 2 l_f: about the wheelbase. Windows with clearly different forces left and
+/// right are not used.
 std::optional<double> rate_over_rolling(const Evidence& evidence) {
   // Forces left and right count as equal if the yaw moment of their difference is at most this
   // fraction of the yaw moment of the steering.

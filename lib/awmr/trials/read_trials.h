@@ -28,7 +28,8 @@ struct TrialOptions {
   std::vector<ColumnMapping> columns;
   Preference preference = Preference::kPrinted;
   /// True: trials that contradict themselves or the vehicle file (log_consistency.h,
-  /// table_consistency.h) are accepted with a warning instead of refused. For unusual vehicles.
+  /// table_consistency.h) are accepted with a warning instead of refused. For vehicles that are
+  /// outside the plausible ranges of these checks.
   bool as_is = false;
   /// False: the vehicle has no steering, so a log needs no steering column.
   bool has_steering = true;

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kMinEqual = 50;
 constexpr double kNearlyAll = 0.95;  ///< minimum fraction of equal rows within the part in common
 /// Rows that occur in the first log more often than this are not used to find the time offset
-/// between the two logs.
+/// between the two logs, because they agree at many offsets.
 constexpr std::size_t kMaxAlike = 8;
 constexpr std::size_t kMinCurve = 20;
 

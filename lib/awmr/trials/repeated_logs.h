@@ -4,10 +4,10 @@
 ///
 /// Two logs are compared in the commands and measured channels that both have. Each quantity is
 /// rounded to the coarser of its two resolutions. Copies with fewer digits, fewer columns, other
-/// names or another time origin are therefore found too. The test first finds the time offset
-/// between the logs with which most rows agree. Only rows in which a measurement changes count. The
-/// logs have a part in common if at least 50 rows agree, and at least 95 % of the rows between the
-/// first and the last of them. Exact copies are found at any length.
+/// names or another time origin are therefore found too. Only rows in which a measurement changes
+/// are compared. The test first finds the time offset between the logs with which most of them
+/// agree. The logs have a part in common if at least 50 of these rows agree, and at least 95 % of
+/// those between the first and the last that agree. Exact copies are found at any length.
 #pragma once
 
 #include <vector>

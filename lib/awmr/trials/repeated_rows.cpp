@@ -18,7 +18,7 @@ constexpr double kChance = 0.01;
 /// Minimum degrees of freedom for an estimate of the scatter from rows with equal settings.
 constexpr int kMinDifferences = 3;
 /// If one unit in the last decimal place of the readings is less than this fraction of the largest
-/// reading, the readings were computed. Their last place is then not their resolution.
+/// reading, the readings were computed, not read. Their last place is then not their resolution.
 constexpr double kComputed = 1e-6;
 
 /// Probability p that two readings with standard deviation s, rounded to multiples of q, are the

@@ -54,9 +54,9 @@ std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   return (n * ty - t * y) / (n * tt - t * t);
 }
 
-/// True if the vehicle probably moves backward at the start of the window, because the mean force
-/// in the second before the window is negative. For the first window of a log, the mean force in
-/// its first half second is used.
+/// True if the vehicle probably moves backward at the start of the window: the mean force in the
+/// second before it is negative. For the first window of a log, the mean force in its first half
+/// second is used.
 bool moves_backward(const LogWindow& window) {
   constexpr double kBefore_s = 1.0;
   constexpr double kAfter_s = 0.5;
@@ -89,8 +89,9 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > kGapSteps * step_s) {
       piece_end = row;
       // Windows of equal length leave no short remainder. One step is subtracted from the span, so
-      // that the row added by add_row_of_rest() does not make a further window. There are at most
-      // as many windows as rows: times in nanoseconds that are read as seconds would require more.
+      // that the row added by add_row_of_rest() does not make a further window. The number of
+      // windows is limited to the number of rows, because times in nanoseconds that are read as
+      // seconds would require far more.
       const double span_s = log.t_s[piece_end - 1] - log.t_s[begin] - step_s;
       const double most = static_cast<double>(piece_end - begin);
       const auto parts =
@@ -165,8 +166,8 @@ State<double> measured_initial_state(const LogWindow& window) {
 
 namespace {
 
-/// Speed, m/s or rad/s. Below it, a resistance may be replaced by a straight line through the
-/// origin (rest_speed()), because logs do not resolve slower motion.
+/// Speed, m/s or rad/s, below which a resistance may be replaced by a straight line through the
+/// origin (rest_speed()). Logs do not resolve slower motion.
 constexpr double kChordSpeed = 0.01;
 
 /// Longest integration step h, s, that resolves a resistance g(w) without its Coulomb friction. w

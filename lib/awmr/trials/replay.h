@@ -138,12 +138,13 @@ Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
   return plant;
 }
 
-/// Integration step of the 3-DOF model along a log. Coulomb friction (sliding.h) is treated as
-/// discontinuous at rest, so that it can hold the vehicle.
+/// Integration step of the 3-DOF model along a log. Coulomb friction is not smoothed near rest, so
+/// that it can hold the vehicle (sliding.h).
 template <class T>
 class ModelStep {
  public:
-  /// Precondition: `plant` is a result of resolved_beside_friction() for the longest step.
+  /// Precondition: `plant` is a result of resolved_beside_friction() for the longest step, which
+  /// keeps such steps stable near rest.
   ModelStep(const Plant<T>& plant, const DrivingLog& log)
       : plant_(without_stop_of_logged_angle(plant, log)), friction_(friction_rates(plant_)) {
     if (friction_.any()) plant_ = without_friction(plant_);
@@ -180,8 +181,9 @@ void replay(const LogSignals& signals, std::size_t begin, std::size_t end, const
 }
 
 /// Calls replay_rows() with the four-wheel tyre model, without latency of the commands.
-/// Precondition: `vehicle.body` is a result of resolved_at_rest_on_tyres(). Returns false if the
-/// tyres became too stiff for any step; the states from then on are invalid.
+/// Precondition: `vehicle.body` is a result of resolved_at_rest_on_tyres(), which keeps the steps
+/// stable near rest. Returns false if the tyres became too stiff for any step; the states from then
+/// on are invalid.
 template <class Visit>
 bool replay(const LogSignals& signals, std::size_t begin, std::size_t end,
             FourWheels<double> vehicle, double longest_step_s, const State<double>& state,
@@ -254,10 +256,10 @@ void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
 ///   - any other component is 0.
 State<double> measured_initial_state(const LogWindow& window);
 
-/// Longest step of replay() that is accurate for this plant, s. It is a quarter of the shortest
-/// time constant of servo, sway and back-EMF braking, or the step that the resistances of surge and
-/// yaw allow, if that is shorter. With steps of a quarter of a time constant, the Runge-Kutta
-/// method has a relative error of 3e-5 per time constant of an exponential decay.
+/// Longest step of replay() that is accurate for this plant, s: a quarter of the shortest time
+/// constant of servo, sway and back-EMF braking, or the step that the resistances of surge and yaw
+/// allow, if that is shorter. With steps of a quarter of a time constant, the Runge-Kutta method
+/// has a relative error of 3e-5 per time constant of an exponential decay.
 double replay_step_s(const Plant<double>& plant);
 
 /// Shortest permitted step, s. It resolves a time constant of 0.4 ms, shorter than that of any

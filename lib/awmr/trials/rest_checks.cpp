@@ -39,8 +39,7 @@ std::vector<WindowMoments> moments_of(const DrivingLog& log, LogChannel channel)
 /// True if a channel is only noise about a constant value. Analysis of variance: F = n var(means of
 /// the windows)/(mean variance within a window) is at most kMaxRatio (n: readings per window).
 bool is_noise_alone(const std::vector<WindowMoments>& windows) {
-  // F is about 1 for white noise, and somewhat larger for correlated noise. Motion gives more than
-  // 100.
+  // F is about 1 for white noise, somewhat larger for correlated noise, and above 100 for motion.
   constexpr double kMaxRatio = 5.0;
   const auto n = static_cast<double>(windows.size());
   double mean = 0.0, within = 0.0, readings = 0.0, between = 0.0;

@@ -1,6 +1,6 @@
-/// Thresholds below which a speed, yaw rate or force counts as 0. They are needed because
-/// simulators and filters may write a tiny number such as 3.9e-312 instead of 0. No vehicle moves
-/// as slowly as the thresholds. Private to this folder.
+/// Thresholds below which a speed, yaw rate or force counts as 0, because simulators and filters
+/// may write a tiny number such as 3.9e-312 instead of 0. No vehicle moves as slowly as the
+/// thresholds. Private to this folder.
 #pragma once
 
 #include <cmath>

@@ -27,7 +27,7 @@ constexpr double kMatters = 0.01;
 constexpr double kCoarse = 0.2;
 constexpr std::int64_t kCoarse_ticks = 5000;
 /// If all time steps are multiples of the usual step, and fewer than this fraction differ from it,
-/// the times are not rounded; some rows are missing.
+/// some rows are missing; the times are not rounded.
 constexpr double kMissingRows = 0.2;
 
 /// Rounding of the times of a file.

@@ -6,9 +6,9 @@
 ///
 ///     t_k = t_0 + n_k h
 ///
-/// with n_k = k if no row is missing; each missing row increases n_k of all later rows by 1. h and
-/// t_0 are fitted by least squares. If the remaining errors are those of rounding, t_0 + n_k h is
-/// closer to the true time than the rounded one.
+/// with n_k = k if no row is missing; each missing row increases n_k of all later rows by 1. The
+/// spacing h and t_0 are fitted by least squares. If the remaining errors are those of rounding,
+/// t_0 + n_k h is closer to the true time than the rounded one.
 #pragma once
 
 #include <string>

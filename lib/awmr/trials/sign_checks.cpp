@@ -16,8 +16,8 @@
 namespace awmr {
 namespace {
 
-/// Columns whose sign may be wrong. kSides stands for force_left and force_right. If the sign of
-/// their difference is wrong, the two columns are swapped.
+/// Columns whose sign may be wrong. kSides stands for the difference of force_right and force_left:
+/// if its sign is wrong, the two columns are swapped.
 enum class Signed { kSteering, kSides, kYawRate, kHeading, kY };
 constexpr std::size_t kSignedCount = 5;
 
@@ -56,7 +56,7 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   // On a straight drive, the heading and its mirror image cannot be distinguished.
   if (n < 10.0 || std::abs(headings) / n > 0.95) return {};
   // Largest scatter of the angles between heading and course, on a scale from 0 to 1. With the
-  // right sign of the heading, the angles scatter only by noise. With the wrong sign, each angle
+  // right sign of the heading, only noise scatters these angles. With the wrong sign, each angle
   // has an error of twice the heading.
   constexpr double kMaxNoise = 0.3;
   const auto holds = [n](double one, double other) {
@@ -119,7 +119,7 @@ std::vector<SignRelation> sign_relations(const Evidence& evidence) {
 
 unsigned bit(Signed column) { return 1U << static_cast<unsigned>(column); }
 
-/// Returns the smallest sets of columns that may have the wrong sign: if the signs of all columns
+/// Returns the smallest sets of columns that may have the wrong sign. If the signs of all columns
 /// of such a set are changed, all relations agree. A set has one bit per column. `fixed`: columns
 /// whose sign is known to be right.
 std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations, unsigned fixed) {
@@ -140,9 +140,8 @@ std::vector<unsigned> smallest_flips(const std::vector<SignRelation>& relations,
   return best;
 }
 
-/// Offset, deg, that must be added to the heading after its sign was changed; a multiple of 90. It
-/// is needed if a compass counts from north and x points east. 0 if the positions show no such
-/// offset.
+/// Multiple of 90 deg that must be added to the heading after its sign was changed, if a compass
+/// counts from north and x points east. 0 if the positions show no such offset.
 double mirrored_heading_deg(const Evidence& evidence) {
   constexpr double kQuarter_deg = 90.0;
   // Largest accepted difference from a multiple of 90, due to declination and sideslip, deg.
@@ -278,9 +277,9 @@ SideShares side_shares(const std::vector<EvidenceWindow>& windows, Y y_of) {
 
 /// Detects a speed that is proportional to F'R - F'L instead of F'L + F'R. If heading or yaw rate
 /// follow F'R - F'L as well, the forces are right and the speed is wrong: it comes from wheels of
-/// which one side is reversed, or it is another column. Otherwise a force column has the wrong
-/// sign. If the log has a yaw rate but no heading, there is another possible cause: speed and yaw
-/// rate come from wheel odometry with one side reversed.
+/// which one side is reversed, or from another column. Otherwise a force column has the wrong sign.
+/// If the log has a yaw rate but no heading, there is another possible cause: wheel odometry with
+/// one side reversed gives both speed and yaw rate.
 std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   constexpr std::size_t kMinSeconds = 10;
   if (!evidence.has(LogChannel::kSpeed) || evidence.windows.size() < kMinSeconds) {
@@ -349,8 +348,8 @@ double gathered_backwards_mps(const DrivingLog& log) {
   return gathered;
 }
 
-/// Detects a column with speeds without sign: never negative, and rising during rearward thrust.
-/// (Rearward thrust would slow down a vehicle that drives forward.)
+/// Detects a column of speeds that lack the sign: they are never negative, and rise during rearward
+/// thrust. (Rearward thrust would slow down a vehicle that drives forward.)
 std::optional<Contradiction> check_unsigned(const Evidence& evidence) {
   // A speed counts as negative if its magnitude is at least this fraction of the largest speed.
   constexpr double kNegative = 0.05;

@@ -18,9 +18,9 @@ namespace awmr {
 ///     errors of that change.
 /// With steering, the forces left and right must be equal and forward; the segment is a surge run
 /// if |steering| <= straight_rad, else a turning run. Without steering, the segment is a turning
-/// run if the forces left and right differ by more than `same`, else a surge run, whose forces must
-/// be forward. The mean rate must also exceed three standard errors and have the direction of the
-/// command.
+/// run if the forces left and right differ by more than `same`. Otherwise it is a surge run, whose
+/// forces must be forward. The mean rate must also exceed three standard errors and have the
+/// direction of the command.
 struct SteadyRule {
   /// Largest accepted change of a constant command, in F' or rad, >= 0; increase it for noisy
   /// commands.

@@ -219,9 +219,9 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
   tests_.emplace_back(test);
 }
 
-/// Makes all voltages of one side of the robot negative if its wheels turned backward and none of
-/// its voltages is negative: some robot programs record voltages without sign. (SysId itself gives
-/// a voltage the sign of the wheels' velocity.)
+/// Some robot programs record voltages without sign. If the wheels of a side turned backward and
+/// none of its voltages is negative, makes all of them negative. (SysId itself gives a voltage the
+/// sign of the wheels' velocity.)
 void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
                                         std::string_view test) {
   const auto values_of = [&](std::string_view name) -> std::vector<double>& {

@@ -64,8 +64,8 @@ struct Smaller {
   std::string_view words;
 };
 
-/// Selects the more plausible of two corrections, by 1/100 or by 1/1000. It is the one that brings
-/// the speed of the fastest run nearer to three vehicle lengths per second, a common value.
+/// Selects the more plausible of two corrections, by 1/100 or by 1/1000: the one that brings the
+/// speed of the fastest run nearer to three vehicle lengths per second, a common value.
 Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thousandth) {
   constexpr double kCommon = 3.0;
   const auto apart = [&](const Smaller& unit) {
@@ -105,10 +105,10 @@ std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
 }
 
 /// Upper bound of the vehicle's speed u at full thrust, with a margin of 30 %. It is extrapolated
-/// to the full thrust tau from the fastest surge run, with the speed u_run at the thrust tau_run:
-/// tau/tau_run = (u/u_run)^b with b = 1/2, because the resistance grows at least with the square
-/// root of the speed. Empty if that run used less than half of the full thrust, because static
-/// friction then dominates.
+/// from the fastest surge run, with the speed u_run at the thrust tau_run, to the full thrust tau:
+/// tau/tau_run = (u/u_run)^b. b is 1/2, because the resistance grows at least with the square root
+/// of the speed. Empty if that run used less than half of the full thrust, because static friction
+/// then dominates.
 std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle) {
   constexpr double kRoom = 1.3;

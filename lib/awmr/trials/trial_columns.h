@@ -25,15 +25,16 @@ Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& v
 
 /// Checks that every mapping of the options was used by a file. `used`: indices of the mappings
 /// that were used. Mappings from the vehicle file may remain unused. Errors: any other unused
-/// mapping, with the reason: no file has the name that the mapping is limited to, no file has its
-/// source columns (the message suggests the closest name), or no file needs its column.
+/// mapping, with the reason: the mapping is for a file name (`FILE:NAME=...`) that no file has, no
+/// file has its source columns (the message suggests the closest name), or no file needs its
+/// column.
 Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
                       std::span<const std::filesystem::path> files);
 
-/// Returns a fault for each mapping that none of the files can use, because no file has the name
-/// that the mapping is limited to, or its source columns. Called after files could not be read,
-/// because a misspelt mapping is a frequent cause. Skips mappings of the vehicle file, and those to
-/// required columns, whose absence is already an error.
+/// Returns a fault for each mapping that none of the files can use, because its file name or its
+/// source columns do not exist. Called after files could not be read, because a misspelt mapping is
+/// a frequent cause. Skips mappings of the vehicle file. Also skips mappings to required columns,
+/// whose absence is already an error.
 std::vector<Fault> unusable_mappings(const TrialOptions& options,
                                      std::span<const std::filesystem::path> files);
 

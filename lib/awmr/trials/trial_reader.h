@@ -79,8 +79,8 @@ void note_format(const TrialReader& reader, std::vector<Finding>& findings);
 /// lines, then the number of the others: "... and 3 more". Precondition: `rows` is not empty.
 std::string lines_of(const TrialReader& reader, std::span<const std::size_t> rows);
 
-/// Adds the note `rows-set-aside` with the lines of `rows` and the reason `why`; nothing if `rows`
-/// is empty.
+/// Adds the note `rows-set-aside`, which lists the lines of the unused `rows` and the reason `why`.
+/// Adds nothing if `rows` is empty.
 void note_rows_set_aside(const TrialReader& reader, std::span<const std::size_t> rows,
                          std::string_view why, std::vector<Finding>& findings);
 

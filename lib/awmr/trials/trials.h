@@ -62,7 +62,7 @@ struct CoastCurve {
   int line = 0;  ///< line of its first row
   std::vector<double> t_s;
   std::vector<double> speed_mps;
-  /// Mappings that were used: indices in TrialOptions::columns.
+  /// Column mappings that were used: indices in TrialOptions::columns.
   std::vector<std::size_t> mapped = {};
   bool of_bins = false;  ///< true: built from columns from_mps, to_mps, elapsed_s (speed bins)
 };
@@ -75,7 +75,7 @@ struct TrialSet {
   std::string file;
   std::vector<Row> rows;
   int set_aside = 0;  ///< number of rows that are not used
-  /// Mappings that were used: indices in TrialOptions::columns.
+  /// Column mappings that were used: indices in TrialOptions::columns.
   std::vector<std::size_t> mapped = {};
   /// Source column of the forces: "tau_speed" or "wheel_force".
   std::string force_column = {};

@@ -21,12 +21,12 @@ namespace {
 
 /// Largest accepted ratio of the yaw rate to that of rolling wheels. It is 3 for a steered turn,
 /// because the vehicle may drift, or steer its rear wheels, too. It is 4 for a differential turn,
-/// whose limit is less certain: it is computed from two interpolated speeds.
+/// because its limit is less certain: two interpolated speeds determine it.
 constexpr double kMaxSteered = 3.0;
 constexpr double kMaxBySides = 4.0;
-/// Smallest accepted ratio of the yaw rate to that of rolling wheels. It is compared with the
-/// largest ratio in a table. Real turns have ratios several times larger, even with a wheelbase of
-/// five times l_f and strong understeer.
+/// Smallest accepted ratio of the yaw rate to that of rolling wheels, for the row with the largest
+/// ratio. Real turns have ratios several times larger, even with a wheelbase of five times l_f and
+/// strong understeer.
 constexpr double kMinSteered = 0.01;
 constexpr double kMaxAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;
@@ -160,7 +160,7 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
 /// d). u(tau) is the speed of the surge runs at the thrust tau, n the number of driven wheels, F'L
 /// and F'R are the forces of a left and a right wheel, d is half the track width. Empty if one of
 /// the speeds is unknown. Scatter of the surge runs may make the curve u(tau) too flat between the
-/// two forces. Therefore at least half its mean slope from the origin is assumed there.
+/// two forces, so its slope there is taken as at least half of its mean slope from the origin.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();

@@ -321,8 +321,8 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   if (set.rows.empty()) {
-    // Runs in which the vehicle did not turn serve only to determine tyre scrub. This also needs
-    // steered turns, which the table does not have.
+    // Runs in which the vehicle did not turn serve only to determine tyre scrub. For this, steered
+    // turns are needed too, which the table does not have.
     set.standing.clear();
     set_aside.insert(set_aside.end(), standing.begin(), standing.end());
     std::sort(set_aside.begin(), set_aside.end());

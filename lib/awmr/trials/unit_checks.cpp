@@ -41,7 +41,7 @@ std::optional<Contradiction> check_time(const Evidence& evidence) {
     if (ratio < 0.3 * unit.factor || ratio > 30.0 * unit.factor) continue;
     return time_in(unit, evidence);
   }
-  // A row spacing below 1 ms and below a twentieth of the sample time is too short to be in
+  // A row spacing below 1 ms and below a twentieth of the sample time is too short for a t_s in
   // seconds.
   constexpr double kFastest_s = 1e-3;
   constexpr double kOften = 0.05;
@@ -210,10 +210,10 @@ std::optional<Contradiction> check_large_angles(const Evidence& evidence, const 
           option_text(fmt::format("column '{}=(COUNTS - CENTRE)*DEGREES_PER_COUNT'", column)))};
 }
 
-/// Ratio of the path's curvature to that of the logged steering angle. In a log without a speed,
-/// another ratio replaces it: the yaw rate per moment of the steering, divided by the yaw rate per
-/// moment of a force difference. Either ratio is about 1 if the angle was logged in degrees, and
-/// large if it was logged in radians. 0 if the log does not determine it.
+/// Ratio of the path's curvature to that of the logged steering angle. In a log without a speed:
+/// the yaw rate per moment of the steering, divided by the yaw rate per moment of a force
+/// difference. Either ratio is about 1 if the angle was logged in degrees, and large if it was
+/// logged in radians. 0 if the log does not determine it.
 double times_as_sharp(const Evidence& evidence) {
   const double degree = degrees(1.0);
   if (const auto sharp = sharpness(evidence, degree)) return *sharp * degree;
