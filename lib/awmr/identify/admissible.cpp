@@ -38,7 +38,7 @@ std::string refusal_reason(double value, const NumberRule& rule) {
 }
 
 /// Reason why the tables do not determine m' (mass over F_max): the upper end of its 95 % interval
-/// is more than 10,000 times the lower end, so that samples from the interval cannot be simulated.
+/// is more than 10,000 times the lower end. Samples from such an interval cannot be simulated.
 /// Empty if the tables determine m', and for any other parameter. Empty also for an m' from logs,
 /// because only a disagreement of several logs makes its interval so wide.
 std::string why_open(ParameterId id, const Estimate& estimate) {

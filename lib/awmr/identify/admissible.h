@@ -13,7 +13,7 @@ namespace awmr {
 void withdraw_uncertainty(Estimate& estimate);
 
 /// Removes every fitted or derived value that is not finite or outside the range that model files
-/// allow, and the parameters that depend on such a value, for example the exponent b1 if a1 is
+/// allow. Also removes the parameters that depend on it, for example the exponent b1 if a1 is
 /// removed. Removes an m' from tables that is practically undetermined: the upper end of its 95 %
 /// interval is more than 10,000 times the lower end. Removes standard errors, intervals and
 /// covariances that are not finite, with the warning `no-interval`. Keeps values of the vehicle

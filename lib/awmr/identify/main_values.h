@@ -17,9 +17,8 @@ namespace awmr {
 
 /// Covariance of all identified parameters, assembled from independent fits. Each fit is a block of
 /// estimated numbers with its own covariance, for example the coordinates of the surge fit with ln
-/// m', or those of the log fit. Every parameter is a function of these numbers. The covariance of
-/// the parameters is C = G B G^T, with the blocks' covariances on the diagonal of B and the
-/// gradient of each parameter in a row of G.
+/// m'. Every parameter is a function of these numbers. The covariance of the parameters is C = G B
+/// G^T. B has the blocks' covariances on its diagonal, G the gradient of each parameter in a row.
 class JointCovariance {
  public:
   /// Derivatives of one parameter by the estimated numbers. Key: index of a number, counted over

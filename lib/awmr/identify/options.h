@@ -62,9 +62,9 @@ inline std::string title_of(Loss loss) {
 struct FamilyChoice {
   /// Absent: the family with the smallest AICc (tables) or AIC (logs).
   std::optional<Family> family = Family::kPower;
-  /// True if the user selected the family. If false, it is only a default: if the logs suggest a
-  /// missing term, other families are fitted to them too, and one that is significantly better
-  /// replaces the power law.
+  /// True if the user selected the family. If false, `family` is only a default: other families are
+  /// fitted to logs that suggest a missing term, and one that is significantly better replaces the
+  /// power law.
   bool requested = false;
 };
 

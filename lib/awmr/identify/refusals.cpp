@@ -105,8 +105,8 @@ bool is_shown(ParameterId id, const DrivingLog& log) {
   }
 }
 
-/// True if it is an error that the data do not identify `id`: the user named it, or it has no other
-/// value and a table or log should measure it.
+/// True if it is an error that the data do not identify `id`. This is so if the user named the
+/// parameter, or if a table or log should measure it and it has no other value.
 bool is_required(ParameterId id, const TrialData& data, const IdentifyOptions& options,
                  const Estimate& estimate) {
   if (!options.requested.empty()) return true;

@@ -1,6 +1,6 @@
-/// Tolerance for comparing two values of the same quantity in a table row: the printed value (such
-/// as a speed) and the timed value (distance over elapsed time). Private to this folder. The two
-/// values agree if
+/// Tolerance for comparing two values of the same quantity in a table row. The printed value is a
+/// number in the file, such as a speed; the timed value is computed as distance over elapsed time.
+/// Private to this folder. The two values agree if
 ///
 ///     |printed - timed| <= rounding(printed) + timed (stop_watch/elapsed + course)
 ///

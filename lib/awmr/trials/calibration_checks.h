@@ -1,5 +1,6 @@
-/// Calibration checks of a driving log: errors of scale and direction that are too small to be a
-/// wrong unit, such as a wrong wheel radius or a compass that is rotated in the vehicle.
+/// Calibration checks of a driving log. They detect errors of scale and direction that are too
+/// small to be a wrong unit, for example a wrong wheel radius or a compass that is rotated in the
+/// vehicle.
 ///
 /// The log is divided into windows [t0, t1] of a twentieth of its length (1 to 5 s). In each window
 /// the displacement of the position p = x + i y is compared with the integral of the speed u along
@@ -26,8 +27,8 @@
 ///                         + 2 s k_d Re(a d*) + n
 ///
 /// The change of heading is compared with the integral of the yaw rate in the same way, with other
-/// factors: k is the ratio of the heading's scale to the yaw rate's scale, k_0 corrects an offset
-/// of the yaw rate, and k_1 is the latency between the two channels:
+/// factors. k is here the ratio of the heading's scale to the yaw rate's scale. k_0 corrects an
+/// offset of the yaw rate, and k_1 is the latency between the two channels:
 ///
 ///     psi(t1) - psi(t0) = k int r dt + k_0 (t1 - t0) + k_1 (r(t1) - r(t0))
 ///
@@ -58,8 +59,8 @@ struct Calibration {
 };
 
 /// Angle phi from the heading to the course over ground, rad, left positive. Empty if its magnitude
-/// is below 1 deg or below five standard errors, if x, y, the heading or the speed was not
-/// measured, or if the log has fewer than 15 windows.
+/// is below 1 deg or below five standard errors. Empty also if x, y, the heading or the speed was
+/// not measured, or if the log has fewer than 15 windows.
 std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 
 /// Returns the warnings `heading-offset` (heading_offset_rad() is not empty) and `scale-mismatch`

@@ -84,8 +84,8 @@ bool changes_step_by_step(const Changes& changes, double quantum) {
 }
 
 /// Marks the rows in which a slow sensor has a new reading: those in which the value changes. If
-/// the value stays the same for several usual (median) intervals between changes, one row per
-/// interval is also marked, because the sensor probably read the same value again.
+/// the value stays the same for several usual (median) intervals between changes, the sensor
+/// probably read the same value again. One row per interval is then also marked.
 std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   std::vector<bool> fresh(rows, false);
   fresh[0] = true;
@@ -274,9 +274,10 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
   }
 }
 
-/// Finds saturation of the sensor: the largest or the smallest value of the channel occurs at least
-/// four times as often as any value between these two, in at least 8 rows and 0.5 % of the rows.
-/// Rows without a command do not count, because a vehicle at rest also repeats a value.
+/// Finds saturation of the sensor. Criterion: the largest or the smallest value of the channel
+/// occurs at least four times as often as any value between these two. It must occur in at least 8
+/// rows and 0.5 % of the rows. Rows without a command do not count, because a vehicle at rest also
+/// repeats a value.
 void find_saturation(std::span<const double> all, std::span<const double> activity,
                      ChannelQuality& quality) {
   const double idle = 0.02 * largest_size(activity);

@@ -43,8 +43,8 @@ std::optional<Scale> by_unit_in_name(const std::string& quoted, const Words& wor
                fmt::format("the name ends in the unit {}", unit->spelling)};
 }
 
-/// True if the words of a name indicate a field of a ROS 2 message, which is in SI units by
-/// convention, or a gyroscope of ArduPilot, which is in rad/s.
+/// True if the words of a name indicate a field of a ROS 2 message or a gyroscope of ArduPilot.
+/// Their units are known: SI by convention, for the gyroscope rad/s.
 bool is_si_by_convention(const Words& words) {
   const bool ros = has_any(words, {"twist", "pose", "drive"}) ||
                    (has_any(words, {"angular"}) && has_any(words, {"velocity", "z"}));
@@ -241,7 +241,7 @@ void settle(std::span<ColumnGuess> guesses) {
 }
 
 /// True if the log names velocities by the letters u and v, as vehicle dynamics and `awmr simulate`
-/// do (u_mps, v_mps, r_radps). v is then the lateral speed, not the speed.
+/// do (u_mps, v_mps). The letter v is then the lateral speed, not the speed.
 bool has_body_velocities(const FileSample& sample) {
   const auto has = [&](const char* letter) {
     return std::any_of(sample.names.begin(), sample.names.end(),

@@ -1,5 +1,6 @@
-/// Finds channels with a single value in the whole file while other channels move: an unused
-/// message field, a set-point logged as a measurement, or a dead sensor. Private to this folder.
+/// Finds channels with a single value in the whole file while other channels move. Causes: an
+/// unused message field, a set-point logged as a measurement, or a dead sensor. Private to this
+/// folder.
 #pragma once
 
 #include <functional>

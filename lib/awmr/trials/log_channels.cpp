@@ -54,8 +54,9 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
 }
 
-/// Returns, for each row, the command that moves a channel, in an arbitrary unit: for heading and
-/// yaw rate about the yaw moment (of force difference and steering), for other channels the thrust.
+/// Returns, for each row, the command that moves a channel, in an arbitrary unit. For heading and
+/// yaw rate, it is about the yaw moment of force difference and steering; for other channels, the
+/// thrust.
 std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
   const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
   std::vector<double> activity(log.rows());

@@ -9,15 +9,15 @@ namespace awmr {
 /// Largest magnitude of the measurements of a channel, SI; 0 without any.
 double largest_measured(const DrivingLog& log, LogChannel channel);
 
-/// True if the vehicle already moves at the first row: the median of the first five readings of
-/// speed or yaw rate is above 5 % of the largest reading.
+/// True if the vehicle already moves at the first row. Criterion: the median of the first five
+/// readings of speed or yaw rate is above 5 % of the largest reading.
 bool begins_in_motion(const DrivingLog& log);
 
-/// If the log begins at rest and its first row commands a force, adds a row with forces 0, one
-/// median time step before the first row and without measurements. The forces before the log were
-/// 0, because the vehicle was at rest. Without this row, a simulation with motor lag or command
-/// delay would use the first command also for the time before the log. No effect in a log without a
-/// speed.
+/// Only if the log begins at rest and its first row commands a force: adds a row one median time
+/// step before the first one, with forces 0 and without measurements. The forces before the log
+/// were 0, because the vehicle was at rest. Without this row, a simulation with motor lag or
+/// command delay would use the first command also for the time before the log. No effect in a log
+/// without a speed.
 void add_row_of_rest(DrivingLog& log);
 
 }  // namespace awmr

@@ -152,7 +152,7 @@ std::optional<double> rate_over_rolling(const Evidence& evidence) {
   return std::abs(ratio->ratio);
 }
 
-/// Detects a yaw rate in deg/s in logs without a heading: its values are too large for any wheeled
+/// Detects a yaw rate in deg/s in logs without a heading. Its values are too large for any wheeled
 /// vehicle, or for the steering angle and the speed.
 std::optional<Contradiction> check_rate_alone(const Evidence& evidence) {
   constexpr double kLargest_radps = 25.0;  // largest plausible yaw rate, as in turn_evidence.h

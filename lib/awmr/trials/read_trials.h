@@ -58,11 +58,12 @@ Result<CoastdownSet> read_coastdown(const std::filesystem::path& path, const Tri
 
 /// Reads a driving log with one run. Columns: t_s, force_left, force_right, and at least one
 /// channel of log.h other than steering_deg. A vehicle with steering also needs steering_cmd_deg or
-/// steering_deg. latitude_deg and longitude_deg may replace x_m (east) and y_m (north), in the
-/// local tangent plane at the first row used of each run. Findings: the notes of CsvTable::notes(),
-/// those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: those of read_csv();
-/// missing or contradictory columns; a latitude or longitude out of range; times that do not rise;
-/// fewer than 10 rows; no row left by used_s and excluded_s of the options; more than one run.
+/// steering_deg. latitude_deg and longitude_deg may replace x_m and y_m. x is then east and y
+/// north, in the local tangent plane at the first row used of each run. Findings: the notes of
+/// CsvTable::notes(), those of log_channels.h, `constant-channel`, `course-at-rest`. Errors: those
+/// of read_csv(); missing or contradictory columns; a latitude or longitude out of range; times
+/// that do not rise; fewer than 10 rows; no row left by used_s and excluded_s of the options; more
+/// than one run.
 Result<DrivingLog> read_log(const std::filesystem::path& path, const TrialOptions& options,
                             std::vector<Finding>& findings);
 

@@ -16,9 +16,9 @@ inline constexpr std::size_t kMaxRecordedLine = std::size_t{1} << 16U;
 /// Maximum size of a recording in bytes: about two million rows.
 inline constexpr std::size_t kMaxRecording = std::size_t{1} << 28U;
 
-/// The recorded text of one stream. Lines that are not rows of data are "set aside": damaged lines
-/// (a serial port loses bytes) and other text (a board prints messages, and its header again after
-/// a restart). Such a line stays at its place as a comment of at most 200 bytes, so that line
+/// The recorded text of one stream. Lines that are not rows of data are "set aside". They are
+/// damaged (a serial port loses bytes) or other text (a board prints messages, and its header again
+/// after a restart). Such a line stays at its place as a comment of at most 200 bytes, so that line
 /// numbers match the stream.
 ///
 /// The header is the first line that names a column of a log. It may be a comment (`#`). Lines

@@ -21,8 +21,8 @@ namespace {
 /// Fewest equal rows for a part in common, except exact copies.
 constexpr std::size_t kMinEqual = 50;
 constexpr double kNearlyAll = 0.95;  ///< minimum fraction of equal rows within the part in common
-/// Rows that occur in the first log more often than this are not used to find the time offset
-/// between the two logs, because they agree at many offsets.
+/// A row that occurs in the first log more often than this is not used to find the time offset
+/// between the two logs. It would agree at many offsets.
 constexpr std::size_t kMaxAlike = 8;
 constexpr std::size_t kMinCurve = 20;
 

@@ -16,8 +16,8 @@
 ///
 /// This Poisson probability is an upper bound for independent rows [Hoeffding 1956; Anderson and
 /// Samuels 1967, for k >= L + 1]. s is the smallest plausible scatter of repeated runs: 0.3 % of
-/// the reading (1 % for stop times), or the scatter of the table's rows with equal settings if that
-/// is smaller. s does not include the error of a stop watch, because times in tenths of a second
+/// the reading (1 % for stop times). If the table's rows with equal settings scatter less, s is
+/// their scatter. s does not include the error of a stop watch, because times in tenths of a second
 /// may have been taken automatically.
 #pragma once
 

@@ -171,7 +171,7 @@ namespace {
 constexpr double kChordSpeed = 0.01;
 
 /// Longest integration step h, s, that resolves a resistance g(w) without its Coulomb friction. w
-/// is the speed or yaw rate, beta the exponent of g, inertia m' or I'z:
+/// is the speed or yaw rate, beta the exponent of g; the inertia is m' or I'z:
 ///   h <= inertia w/(max(1, beta) g(w))
 /// The bound is computed at w = kChordSpeed and at the steady w under `force`. g(w)/w is largest at
 /// the first one if beta < 1, at the second one if beta > 1. The Runge-Kutta method is stable up to

@@ -244,8 +244,8 @@ std::optional<Contradiction> check_direction(const Evidence& evidence) {
                        scaled_mapping(evidence, "speed_mps", -1.0)};
 }
 
-/// Fractions of sum y^2 over the windows, for a signal y such as the speed, that are explained by
-/// the sum and by the difference of the logged forces:
+/// Shares of sum y^2 over the windows that the sum and the difference of the logged forces explain,
+/// for a signal y such as the speed:
 ///
 ///     R^2 = (sum y s)^2 / (sum y^2 sum s^2)   for s = F'L + F'R, and for s = tau_diff, which is
 ///                                             proportional to F'R - F'L if the wheels are straight
@@ -276,7 +276,7 @@ SideShares side_shares(const std::vector<EvidenceWindow>& windows, Y y_of) {
 }
 
 /// Detects a speed that is proportional to F'R - F'L instead of F'L + F'R. If heading or yaw rate
-/// follow F'R - F'L as well, the forces are right and the speed is wrong: it comes from wheels of
+/// follow F'R - F'L as well, the forces are right and the speed is wrong. It comes from wheels of
 /// which one side is reversed, or from another column. Otherwise a force column has the wrong sign.
 /// If the log has a yaw rate but no heading, there is another possible cause: wheel odometry with
 /// one side reversed gives both speed and yaw rate.

@@ -39,10 +39,11 @@ struct SysIdLog {
 /// first 4 KiB.
 bool is_sysid(std::string_view bytes);
 
-/// Reads all tests. Some programs record voltages without sign: if the wheels of a side turned
-/// backward in a test and none of its voltages is negative, all of them are made negative. Errors:
-/// JSON that is not a SysId record; a mechanism that does not drive the robot (elevator, arm);
-/// units that are not lengths; no rows; rows with a wrong number of values; times that do not rise.
+/// Reads all tests. Some programs record voltages without sign. If the wheels of a side turned
+/// backward in a test and none of its voltages is negative, all of them are therefore made
+/// negative. Errors: JSON that is not a SysId record; a mechanism that does not drive the robot
+/// (elevator, arm); units that are not lengths; no rows; rows with a wrong number of values; times
+/// that do not rise.
 Result<SysIdLog> read_sysid(std::string_view bytes, const std::string& file);
 
 }  // namespace awmr

@@ -64,8 +64,8 @@ struct Smaller {
   std::string_view words;
 };
 
-/// Selects the more plausible of two corrections, by 1/100 or by 1/1000: the one that brings the
-/// speed of the fastest run nearer to three vehicle lengths per second, a common value.
+/// Selects the more plausible of two corrections, by 1/100 or by 1/1000. It is the one that brings
+/// the speed of the fastest run nearer to a common value, three vehicle lengths per second.
 Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thousandth) {
   constexpr double kCommon = 3.0;
   const auto apart = [&](const Smaller& unit) {

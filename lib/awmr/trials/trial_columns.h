@@ -25,9 +25,8 @@ Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& v
 
 /// Checks that every mapping of the options was used by a file. `used`: indices of the mappings
 /// that were used. Mappings from the vehicle file may remain unused. Errors: any other unused
-/// mapping, with the reason: the mapping is for a file name (`FILE:NAME=...`) that no file has, no
-/// file has its source columns (the message suggests the closest name), or no file needs its
-/// column.
+/// mapping, with one of these reasons: no file has the name for which it is (`FILE:NAME=...`); no
+/// file has its source columns (the message suggests the closest name); no file needs its column.
 Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
                       std::span<const std::filesystem::path> files);
 

@@ -14,10 +14,10 @@
 ///     any turn      r <= 25 rad/s                        four turns per second
 ///
 /// For each limit, the row with the largest ratio of yaw rate to limit is checked. If this row
-/// violates the limit, the unit of the column is reported as wrong, with one exception: if the
-/// median row meets the limit and its ratio is less than a tenth of the largest, single rows are
-/// wrong, and the rows beyond the limit are reported. The unit is also reported if all steered
-/// turns are below 1 % of u tan(d_r)/l_f.
+/// violates the limit, the unit of the column is reported as wrong. Exception: the median row meets
+/// the limit, and its ratio is less than a tenth of the largest. Then single rows are wrong, and
+/// the rows beyond the limit are reported. The unit is also reported if all steered turns are below
+/// 1 % of u tan(d_r)/l_f.
 #pragma once
 
 #include <optional>

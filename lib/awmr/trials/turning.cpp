@@ -111,7 +111,7 @@ double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
 
 /// Reads a steered turn:
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
-/// F' is the force of each wheel, d_r the steering angle, l_f the distance from the centre of
+/// F' is the force of each wheel, d_r the steering angle; l_f is the distance from the centre of
 /// gravity to the front axle. Empty on a fault.
 std::optional<Turn> by_steering(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                 double wheel_force) {

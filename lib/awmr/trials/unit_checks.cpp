@@ -113,11 +113,11 @@ std::vector<Contradiction> check_forces(const Evidence& evidence) {
   return found;
 }
 
-/// Ratio of the curvature of the path, r/u, to the curvature for the steering angle, tan(`factor`
-/// d_r)/l_f. r is the yaw rate, u the speed, d_r the logged angle, l_f the distance from the centre
-/// of gravity to the front axle. The ratio is at most about 1 if `factor` d_r is the true angle in
-/// rad. Windows in which the force difference turns the vehicle more than the steering are skipped.
-/// Empty without a speed, without heading and yaw rate, or if the two curvatures are not
+/// Ratio of the path's curvature, r/u, to the curvature for the steering angle, tan(`factor`
+/// d_r)/l_f. r is the yaw rate and u the speed; d_r is the logged angle, l_f the distance from the
+/// centre of gravity to the front axle. The ratio is at most about 1 if `factor` d_r is the true
+/// angle in rad. Windows in which the force difference turns the vehicle more than the steering are
+/// skipped. Empty without a speed, without heading and yaw rate, or if the two curvatures are not
 /// proportional.
 std::optional<double> sharpness(const Evidence& evidence, double factor) {
   const bool heading = evidence.has(LogChannel::kHeading);
@@ -144,8 +144,8 @@ double largest_steering_deg(const DrivingLog& log) {
   return largest_deg;
 }
 
-/// Detects a servo command in place of the steering angle: a servo angle with its centre at 90 or
-/// 180 deg, a pulse length in us, or percent of the stop.
+/// Detects a servo command in place of the steering angle. It can be a servo angle with its centre
+/// at 90 or 180 deg, a pulse length in us, or percent of the stop.
 std::optional<Contradiction> check_servo(const Evidence& evidence, const std::string& column) {
   const std::vector<double>& angle_rad = evidence.log.driving_steering_rad();
   const auto [low_rad, high_rad] = std::ranges::minmax_element(angle_rad);
@@ -224,9 +224,9 @@ double times_as_sharp(const Evidence& evidence) {
   return shares.sides != 0.0 ? std::abs(shares.steering / shares.sides) : 0.0;
 }
 
-/// Detects angles in radians that are read as degrees: the largest is at most 2.5 % of the stop
-/// (pi/180 is 1.7 %), and the vehicle turns at least 8 times (radians: about 57 times) as sharply
-/// as the angle allows.
+/// Detects angles in radians that are read as degrees. The largest is then at most 2.5 % of the
+/// stop (pi/180 is 1.7 %). The vehicle must turn at least 8 times as sharply as the angle allows;
+/// with radians it is about 57 times.
 std::optional<Contradiction> check_radians(const Evidence& evidence, const std::string& column,
                                            double largest_deg) {
   constexpr double kImpossible = 8.0;

@@ -13,9 +13,9 @@
 namespace awmr {
 namespace {
 
-/// Computes d x/d theta: how the fitted numbers x (ln m', the filter's time constant if there is a
-/// filter, and the initial states) change with the free coordinates theta of the surge law, which
-/// the fit keeps fixed. With the residuals e and their Jacobian J by x, J^T e = 0 at the optimum
+/// Computes d x/d theta: how the fitted numbers x change with the free coordinates theta of the
+/// surge law, which the fit keeps fixed. x: ln m', the filter's time constant if there is a filter,
+/// and the initial states. With the residuals e and their Jacobian J by x, J^T e = 0 at the optimum
 /// for every theta. To first order this gives d x/d theta = -J^+ d e/d theta (J^+: pseudo-inverse).
 /// The dead zone has no effect, because the motors are off.
 std::optional<Eigen::MatrixXd> by_surge_law(CoastProblem& problem, const Eigen::MatrixXd& j,

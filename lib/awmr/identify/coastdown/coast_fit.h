@@ -68,11 +68,11 @@ struct CoastFit {
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
                    const CoastStart& start);
 
-/// Tests whether the curves determine ln m' as well as its standard error says, for a fit with a
-/// filter. ln m' is fixed at 3 standard errors below and above the optimum, and the other
-/// parameters are fitted again. On both sides, the sum of squares must rise by at least half of the
-/// rise that its curvature at the optimum predicts. Empty if it does; otherwise ln m' and the
-/// filter on the side with the smaller rise.
+/// For a fit with a filter: tests whether the curves determine ln m' as well as its standard error
+/// says. ln m' is fixed at 3 standard errors below and above the optimum, and the other parameters
+/// are fitted again. On both sides, the sum of squares must rise by at least half of the rise that
+/// its curvature at the optimum predicts. If it does, returns empty. Otherwise returns ln m' and
+/// the filter on the side with the smaller rise.
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit);
 

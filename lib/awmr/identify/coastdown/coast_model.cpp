@@ -104,14 +104,15 @@ CoastCandidate fit_candidate(const CoastData& data, const CoastStart& start) {
 constexpr double kFast = 0.2;  ///< time constant of a fast filter over that of the motion
 
 /// Initial guess for a fit with a filter, from the fit `plain` without one: a fast filter, and a
-/// smaller m', because the filter explains a part of the slow decrease of the speed.
+/// smaller m'. (The filter explains a part of the slow decrease of the speed.)
 CoastStart fast_filter(const CoastData& data, const CoastStart& plain) {
   return {plain.log_mass + std::log1p(-kFast),
           kFast * fall_time_s(data.curves, data.surge.law(), plain.log_mass)};
 }
 
-/// Fits the curves with a filter, from two initial guesses: a fast filter, and the optimum of this
-/// first fit with the time constants of filter and motion exchanged. Returns the better fit first.
+/// Fits the curves with a filter, from two initial guesses. The first is a fast filter; the second
+/// is the optimum of the first fit with the time constants of filter and motion exchanged. Returns
+/// the better fit first.
 std::vector<CoastCandidate> fit_filters(const CoastData& data, const CoastStart& plain) {
   CoastCandidate fast = fit_candidate(data, fast_filter(data, plain));
   const double found_s = fall_time_s(data.curves, data.surge.law(), fast.at.log_mass);

@@ -28,10 +28,10 @@ struct CoastModel {
 };
 
 /// Fits the curves without and with a filter of the speed. The filter is kept if its time constant
-/// is above 2 standard errors, and if it lowers AICc by more than 4 (10 if the filter is slower
-/// than the motion). Of 100 simulated trials without a filter, a filter is kept in about 2. In both
-/// fits, the noise may have a drift, and the surge law may deviate from `surge` within its
-/// covariance. Therefore neither a disturbance nor an error of the law is mistaken for a filter.
+/// is above 2 standard errors and it lowers AICc by more than 4 (10 if the filter is slower than
+/// the motion). In simulated trials without a filter, about 2 of 100 keep one. In both fits, the
+/// noise may have a drift, and the surge law may deviate from `surge` within its covariance, so
+/// that a disturbance or an error of the law is not mistaken for a filter.
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge);
 
 /// The finding `model-inadequate`, if there is a model error.

@@ -14,9 +14,9 @@ namespace {
 
 /// Returns J^T R J, with the Jacobian J of the residuals and the correlation matrix R of their
 /// errors. The errors are white noise and a drift; those of different curves are independent.
-/// (Differenced noise counts as white, which makes intervals wider.) J_i is row i of J, s the share
-/// of the drift in the variance, F_i the transition matrix of the drift from row i-1 to row i
-/// (DriftStep), and e_0 the first unit vector. The recursion is
+/// (Differenced noise counts as white, which makes intervals wider.) J_i is row i of J, and s the
+/// share of the drift in the variance. F_i is the transition matrix of the drift from row i-1 to
+/// row i (DriftStep), e_0 the first unit vector. The recursion is
 ///   Y_i = F_i (Y_{i-1} + e_0 J_{i-1}),
 ///   J^T R J = sum_i J_i^T J_i + s (J_i^T (e_0^T Y_i) + (e_0^T Y_i)^T J_i)
 Eigen::MatrixXd correlated_information(const Eigen::MatrixXd& j,

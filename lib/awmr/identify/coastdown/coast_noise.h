@@ -20,15 +20,15 @@ ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<Coas
                                 int free, double sensor_mps);
 
 /// Errors of neighbouring samples can be correlated, so their mean is less certain than with white
-/// noise. Returns the standard deviation of the white noise with which the mean of the errors of all
-/// samples in `curves` has the same variance as with `noise`; at least noise.std().
+/// noise. Returns the standard deviation of white noise that gives the mean error of all samples in
+/// `curves` the same variance as `noise` does; at least noise.std().
 double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& curves);
 
-/// Sets the residuals, their standard deviation and autocorrelation, the rank, the condition number
-/// and the degrees of freedom of `fit`, from the Jacobian `j` and the residuals `e` at the optimum.
-/// Returns the covariance of the parameters by which `j` is the derivative. The covariance includes
-/// the effect of a drift of the errors (noise_of_residuals()). It is 0 x 0 if `j` is rank-deficient
-/// or there are no degrees of freedom.
+/// Completes `fit` from the Jacobian `j` and the residuals `e` at the optimum: sets the residuals,
+/// their standard deviation and autocorrelation, the rank, the condition number and the degrees of
+/// freedom. Returns the covariance of the parameters, in the order of the columns of `j`. The
+/// covariance includes the effect of a drift of the errors (noise_of_residuals()). It is 0 x 0 if
+/// `j` is rank-deficient or there are no degrees of freedom.
 Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
                                 const std::vector<CoastCurve>& curves, CoastFit& fit);
 

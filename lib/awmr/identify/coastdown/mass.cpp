@@ -18,13 +18,13 @@
 namespace awmr {
 namespace {
 
-/// Smallest decrease of the speed that counts as a deceleration, from the mean of the first fifth
-/// of a curve to that of its last fifth, in standard deviations of such a mean.
+/// Smallest decrease of the speed that counts as a deceleration, in standard deviations: from the
+/// mean of the first fifth of a curve to the mean of its last fifth. The standard deviation is that
+/// of such a mean.
 constexpr double kMinimumFall = 5.0;
 
-/// True if the speed falls significantly: the mean of the curve's last fifth is below the mean of
-/// its first fifth by more than kMinimumFall standard deviations of such a mean. Precondition:
-/// three rows.
+/// True if the speed falls significantly (kMinimumFall) from the first fifth of the curve to its
+/// last fifth. Precondition: three rows.
 bool falls(const CoastCurve& curve) {
   const std::size_t part = std::max<std::size_t>(1, curve.speed_mps.size() / 5);
   const auto mean = [&](std::size_t begin) {
@@ -303,9 +303,8 @@ void withdraw_mass(MassResult& result) {
   }
 }
 
-/// The note `back-emf-assumed`. For motors with back-EMF k_e and n driven wheels, the surge runs
-/// give g1 + n k_e u instead of g1, while only g1 brakes a coast-down. m' = g1/|u_dot| is then too
-/// large.
+/// The note `back-emf-assumed`. Surge runs of motors with back-EMF k_e (n driven wheels) give g1 +
+/// n k_e u instead of g1, but only g1 brakes a coast-down. m' = g1/|u_dot| is then too large.
 Finding assumed_back_emf(const std::string& file) {
   return {
       file, 0, Severity::kNote, "back-emf-assumed",

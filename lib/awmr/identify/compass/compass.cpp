@@ -200,9 +200,9 @@ Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>
                              record.file, degrees(turned), degrees(gyro), 100.0 * kTurnTolerance));
 }
 
-/// Checks whether the firmware can use the calibration. Errors (refused): the centre is so large
-/// that rounding to float changes it by more than 0.1 % of the field, or one axis of the ellipse is
-/// more than ten times the other, so that noise determines the heading.
+/// Checks whether the firmware can use the calibration. Errors (refused): rounding the centre to
+/// float changes it by more than 0.1 % of the field; one axis of the ellipse is more than ten times
+/// the other, so that noise determines the heading.
 Status check_usable(const std::string& file, const CompassCalibration& c) {
   constexpr double kRounding =
       1e-3;  // largest rounding error of the centre, over the field: 0.06 deg of heading
@@ -218,8 +218,8 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
                     "constant from the readings, or move the magnet away",
                     file, centre, field));
   }
-  // The ellipse with the half axes a and b has a gain matrix S with the eigenvalues 1/a and 1/b, so
-  // the ratio of the axes is that of the eigenvalues.
+  // The gain matrix S of an ellipse with the half axes a and b has the eigenvalues 1/a and 1/b. The
+  // ratio of the axes is that of the eigenvalues.
   const double mean = 0.5 * (c.gain_ahead.value + c.gain_left.value);
   const double apart =
       std::hypot(0.5 * (c.gain_ahead.value - c.gain_left.value), c.gain_cross.value);

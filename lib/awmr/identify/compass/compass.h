@@ -1,4 +1,4 @@
-/// Calibration of a compass for hard and soft iron (magnets and iron on the vehicle), from the
+/// Calibration of a compass for hard and soft iron (magnets and iron on the vehicle). Input: the
 /// field that the compass measured while the vehicle turned through whole circles.
 #pragma once
 

@@ -28,9 +28,10 @@ std::optional<std::string> try_alternatives(BestFamily alternatives, const Famil
                      aic_lead(alternatives.best.fit, chosen.fit));
 }
 
-/// True for channels whose large drift invalidates the intervals: speed and yaw rate, the position
-/// if there is no speed, the heading if there is no yaw rate or if the yaw rate shows a model error
-/// too. (A drift of position or heading alone can come from the GNSS receiver or the compass.)
+/// True for channels whose large drift invalidates the intervals: speed and yaw rate; the position,
+/// if there is no speed; the heading, if there is no yaw rate or if the yaw rate shows a model
+/// error too. (A drift of position or heading alone can come from the GNSS receiver or the
+/// compass.)
 bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:

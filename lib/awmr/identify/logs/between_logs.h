@@ -32,8 +32,8 @@ struct LogComparison {
 };
 
 /// Fits every log on its own and compares the values of each quantity. Each fit starts from the
-/// optimum of `common`, the fit of all logs together. x_l is the value (or its logarithm) by log l
-/// of L logs, w_l = 1/var(x_l) is its weight, and `mean` is the weighted mean:
+/// optimum of `common`, the fit of all logs together. x_l is the value (or its logarithm) from log
+/// l of L logs, and w_l = 1/var(x_l) its weight. `mean` is the weighted mean:
 ///
 ///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom if the logs agree,
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)

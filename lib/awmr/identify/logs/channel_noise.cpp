@@ -182,8 +182,8 @@ struct SecondOrder {
   }
 };
 
-/// Bounds of the search for a second-order drift: share of the variance from 0.25 % to nearly all,
-/// period of oscillation from two sample intervals to two windows, damping from 0.02 to 20.
+/// Bounds of the search for a second-order drift. Share of the variance: 0.25 % to nearly all.
+/// Period of oscillation: two sample intervals to two windows. Damping: 0.02 to 20.
 struct SecondOrderRange {
   SecondOrder lowest;
   SecondOrder highest;

@@ -183,8 +183,8 @@ std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& 
   return findings;
 }
 
-/// Finding `steering-delay` in two cases: the steering has a further delay in addition to the
-/// servo's lag, or the time stamps of the steering commands are late (negative delay).
+/// Finding `steering-delay`, if the steering has a delay in addition to the servo's lag. The delay
+/// is negative if the time stamps of the steering commands are late.
 std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {

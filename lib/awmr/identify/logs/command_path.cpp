@@ -15,8 +15,8 @@ HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
           log.driving_steering_rad()[rows.steering]};
 }
 
-/// Applies the chain rule after a force f of one side was replaced by a function of f: multiplies
-/// the derivatives of f by `slope`, the derivative of that function.
+/// Applies the chain rule after a function of f replaced the force f of one side: multiplies the
+/// derivatives of f by `slope`, the derivative of that function.
 void scale_derivatives(double slope, double SideForces<double>::*side, DelayedCommand& at) {
   for (SideForces<double>* const by :
        {&at.by_delay, &at.by_lag, &at.by_imbalance, &at.by_exponent}) {

@@ -27,8 +27,9 @@
 /// A wheel force against the motion is 1 + e_b times its command, and a negative (backward) wheel
 /// force 1 + e_r times its command. e_b and e_r are called the excess of braking or backward
 /// forces. If the left and right commands differ in the log, "the motion" is that of the wheel's
-/// side (u - d r left, u + d r right, with half the track width d), else that of the vehicle (u).
-/// Near rest, the effect of e_b decreases linearly to 0 (scale_by_excess() in extra_rates.cpp).
+/// side: u - d r left, u + d r right, with half the track width d. Otherwise it is that of the
+/// vehicle, u. Near rest, the effect of e_b decreases linearly to 0 (scale_by_excess() in
+/// extra_rates.cpp).
 #pragma once
 
 #include <array>

@@ -108,8 +108,9 @@ std::optional<Finding> power_law_inadequate(const std::string& file, const BestF
                              fmt::join(reasons, "; "))};
 }
 
-/// The finding `family-undecided` if the alternative has a lower AIC than the selected family, but
-/// not significantly, and a parameter differs between the two by more than two standard errors.
+/// The finding `family-undecided`, if two conditions hold: the AIC of the alternative is lower than
+/// that of the selected family, but not significantly, and a parameter differs between the two by
+/// more than two standard errors.
 std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                                  const FamilyFit& alternative) {
   constexpr double kApart = 2.0;
@@ -216,8 +217,8 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions po
   }
 }
 
-/// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error is
-/// below 1.2), and each of its delays, lags and command errors is significant.
+/// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error
+/// below 1.2) and all its delays, lags and command errors are significant.
 bool has_right_terms(const LogFit& fit) {
   constexpr double kErrorOfSensors = 1.2;
   if (!(fit.relative_error < kErrorOfSensors)) return false;
@@ -361,15 +362,15 @@ struct FamilyComparison {
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  // The axis (surge or yaw) whose score tests predict the larger improvement goes first, because a
-  // wrong resistance of one axis also causes errors in the other axis.
+  // The axis (surge or yaw) whose score tests predict the larger improvement goes first. A wrong
+  // resistance of this axis may also cause the errors of the other one.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};
   BestFamily& result = comparison.result;
   for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {
-    // After a change of one axis, the need to compare the other axis is decided again, because the
-    // errors of a wrong resistance of one axis can hide those of the other.
+    // The errors of a wrong resistance of one axis can hide those of the other. After a change of
+    // one axis, the need to compare the other is therefore decided again.
     if (comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;
     if (!is_contested(power_law, result.best, contest, of_yaw)) continue;
     comparison.compare(of_yaw, other_families(comparison.families(), of_yaw));

@@ -13,9 +13,9 @@ struct FamilyContest {
   OpenAxes open = {};  ///< axes (surge, yaw) whose family is compared; other axes keep theirs
   /// A power law is replaced only if the AIC of another family is lower by more than this.
   double lead = 0.0;
-  /// True: compares the families of an axis (surge or yaw) only if there is a reason. One of these
-  /// suffices: a score test or a slow drift indicates that a term is missing, the fit did not
-  /// converge, or the current family of the axis is not the power law.
+  /// True: compares the families of an axis (surge or yaw) only for one of these reasons: a score
+  /// test (score_test.h) or a slow drift indicates a missing term; the fit did not converge; the
+  /// current family of the axis is not the power law.
   bool only_candidates = true;
 };
 
@@ -36,9 +36,9 @@ std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
 /// Estimated number of families that best_family() compares with those of `first`. The actual
-/// number of fits can be larger, because families with a similar AIC are fitted again, and because
-/// a change of one axis can add the families of the other axis. It is smaller if the limit of work
-/// or time is reached.
+/// number of fits can be larger: families with a similar AIC are fitted again, and a change of one
+/// axis can add the families of the other axis. It is smaller if the limit of work or time is
+/// reached.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 

@@ -66,7 +66,7 @@ double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
 }
 
 /// Sets the resistance parameters in `values`, the initial guess of a fit of the families `surge`
-/// and `yaw`, so that their curves are as close as possible to the fitted curves of `inner`.
+/// and `yaw`. Their curves become as close as possible to the fitted curves of `inner`.
 void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Family surge,
                 Family yaw, ParameterValues<double>& values) {
   const Vehicle& vehicle = inner.options.vehicle;

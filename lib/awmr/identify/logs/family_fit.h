@@ -59,13 +59,14 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
                            const std::vector<FreeTerm>& more);
 
 /// Fits the logs with Coulomb, linear and Stribeck friction of the yaw rate (`of_yaw`) or the
-/// speed, starting from the optimum of `inner`, a usable fit of other families.
+/// speed. Starts from the optimum of `inner`, a usable fit of other families.
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const FamilyFit& inner, bool of_yaw);
 
-/// Gives the families of `first` a second chance against `alternative`. If the AIC of `alternative`
-/// is lower by more than 2, fits the families of `first` again from the optimum of `alternative`,
-/// because the first search may have failed. Returns the better of `first` and the new fit.
+/// Gives the families of `first` a second chance against `alternative`, because the search of
+/// `first` may have failed. If the AIC of `alternative` is lower by more than 2, fits the families
+/// of `first` again, from the optimum of `alternative`. Returns the better of `first` and the new
+/// fit.
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 

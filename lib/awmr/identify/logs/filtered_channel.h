@@ -19,7 +19,7 @@ struct SensorFilter {
   double damping = 0.0;  ///< zeta, in (0, 1], if the filter is of second order; else 0
 };
 
-/// Output y of a filter of first order with the input u and the time constant T, and the
+/// Output y of a filter of first order with the input u and the time constant T. Also computes the
 /// derivatives of y with respect to the columns (unknowns) of the fit, see linear_stepper.h. With
 /// the time h between two rows and e = exp(-h/T),
 ///

@@ -105,8 +105,8 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-/// Adds scale errors of the channels that another channel can check: of the yaw rate if heading or
-/// position is measured, and of the speed if position is measured.
+/// Adds scale errors of the channels that another channel can check: the yaw rate if heading or
+/// position is measured, the speed if position is measured.
 void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const NoiseLevels& measured = problem.model.noise;
   const bool has_position = measured.contains(LogChannel::kX);

@@ -34,8 +34,8 @@ struct HeldOut {
 ///
 /// H and S are information and score (curvature and gradient of -ln L) of the rows at the fit's
 /// coordinates, after elimination of the initial states and biases. C is the covariance of the fit.
-/// f is the largest factor by which the standard errors of the fit were raised. d is restricted to
-/// the directions that the rows determine (identifiability.h). Quantities at an end of their range
+/// f is the largest factor by which the standard errors of the fit were raised. Only the directions
+/// that the rows determine are compared (identifiability.h). Quantities at an end of their range
 /// are fixed.
 ///
 /// The noise levels are those of the fit. (Noise levels estimated from the tested rows would absorb

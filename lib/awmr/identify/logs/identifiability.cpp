@@ -56,10 +56,10 @@ void refuse_direction(const Eigen::VectorXd& direction, double std,
   for (const std::size_t i : parts) refusal_reason[i] = why;
 }
 
-/// True if the search stopped at an end of the quantity's range that is not a plausible value. Two
-/// ends are plausible: 0 for a delay, a lag or a term of a resistance family, and both ends for a
-/// quantity that only describes the form of a force (FreeQuantity::is_form(), for example the
-/// sharpness of a saturation).
+/// True if the search stopped at an end of the quantity's range that is not a plausible value.
+/// Plausible ends are 0 for a delay, a lag or a term of a resistance family, and both ends for a
+/// quantity that only describes the form of a force, such as the sharpness of a saturation
+/// (FreeQuantity::is_form()).
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   if (q.is_form()) return false;
   if (q.may_be_zero()) return coordinate >= bounds.hi;
@@ -68,8 +68,8 @@ bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
-/// Variances of the coordinates that follow from the scatter of the scores s_b of m blocks or logs:
-/// the diagonal of m/(m - 1) C (sum s_b s_b^T) C, with C = `covariance`.
+/// Variances of the coordinates by the scatter of the scores s_b of m blocks or logs. They are the
+/// diagonal of m/(m - 1) C (sum s_b s_b^T) C, with C = `covariance`.
 Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::VectorXd>& scores) {
   Eigen::VectorXd variances = Eigen::VectorXd::Zero(covariance.rows());

@@ -48,9 +48,9 @@ struct Identifiability {
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
 ///     D_ii^2 = max(1, V_ii / C_ii)
 ///
-/// The parts are blocks of some seconds. With three or more logs, whole logs are used as parts too
-/// if their scatter exceeds the prediction significantly (5 %), as with a model error that differs
-/// between logs. The larger D_ii then applies.
+/// The parts are blocks of some seconds. With three or more logs, whole logs are used as parts too,
+/// if their scatter exceeds the prediction significantly (5 %). A model error that differs between
+/// logs causes such scatter. The larger D_ii then applies.
 ///
 /// A quantity is refused for one of two reasons:
 ///   - Its standard error exceeds kUnknown large changes (half of that for the sway resistance).
@@ -59,10 +59,11 @@ struct Identifiability {
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
-/// Refuses (gives no value to) every quantity whose search ended at an end of its range, and every
-/// quantity whose correlation with such a quantity exceeds 0.3 in magnitude. Terms of a resistance
-/// that make no sense without each other are refused together: alpha if the Coulomb friction c, the
-/// quadratic coefficient q or the dead zone is refused, and the exponent beta if alpha is refused.
+/// Refuses every quantity (gives it no value) whose search ended at an end of its range. Also
+/// refuses every quantity whose correlation with such a quantity exceeds 0.3 in magnitude. A term
+/// of a resistance that has no meaning without a refused one is refused too: alpha without the
+/// Coulomb friction c, the quadratic coefficient q or the dead zone, and the exponent beta without
+/// alpha.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

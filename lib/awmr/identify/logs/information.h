@@ -9,8 +9,9 @@
 namespace awmr {
 
 /// Information H and score S of the n coordinates, after elimination of each window's initial
-/// state. With the residuals r of a window and their Jacobians J_t and J_s with respect to the
-/// coordinates and the initial state, g_t = J_t^T r and g_s = J_s^T r. Summed over the windows:
+/// state. r are the residuals of a window, J_t and J_s their Jacobians with respect to the
+/// coordinates and the initial state. With g_t = J_t^T r and g_s = J_s^T r, summed over the
+/// windows:
 ///
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
 ///     S = g_t       - J_t^T J_s (J_s^T J_s)^-1 g_s
@@ -33,8 +34,8 @@ struct Scores {
 Scores scores_of(const std::vector<FitWindow>& windows, const std::vector<WindowSums>& sums,
                  Eigen::Index n);
 
-/// Length, s, of the blocks into which a log is divided so that they are nearly independent: five
-/// times the longest correlation time of the noise, at least 1 s, at most kWindow_s.
+/// Length, s, of the blocks into which a log is divided: five times the longest correlation time of
+/// the noise, at least 1 s, at most kWindow_s. Such blocks are nearly independent.
 double block_length_s(const NoiseLevels& noise);
 
 /// AIC of a fit under its own noise model: -2 ln L + 2 (n + number of noise parameters), up to a

@@ -64,8 +64,8 @@ struct LogFit {
 };
 
 /// Fits the logs. Precondition: an initial guess for every parameter. The fit is not usable and has
-/// no quantities if nothing is measured, if no quantity is free, if the readings are not more than
-/// the unknowns, or if all searches fail. The report of the fit then states the reason.
+/// no quantities in these cases: nothing is measured, no quantity is free, the readings are not
+/// more than the unknowns, or all searches fail. The report of the fit then states the reason.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Makes a quick fit, only to rank models: one search from the initial guess, with short parts of

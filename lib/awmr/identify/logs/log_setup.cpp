@@ -79,8 +79,8 @@ bool turns(const std::vector<DrivingLog>& logs) {
   });
 }
 
-/// Channels whose constant offset is estimated: those that the user requested, the yaw rate if the
-/// heading determines its offset, and the heading if the course over ground determines its offset.
+/// Channels whose constant offset is estimated: those that the user requested; the yaw rate, if the
+/// heading determines its offset; the heading, if the course over ground determines its offset.
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
                                         std::vector<LogChannel> requested) {
   const auto add = [&](LogChannel channel, bool is_biased) {
@@ -142,9 +142,9 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     const Estimate& known = model[parameter.id];
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(requested, parameter.id) || !known.value;
-    // Back-EMF and the servo's time constant stay fixed if the logs cannot identify them. (If the
-    // steering command never changes, a free time constant would be harmful: the fitted steering
-    // angle at the beginning of each window would then act like a trim.)
+    // Back-EMF and the servo's time constant stay fixed if the logs cannot identify them. (With a
+    // steering command that never changes, a free time constant would be harmful: the fitted
+    // initial steering angle of each window would act like a trim.)
     const bool never_acts =
         parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
     if (!can_be_requested(parameter) || !wanted) continue;
@@ -161,8 +161,8 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
 }
 
 /// True if the fit has to be tested for back-EMF. All of these conditions must hold: the vehicle
-/// file does not give k_e, no parameters were requested, the logs contain enough coasting, and no
-/// resistance comes from a fit of a table (such a resistance would include the back-EMF).
+/// file does not give k_e; no parameters were requested; the logs contain enough coasting; no
+/// resistance comes from a table, which would include the back-EMF.
 bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const Model& model) {
   return options.requested.empty() && !vehicle.back_emf_s_per_m &&

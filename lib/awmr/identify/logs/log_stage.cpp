@@ -35,11 +35,11 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// Selects the model of the logs: resistance families of surge and yaw, back-EMF if it is
-/// significant, wheel slip or late commands (decide_slip()), and what the steering stop limits
-/// (decide_stop()). Then checks whether the selected fit describes the logs, which can withdraw
-/// intervals. Adds the reports of all fits and the findings to `stage`. `power_law`, `first`: as in
-/// choose_model().
+/// Selects the model of the logs: resistance families of surge and yaw, and back-EMF if it is
+/// significant. Decides between wheel slip and late commands (decide_slip()), and what the steering
+/// stop limits (decide_stop()). Then checks whether the selected fit describes the logs, which can
+/// withdraw intervals. Adds the reports of all fits and the findings to `stage`. `power_law`,
+/// `first`: as in choose_model().
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;

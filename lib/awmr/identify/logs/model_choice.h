@@ -14,9 +14,10 @@ namespace awmr {
 /// Calls options.doing, if it is set, with the name of the step that begins.
 void show_step(const IdentifyOptions& options, std::string_view what);
 
-/// Fits the resistance families that the options name, by default power laws. If the user has left
-/// the family of an axis open and the errors after the first round are far above the sensor noise,
-/// selects other families, and perhaps back-EMF, by likely_families() and fits those instead.
+/// Fits the resistance families that the options name, by default power laws. If the errors after
+/// the first round are far above the sensor noise, selects other families, and perhaps back-EMF, by
+/// likely_families() and fits those instead. It changes only axes (surge, yaw) whose family the
+/// user did not select.
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options);
 

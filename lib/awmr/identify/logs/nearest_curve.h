@@ -11,9 +11,9 @@ namespace awmr {
 /// rad/s, > 0).
 ///
 /// The member `coulomb` of the result is the constant term: Coulomb friction, or the force that a
-/// dead zone takes. It is at least a tenth of the resistance at half of `fastest`, because a fit of
-/// logs that starts with a constant term of 0 may end there even if 0 is wrong. Returns `curve`
-/// itself if no such curve exists.
+/// dead zone takes. It is at least a tenth of the resistance at half of `fastest`. If it were 0, a
+/// fit of logs that starts there could stay at 0 even if 0 is wrong. Returns `curve` itself if no
+/// such curve exists.
 Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTerms& terms,
                                  double fastest);
 

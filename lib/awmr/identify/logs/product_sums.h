@@ -1,5 +1,5 @@
-/// Condenses the matrix M = [J r], a Jacobian with its residuals, to the product M^T M, which is
-/// summed row by row and then factored into a triangular matrix. Private to identify/.
+/// Condenses the matrix M = [J r], a Jacobian with its residuals, to the product M^T M. The product
+/// is summed row by row, then factored into a triangular matrix. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>

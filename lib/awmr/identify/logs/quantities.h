@@ -100,9 +100,9 @@ struct FreeQuantity {
            kind == Kind::kSteeringAsymmetry || kind == Kind::kSteeringCurve ||
            kind == Kind::kSteeringScale;
   }
-  /// True for quantities that cannot be negative, so that 0 is an end of their range: lags, delays
-  /// and smoothing of sensors, saturation, wheel slip, Stribeck friction, drag in turns, and dead
-  /// band.
+  /// True for quantities that cannot be negative: lags, delays and smoothing of sensors,
+  /// saturation, wheel slip, Stribeck friction, drag in turns, and dead band. 0 is an end of their
+  /// range.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
            kind == Kind::kSmoothing || kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
@@ -206,9 +206,9 @@ FreeQuantity sensor_scale_of(LogChannel channel);
 /// s is a slip ratio, false if s is a slip speed.
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
 
-/// Mounting of the sensor of the sway speed v: distance x_s, m, ahead of the centre of gravity, and
-/// angle a, rad, by which the sensor is turned to the left. With the speed u and the yaw rate r,
-/// the sensor reads
+/// Mounting of the sensor of the sway speed v: its distance x_s, m, ahead of the centre of gravity,
+/// and the angle a, rad, by which it is turned to the left. u is the speed, r the yaw rate. The
+/// sensor reads
 ///
 ///     v cos a - u sin a + x_s r
 FreeQuantity sway_offset();

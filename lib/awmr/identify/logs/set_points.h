@@ -17,9 +17,9 @@ namespace awmr {
 /// Returns the logs with every interpolated command replaced by the last set-point before it. If
 /// one of the forces is interpolated, both are replaced.
 ///
-/// A command counts as interpolated if it changes in at least 40 rows, and if most of these rows
-/// lie on straight lines whose lengths are multiples of the same number of rows. This number of
-/// rows is at least 2 and lasts at most 0.5 s.
+/// A command counts as interpolated if it changes in at least 40 rows, and most of these rows lie
+/// on straight lines. The lengths of the lines must be multiples of the same number of rows, which
+/// is at least 2 and lasts at most 0.5 s.
 ///
 /// Empty if no command is interpolated. Empty also if the commands of a log were already replaced
 /// by held set-points or by straight lines (DrivingLog::has_held_set_points,
@@ -28,7 +28,7 @@ std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<Dr
 
 /// True if `held`, the logs with held set-points, describe the motion about as well as the original
 /// logs. Fits the families of `first` to `held`, starting without command delays and motor lag. The
-/// AIC of this fit may exceed that of `first` by up to 10: a lower AIC is not required, because
+/// AIC of this fit may exceed that of `first` by up to 10. A lower AIC is not required, because
 /// real commands hardly ever form straight lines of equal length. `power_law`: options of `first`.
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
                          const FamilyFit& first);

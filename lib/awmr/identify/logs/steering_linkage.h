@@ -18,8 +18,8 @@
 
 namespace awmr {
 
-/// True if the fit has an error of the linkage and the logs have commands with which the wheels
-/// would point beyond the stop if nothing limited them.
+/// True if the fit has an error of the linkage, and the logs have commands that would steer the
+/// wheels beyond the stop if nothing limited them.
 bool is_stop_reached(const LogProblem& problem, const SearchPoint& point);
 
 /// Fits the logs with the other meaning of the stop: it limits the command if it limits the angle
@@ -28,9 +28,10 @@ bool is_stop_reached(const LogProblem& problem, const SearchPoint& point);
 std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Loss loss);
 
 /// Compares the two limits for the converged fit `chosen`. The fit with the lower AIC becomes
-/// `chosen`. If the AIC of the other is higher by less than 10, withdraws the intervals of the
-/// parameters that differ between the two fits by more than one standard error. Returns the finding
-/// `steering-stop` that names them. Empty if nothing was withdrawn.
+/// `chosen`. If the AIC of the other is higher by less than 10, the logs do not decide: the
+/// intervals of the parameters that differ between the fits by more than one standard error are
+/// then withdrawn. Returns the finding `steering-stop` that names them. Empty if nothing was
+/// withdrawn.
 std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
 /// Widens the intervals of the fit `chosen` because the scale s of the steering angles is unknown.

@@ -1,9 +1,9 @@
 /// Changes of the commands at uncertain times, because the log has only samples of the commands.
 /// Private to identify/.
 ///
-/// The time of a change is t + o, where t is the time of its row and o is normal with a mean and a
-/// standard deviation s. The residuals r are linear in the times o, with the Jacobian J_o. The cost
-/// of a fit is the minimum over these times, which are thus eliminated from all sums:
+/// The time of a change is t + o. t is the time of its row; o is normally distributed, with a mean
+/// and a standard deviation s. The residuals r are linear in the times o, with the Jacobian J_o.
+/// The cost of a fit is the minimum over these times, which are thus eliminated from all sums:
 ///
 ///     min over o of |r + J_o o|^2 + |(o - mean)/s|^2
 #pragma once

@@ -59,8 +59,8 @@ struct ScrubTurn {
   double yaw_rate_degps = 0.0;  ///< yaw rate to reach, > 0
   /// Wheel forces F' (over F_max) for this yaw rate under the smallest and under the largest scrub
   /// moment. The two scrub moments are the ends of the measured 95 % interval. If the scrub was not
-  /// measured, the smallest one is the largest moment at which the vehicle did not turn (0 if none
-  /// is known), and the largest one is the moment of sliding tyres (friction 0.8).
+  /// measured, the lower one is the largest moment at which the vehicle did not turn (0 if none is
+  /// known). The upper one is then the moment of sliding tyres (friction 0.8).
   SideForces<double> least, most;
 };
 

@@ -14,9 +14,8 @@
 namespace awmr {
 namespace {
 
-/// Misfit of a resistance curve to all runs: root mean square of ln(g(w) + z) - ln f, with the
-/// curve g, the rate w, the dead zone z and the force f of a run. Infinite if the curve is not
-/// finite.
+/// Misfit of a resistance curve g to all runs: root mean square of ln(g(w) + z) - ln f. w and f are
+/// the rate and the force of a run, z is the dead zone. Infinite if the curve is not finite.
 double log_misfit(const FamilyCandidate& candidate) {
   SteadyProblem problem = candidate.problem;
   problem.noise = ErrorModel::kLogForce;

@@ -8,9 +8,9 @@
 namespace awmr {
 
 /// 95 % profile-likelihood interval of the coordinate `c`. At each end, the smallest sum of squares
-/// with `c` fixed there is t^2 s^2 above that of `fit`, with the residual standard deviation s and
-/// the 97.5 % quantile t of Student's t. An end beyond a bound is set to the bound. Precondition:
-/// squared loss, degrees of freedom, `c` free.
+/// with `c` fixed there is t^2 s^2 above that of `fit`. s is the residual standard deviation, t the
+/// 97.5 % quantile of Student's t. An end beyond a bound is set to the bound. Precondition: squared
+/// loss, degrees of freedom, `c` free.
 Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
                           TransformedParameter c);
 

@@ -12,9 +12,9 @@ namespace awmr {
 /// at an end of its range.
 Finding held_exponent(const Subject& subject, const SteadyFit& fit);
 
-/// The warnings `no-degrees-of-freedom` (as many parameters as runs) and `exponent-at-bound` (the
-/// exponent of a log-linear fit is outside its range), and the note `term-at-zero` for each term
-/// whose fitted value is 0, where they apply.
+/// These findings, where they apply: the warning `no-degrees-of-freedom` (as many parameters as
+/// runs), the warning `exponent-at-bound` (the exponent of a log-linear fit is outside its range),
+/// and the note `term-at-zero` for each term whose fitted value is 0.
 std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit, Family family);
 
 /// Tests the residuals for normality, curvature and lack of fit. Skips a test if there are too few

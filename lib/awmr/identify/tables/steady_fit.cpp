@@ -73,9 +73,8 @@ std::vector<Family> families_inside(Family family) {
   return {};
 }
 
-/// Initial guess from the points: alpha and beta by the log-linear fit (beta 1 in families without
-/// a free exponent), half of the smallest force for Coulomb friction or dead zone, and 0 for the
-/// quadratic term.
+/// Initial guess from the points. alpha and beta: by the log-linear fit (beta 1 in families without
+/// a free exponent). Coulomb friction or dead zone: half of the smallest force. Quadratic term: 0.
 TransformedParameters initial_guess_of(const SteadyProblem& problem) {
   const SteadyFit line = fit_log_linear(problem.points);
   TransformedParameters guess{line[TransformedParameter::kLogAlpha], 1.0, 0.0, 0.0, 0.0};

@@ -50,9 +50,9 @@ struct SteadyPoint {
   int line = 0;                     ///< line number in the file
 };
 
-/// Largest number of rows with exact diagnostics. In larger tables, the fit without a row is
-/// approximated by one step from the fit of all rows, and there are no profile intervals, so that
-/// time and memory are proportional to the number of rows.
+/// Largest number of rows with exact diagnostics. In larger tables, one step from the fit of all
+/// rows approximates the fit without a row, and there are no profile intervals. Time and memory are
+/// then proportional to the number of rows.
 inline constexpr Eigen::Index kExactRows = 200;
 
 /// Input of a fit: the runs, the family of the curve, the error model and the loss.
@@ -108,10 +108,10 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points);
 /// beta stays in its range; c, q and z stay >= 0. The scale of a robust loss is computed from the
 /// median absolute residual. Precondition: with kTime, every point was timed.
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess);
-/// Like fit_steady() above, but computes the initial guesses itself. They are one from the points,
-/// and the optimum of each family that is a special case of this one. Therefore a family never fits
-/// worse than its special cases. `known`: optima of the same points, noise and loss, by family; the
-/// function adds those that it computes.
+/// Like fit_steady() above, but computes the initial guesses itself. One is computed from the
+/// points. The others are the optima of all families that are special cases of this one, so that a
+/// family never fits worse than its special cases. `known`: optima of the same points, noise and
+/// loss, by family; the function adds those that it computes.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
 /// Converts a problem to the error model kTime: the time of each run becomes travel/w, with the

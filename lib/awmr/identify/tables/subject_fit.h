@@ -33,8 +33,8 @@ struct SubjectFit {
 
 /// Fits the table by all estimators and chooses one. Checks the chosen fit for outliers
 /// (`outlier`), influential rows (`influential-row`) and a better family (`power-law-inadequate`).
-/// Gross outliers are excluded before the fit, except with a robust loss or options.keeps_outliers:
-/// at most a tenth of the runs, or one run if there are fewer than 20.
+/// Before the fit, excludes gross outliers: at most a tenth of the runs, or one run if there are
+/// fewer than 20. Excludes none with a robust loss or options.keeps_outliers.
 SubjectFit fit_subject(Subject subject, const SubjectOptions& options);
 
 }  // namespace awmr

@@ -25,8 +25,8 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
                                     const Eigen::VectorXd& residuals);
 
 /// F test of lack of fit: compares the distance of the curve from the mean of repeated runs with
-/// the scatter of the repeats. Empty if no runs have equal forces, if runs at equal forces do not
-/// scatter, or if the number of different forces is at most `parameters`, the number of free
+/// the scatter of the repeats. Empty if no runs have equal forces, or if runs at equal forces do
+/// not scatter. Empty also if there are at most `parameters` different forces, the number of free
 /// parameters of the curve.
 std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
                                       const Eigen::VectorXd& residuals, int parameters);
