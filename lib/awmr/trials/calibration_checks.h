@@ -20,8 +20,8 @@
 /// In a log without a heading, psi is the integral of the yaw rate. Its unknown initial value does
 /// not change the length of a displacement, so only lengths are compared. The factors of c and d
 /// are then i k_c and k_d, with k_c and k_d real: sideslip acts across the heading, latency of the
-/// speed along it. Their squares are neglected. The constant n is due to noise of the positions, *
-/// marks the complex conjugate:
+/// speed along it. The squares of these two terms are neglected. The constant n is due to noise of
+/// the positions, * marks the complex conjugate:
 ///
 ///     |p(t1) - p(t0)|^2 = s^2 |a|^2 + 2 s Re(k_b* a b*) + |k_b|^2 |b|^2 + 2 s k_c Im(a c*)
 ///                         + 2 s k_d Re(a d*) + n
@@ -66,8 +66,9 @@ std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 /// Returns the warnings `heading-offset` (heading_offset_rad() is not empty) and `scale-mismatch`
 /// (the scales of two channels differ by more than 3 % and by more than five standard errors). If
 /// heading and yaw rate differ, `scale-mismatch` names the one that disagrees with the positions,
-/// or both if the positions do not decide. It also names both if heading and yaw rate agree with
-/// each other, but not with the positions. `mappings`: column mappings used to read the log.
+/// or both if the positions do not decide. The finding also names both if heading and yaw rate
+/// agree with each other, but not with the positions. `mappings`: column mappings used to read the
+/// log.
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings);
 

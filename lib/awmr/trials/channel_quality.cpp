@@ -121,9 +121,8 @@ bool all_equal(std::span<const double> values) {
 /// Returns the limit of the deviation |off| (off_median()) above which a reading is a spike. It is
 /// the largest of these values:
 ///   - 7 standard deviations of the noise, times 1 + 5/sqrt(n), which allows for the estimation
-///     error. The standard deviation is the 75 % quantile of |off|, divided by 1.04. It is
-///     estimated from n readings: all but those in the middle of five equal ones (an encoder at
-///     rest);
+///     error. The standard deviation is the 75 % quantile of |off|, divided by 1.04. The quantile
+///     is that of n readings: all but those in the middle of five equal ones (an encoder at rest);
 ///   - three times the 80 % quantile of the change between readings, because motion can change
 ///     sharply;
 ///   - a tenth of the range between the 2 % and the 98 % quantile of the values;

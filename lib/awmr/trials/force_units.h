@@ -81,7 +81,7 @@ struct ThrustUnits {
   std::vector<UnitFix> unit_fixes;
 };
 /// Returns the possible units of tau_speed. `thrust`: range of the column. `wheels`: range of the
-/// wheel forces in the other tables, if it exceeds F'max; it then decides the unit.
+/// wheel forces in the other tables, if it exceeds F'max. This range then decides the unit.
 ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>& wheels,
                          const Vehicle& vehicle);
 

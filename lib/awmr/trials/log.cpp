@@ -247,7 +247,7 @@ double DrivingLog::median_step_s() const {
 }
 
 bool has_force_difference(const DrivingLog& log) {
-  constexpr double kMuch = 0.01;  // smallest difference of F' that counts
+  constexpr double kMuch = 0.01;  // smallest difference of F' that counts: 1 % of F_max
   for (std::size_t i = 0; i < log.rows(); ++i) {
     if (std::abs(log.force_right[i] - log.force_left[i]) > kMuch) return true;
   }

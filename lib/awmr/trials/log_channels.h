@@ -15,9 +15,9 @@ inline constexpr std::size_t kShortestLog = 10;
 
 /// Builds a channel. `values`: one per row, SI. `rows`: the rows in which the file has a value.
 /// Some files write a value only when it has changed, at irregular times (resolution_of_changes()).
-/// Then each row between the first and the last of these values counts as a measurement of the last
-/// value before it. Findings: `only-changes`, `spikes`, `stuck-sensor`, `saturated-channel`,
-/// `quantised-samples`. Precondition: the log has its times and commands.
+/// In such a file, each row between the first and the last of these values counts as a measurement
+/// of the last value before it. Findings: `only-changes`, `spikes`, `stuck-sensor`,
+/// `saturated-channel`, `quantised-samples`. Precondition: the log has its times and commands.
 Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings);

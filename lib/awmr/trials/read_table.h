@@ -19,10 +19,10 @@ namespace awmr {
 std::optional<Result<Signals>> read_signals(std::string_view bytes, const std::string& file,
                                             const Wanted& wanted);
 
-/// Reads the requested columns of a file. Its first bytes determine the format: ULog, DataFlash,
-/// ROS 2 bag in SQLite, log of the emitted firmware (`.awl`), JSON of WPILib's SysId, otherwise
-/// CSV. The files of a directory are joined by time. Errors: those of read_csv() and of the readers
-/// of these formats.
+/// Reads the requested columns of a file. The first bytes of the file determine the format: ULog,
+/// DataFlash, ROS 2 bag in SQLite, log of the emitted firmware (`.awl`), JSON of WPILib's SysId,
+/// otherwise CSV. The files of a directory are joined by time. Errors: those of read_csv() and of
+/// the readers of these formats.
 Result<CsvTable> read_table(const std::filesystem::path& path, std::span<const CsvColumn> columns,
                             const TrialOptions& options);
 /// Like read_table() above, but reads the columns of this kind of trial: columns_of(kind).

@@ -256,10 +256,10 @@ void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
 ///   - any other component is 0.
 State<double> measured_initial_state(const LogWindow& window);
 
-/// Longest step of replay() that is accurate for this plant, s: a quarter of the shortest time
-/// constant of servo, sway and back-EMF braking, or the step that the resistances of surge and yaw
-/// allow, if that is shorter. With steps of a quarter of a time constant, the Runge-Kutta method
-/// has a relative error of 3e-5 per time constant of an exponential decay.
+/// Longest step of replay() that is accurate for this plant, s. It is the shorter of two: a quarter
+/// of the shortest time constant of servo, sway and back-EMF braking, and the step that the
+/// resistances of surge and yaw allow. With steps of a quarter of a time constant, the Runge-Kutta
+/// method has a relative error of 3e-5 per time constant of an exponential decay.
 double replay_step_s(const Plant<double>& plant);
 
 /// Shortest permitted step, s. It resolves a time constant of 0.4 ms, shorter than that of any

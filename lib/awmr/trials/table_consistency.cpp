@@ -200,7 +200,8 @@ double fastest_run_mps(const TrialSet<SurgeRow>& surge) {
 }
 
 /// Adds the warning `coast-beyond-surge` if a coast-down begins much faster than every surge run.
-/// Then either its speed is in another unit, or its resistance must be extrapolated.
+/// Either the speed of the coast-down is in another unit, or the surge resistance must be
+/// extrapolated to it.
 void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                          const std::optional<TrialSet<SurgeRow>>& surge) {
   constexpr double kFar = 1.5;

@@ -35,13 +35,13 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
 /// Checks a coast-down file: speeds and times in another unit (table_units.h). Also adds the
 /// warning `coast-beyond-surge` if a coast-down begins above 1.5 times the speed of the fastest
-/// surge run: its speed may be in another unit, or its resistance must be extrapolated.
+/// surge run. Its speed may be in another unit, or the surge resistance must be extrapolated to it.
 void check_consistency(const CoastdownSet& coastdown, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
 
 /// Adds the warning `coast-below-surge` if all coast-downs begin below a third of the speed of the
-/// fastest surge run: the speeds of one table may be in another unit.
+/// fastest surge run. The speeds of one table may be in another unit.
 void warn_of_slow_coasts(const TrialData& data, std::vector<Finding>& findings);
 
 }  // namespace awmr

@@ -15,9 +15,9 @@
 ///
 /// For each limit, the row with the largest ratio of yaw rate to limit is checked. If this row
 /// violates the limit, the unit of the column is reported as wrong. Exception: the median row meets
-/// the limit, and its ratio is less than a tenth of the largest. Then single rows are wrong, and
-/// the rows beyond the limit are reported. The unit is also reported if all steered turns are below
-/// 1 % of u tan(d_r)/l_f.
+/// the limit, and its ratio is less than a tenth of the largest. In this case single rows are
+/// wrong, and the rows beyond the limit are reported. The unit is also reported if all steered
+/// turns are below 1 % of u tan(d_r)/l_f.
 #pragma once
 
 #include <optional>

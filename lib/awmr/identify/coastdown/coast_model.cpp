@@ -142,7 +142,7 @@ bool is_slow(const CoastStart& at, const CoastData& data) {
 std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCandidate& other,
                                      const CoastCandidate& best, const CoastFit& fixed,
                                      const CoastData& data) {
-  constexpr double kDifferent = 0.1;  // of ln m'
+  constexpr double kDifferent = 0.1;  // smallest difference of ln m' that counts as another m'
   const auto differs = [&](const CoastStart& at) {
     return std::abs(at.log_mass - best.at.log_mass) > kDifferent;
   };
@@ -168,7 +168,8 @@ double longest_drift_s(const CoastData& data, const CoastStart& at) {
 /// Fits a filter of the speed and adds it to `model`, if it is significantly better than the fit
 /// `plain` without a filter.
 void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& model) {
-  constexpr double kMargin = 4.0;  // of AICc
+  // Smallest decrease of AICc for a filter; a smaller value keeps more filters that are only noise.
+  constexpr double kMargin = 4.0;
   constexpr double kStandardErrors = 2.0;
   // Limit of a drift's correlation time over the filter's T, because the filter also correlates
   // noise over about T.

@@ -27,8 +27,8 @@ double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& c
 /// Completes `fit` from the Jacobian `j` and the residuals `e` at the optimum: sets the residuals,
 /// their standard deviation and autocorrelation, the rank, the condition number and the degrees of
 /// freedom. Returns the covariance of the parameters, in the order of the columns of `j`. The
-/// covariance includes the effect of a drift of the errors (noise_of_residuals()). It is 0 x 0 if
-/// `j` is rank-deficient or there are no degrees of freedom.
+/// covariance includes the effect of a drift of the errors (noise_of_residuals()). Returns a 0 x 0
+/// matrix if `j` is rank-deficient or there are no degrees of freedom.
 Eigen::MatrixXd add_coast_noise(const Eigen::MatrixXd& j, const Eigen::VectorXd& e,
                                 const std::vector<CoastCurve>& curves, CoastFit& fit);
 

@@ -258,7 +258,7 @@ void CoastProblem::solve() {
 /// Also fits t0, the time of motors-off, of the runs without a detected plateau. Keeps this fit if
 /// it is usable and lowers AIC; else restores the fit with t0 fixed at the first sample.
 void CoastProblem::free_short_leads() {
-  constexpr double kOfAic = 2.0;  // for each t0
+  constexpr double kOfAic = 2.0;  // penalty in AIC for each fitted t0
   const std::vector<CoastInitialState> fixed = initial_;
   const TransformedParameters theta = theta_;
   const CoastStart at = at_;

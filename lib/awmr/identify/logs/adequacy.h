@@ -8,8 +8,8 @@
 namespace awmr {
 
 /// Returns the finding `coloured-residuals` for every channel whose residuals are still correlated
-/// in time (p < 0.001) after the drift of the noise model is filtered out. It is a warning if the
-/// scatter between parts of the logs raised a standard error by 50 % or more, else a note.
+/// in time (p < 0.001) after the drift of the noise model is filtered out. The finding is a warning
+/// if the scatter between parts of the logs raised a standard error by 50 % or more, else a note.
 std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::string& file);
 
 /// Result of check_adequacy().

@@ -17,7 +17,8 @@
 namespace awmr {
 namespace {
 
-constexpr double kLevel = 0.001;  // significance level of the test of all quantities together
+// Significance level over all quantities together: smaller values report fewer disagreements.
+constexpr double kLevel = 0.001;
 
 /// Estimates of one quantity from single logs.
 struct ByLog {

@@ -36,8 +36,8 @@ struct FirstFit {
 
 /// Makes the first fit. If the commands probably change between the rows, first fits the logs with
 /// uncertain times of the changes. This fit is used if the times pass are_times_between_rows() and
-/// its AIC is lower by more than kFamilyAicThreshold. Its AIC is compared with that of a fit of the
-/// same terms with changes at the rows.
+/// AIC is low enough: lower by more than kFamilyAicThreshold than with changes at the rows and the
+/// same terms.
 FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const IdentifyOptions& options);
 

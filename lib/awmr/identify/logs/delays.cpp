@@ -104,7 +104,8 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
 
 /// Candidates that are much less significant than the strongest one are not tried now, to save
 /// time. They are tested again after the best term was added.
-constexpr double kComparable = 0.2;  // smallest significance over that of the strongest
+// Smallest significance that is tried, divided by that of the strongest candidate.
+constexpr double kComparable = 0.2;
 constexpr double kBeyondDoubt = 20.0;
 
 /// Tries smoothing of the channels whose smoothing is a candidate term. First tries all these

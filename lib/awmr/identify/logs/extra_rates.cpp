@@ -246,7 +246,7 @@ void add_turn_drag(const TurnDrag& drag, double per_mass, LinearRates& out) {
 }
 
 void add_side_pull(const LinearPlant& plant, double u_mps, LinearRates& out) {
-  constexpr double kRest_mps = 0.02;  // w_0
+  constexpr double kRest_mps = 0.02;  // w_0: the moment is proportional to u below this speed
   const double pull_m = plant.extra[ExtraForce::kSidePull];
   const double way = math::saturate(u_mps / kRest_mps, 1.0);
   out.rates.r_radps += way * pull_m * plant.per_inertia;

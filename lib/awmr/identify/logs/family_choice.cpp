@@ -41,7 +41,7 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
 /// which can hide the effect of a missing term; `fit` did not converge. `of_yaw`: true for terms of
 /// yaw, false for terms of surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
-  constexpr double kWorthATry = 4.0;  // decrease of -2 ln L
+  constexpr double kWorthATry = 4.0;  // smallest predicted decrease of -2 ln L that is worth a fit
   if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
   const auto drifts = [&](LogChannel channel) {
     const auto noise = fit.noise.find(channel);

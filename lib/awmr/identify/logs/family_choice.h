@@ -37,8 +37,8 @@ std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
 
 /// Estimated number of families that best_family() compares with those of `first`. The actual
 /// number of fits can be larger: families with a similar AIC are fitted again, and a change of one
-/// axis can add the families of the other axis. It is smaller if the limit of work or time is
-/// reached.
+/// axis can add the families of the other axis. The number is smaller if the limit of work or time
+/// is reached.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 

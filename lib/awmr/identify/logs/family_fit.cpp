@@ -183,7 +183,7 @@ FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions&
 
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative) {
-  constexpr double kWorthSearching = 2.0;  // of AIC
+  constexpr double kWorthSearching = 2.0;  // lead in AIC that is worth another search
   if (!(aic_lead(alternative.fit, first.fit) > kWorthSearching)) return first;
   FamilyFit again = fit_from(logs, power_law, alternative, first.surge, first.yaw);
   return aic_lead(again.fit, first.fit) > 0.0 ? std::move(again) : std::move(first);

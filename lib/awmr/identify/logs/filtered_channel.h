@@ -69,7 +69,7 @@ class FilterStage {
 /// A filter of second order is computed as two stages in series, with the complex time constants T
 /// exp(i phi) and T exp(-i phi), cos phi = zeta. The output y starts at the first reading of the
 /// window; the effect of this reading's noise decays with the time constant T. The output of the
-/// first stage is not measured. It starts as if the input had risen at a constant rate before.
+/// first stage is not measured, so it starts as if the input had risen at a constant rate before.
 class FilteredChannel {
  public:
   /// `first`: first reading of the window. `columns`: number of columns of the fit, one for each

@@ -27,8 +27,8 @@ struct HeldOut {
 };
 
 /// Tests whether `rows` agree with `fit`, a fit of other rows with these options. The test
-/// statistic X^2 follows from d, the change of the fitted coordinates in one Gauss-Newton step
-/// towards a fit of `rows`:
+/// statistic X^2 follows from d, the change of the fitted coordinates (values or logarithms) in one
+/// Gauss-Newton step towards a fit of `rows`:
 ///
 ///     d = -H^-1 S,   cov d = f^2 H^-1 + C,   X^2 = d^T (cov d)^-1 d,   chi-squared
 ///

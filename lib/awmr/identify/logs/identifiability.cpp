@@ -41,7 +41,8 @@ std::string uncertainty_text(double std, double unknown = kUnknown) {
 void refuse_direction(const Eigen::VectorXd& direction, double std,
                       const std::vector<FreeQuantity>& quantities,
                       std::vector<std::string>& refusal_reason) {
-  constexpr double kPart = 0.1;  // smallest share of the squared length that counts
+  // Smallest share of the direction's squared length for which a quantity is refused.
+  constexpr double kPart = 0.1;
   std::vector<std::size_t> parts;
   std::vector<std::string> names;
   for (Eigen::Index i = 0; i < direction.size(); ++i) {

@@ -1,5 +1,5 @@
-/// Covariance of a log fit, and the decision which quantities the logs identify. Private to
-/// identify/.
+/// Covariance of a log fit, and the decision which quantities the logs identify. The search changes
+/// the coordinate of a quantity: its value, or the logarithm of it. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,9 +41,9 @@ struct Identifiability {
 /// Computes the covariance of the coordinates and decides which quantities are identified.
 ///
 /// The covariance follows from the information H (n x n), a weak prior P and the scores s_b
-/// (gradients of -ln L) of m parts of the logs. The noise model may be wrong. The scatter of the
-/// scores shows this, and raises the standard errors: C is the covariance by the noise model, V
-/// that by the scatter. In units of large changes (FreeQuantity::large_change),
+/// (gradients of -ln L) of m parts of the logs. If the noise model is wrong, the scores scatter
+/// more than it predicts, and the standard errors are raised. C is the covariance by the noise
+/// model, V that by the scatter. In units of large changes (FreeQuantity::large_change),
 ///
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
 ///     D_ii^2 = max(1, V_ii / C_ii)

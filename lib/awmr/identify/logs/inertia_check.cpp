@@ -87,7 +87,7 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
 
 /// True if a wheel force acts while the wheels are steered, so that it turns the vehicle.
 bool has_steered_force(const DrivingLog& log) {
-  constexpr double kMuch = 0.01;  // share of the largest force
+  constexpr double kMuch = 0.01;  // smallest lateral force that counts, over F_max
   const std::vector<double>& angle = log.driving_steering_rad();
   for (std::size_t row = 0; row < log.rows(); ++row) {
     const double force = log.force_left[row] + log.force_right[row];

@@ -8,10 +8,10 @@
 
 namespace awmr {
 
-/// Information H and score S of the n coordinates, after elimination of each window's initial
-/// state. r are the residuals of a window, J_t and J_s their Jacobians with respect to the
-/// coordinates and the initial state. With g_t = J_t^T r and g_s = J_s^T r, summed over the
-/// windows:
+/// Information H and score S of the n coordinates (values or logarithms of the fitted quantities),
+/// after elimination of each window's initial state. r are the residuals of a window, J_t and J_s
+/// their Jacobians with respect to the coordinates and the initial state. With g_t = J_t^T r and
+/// g_s = J_s^T r, summed over the windows:
 ///
 ///     H = J_t^T J_t - J_t^T J_s (J_s^T J_s)^-1 J_s^T J_t
 ///     S = g_t       - J_t^T J_s (J_s^T J_s)^-1 g_s

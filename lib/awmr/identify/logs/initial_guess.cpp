@@ -75,7 +75,7 @@ ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
   guess[at(ParameterId::kSwayAlpha)] = mass / 0.1;
   guess[at(ParameterId::kMassNorm)] = mass;
   guess[at(ParameterId::kInertiaNorm)] = mass * vehicle.inertia_kgm2() / vehicle.mass_kg;
-  // A vehicle without steering has no servo. Its time constant is arbitrary.
+  // A vehicle without steering has no servo, so the servo's time constant is arbitrary.
   const double servo_s = vehicle.steering_time_constant_s;
   guess[at(ParameterId::kSteeringTimeConstant)] = servo_s > 0.0 ? servo_s : 0.05;
   return guess;

@@ -95,7 +95,7 @@ std::vector<DrivingLog> interpolated(const std::vector<DrivingLog>& logs) {
 
 bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          const FamilyFit& first) {
-  constexpr double kAlike = 10.0;  // of AIC
+  constexpr double kAlike = 10.0;  // largest accepted increase of AIC, for late commands in `first`
   const auto is_smooth = [](const DrivingLog& log) {
     return !log.has_interpolated_commands && !log.has_held_set_points && changes_often(log);
   };

@@ -92,8 +92,8 @@ class LinearStepper {
   /// Sets the state of `motion` to `next`, the result of the last state_after(), and advances the
   /// derivatives of the state by the same step.
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);
-  /// Handles a speed that has reached 0. Friction holds it at 0, or it changes its sign. Its
-  /// derivatives are scaled by the ratio of its rates after and before the stop.
+  /// Handles a speed that has reached 0: friction holds it at 0, or the speed changes its sign. Its
+  /// derivatives are scaled by the ratio of the rates of this speed after and before the stop.
   void stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion);
 
   LinearPlant plant_;

@@ -15,7 +15,8 @@ namespace awmr {
 inline constexpr double kPriorStd = 5.0;
 
 /// Data of the problem. The cost is half the sum of squares of two kinds of residuals: those of all
-/// windows, and a prior residual of every coordinate x_i,
+/// windows (parts of the logs, each with its own initial state), and a prior residual of every
+/// coordinate x_i,
 ///
 ///     (x_i - initial_i) / (kPriorStd large_change_i)
 ///

@@ -20,8 +20,8 @@ struct LogReportInput {
 };
 
 /// Builds the report of a fit: the values of all quantities, and the standard errors of those that
-/// the logs identify. It also has tests whether the standardised residuals of each channel are
-/// white and normal. The searches of the multistart are not included.
+/// the logs identify. The report also has tests whether the standardised residuals of each channel
+/// are white and normal. The searches of the multistart are not included.
 EstimatorReport log_report(const LogReportInput& input);
 
 /// Removes the standard error and the interval of a parameter. Keeps its value.

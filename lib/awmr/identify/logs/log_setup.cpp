@@ -98,7 +98,7 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
 /// of 2023, more for long logs. A log that the model describes well needs a tenth of this.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
   constexpr double kMin = 6e8;
-  constexpr double kPerSecond = 1e6;  // per second of log
+  constexpr double kPerSecond = 1e6;  // additional work per second of log
   double duration_s = 0.0;
   for (const DrivingLog& log : logs) duration_s += log.t_s.back() - log.t_s.front();
   return std::llround(kMin + kPerSecond * duration_s);
@@ -151,8 +151,8 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
     // In logs with turns, every other parameter that the logs cannot identify still affects the
-    // remaining ones. It stays free during the fit, so that their intervals include its
-    // uncertainty, and is refused afterwards.
+    // remaining ones. Such a parameter stays free during the fit, so that the intervals of the
+    // others include its uncertainty, and is refused afterwards.
     if (!why.empty() && (!turning || never_acts)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);

@@ -1,5 +1,6 @@
-/// Selection of the model that is fitted to the logs: resistance families, back-EMF, and whether
-/// the logged steering commands are measured angles. Private to identify/.
+/// Selection of the model that is fitted to the logs: resistance families (forms of the resistance
+/// law), back-EMF, and whether the logged steering commands are measured angles. Private to
+/// identify/.
 #pragma once
 
 #include <string>
@@ -16,8 +17,7 @@ void show_step(const IdentifyOptions& options, std::string_view what);
 
 /// Fits the resistance families that the options name, by default power laws. If the errors after
 /// the first round are far above the sensor noise, selects other families, and perhaps back-EMF, by
-/// likely_families() and fits those instead. It changes only axes (surge, yaw) whose family the
-/// user did not select.
+/// likely_families() and fits those instead. A family that the user selected does not change.
 FamilyFit fit_first_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const IdentifyOptions& options);
 

@@ -39,7 +39,7 @@ Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTe
   constexpr double kMinShare = 0.1;
   constexpr double kMinBeta = 0.2;
   constexpr double kBetaStep = 0.1;
-  constexpr int kBetas = 24;  // number of exponents to try, from 0.2 to 2.5
+  constexpr int kBetas = 24;  // number of exponents that are tried, from 0.2 to 2.5
   const Eigen::VectorXd speed = Eigen::VectorXd::LinSpaced(kSpeeds, fastest / kSpeeds, fastest);
   const Eigen::VectorXd force = speed.unaryExpr([&](double w) { return curve.at(w); });
   const bool constant = terms.coulomb || terms.dead_zone;

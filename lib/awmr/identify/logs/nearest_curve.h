@@ -1,4 +1,5 @@
-/// Initial guess for fitting another resistance family to logs. Private to identify/.
+/// Initial guess for fitting another resistance family (form of the resistance law) to logs.
+/// Private to identify/.
 #pragma once
 
 #include "awmr/model/family.h"
@@ -11,9 +12,9 @@ namespace awmr {
 /// rad/s, > 0).
 ///
 /// The member `coulomb` of the result is the constant term: Coulomb friction, or the force that a
-/// dead zone takes. It is at least a tenth of the resistance at half of `fastest`. If it were 0, a
-/// fit of logs that starts there could stay at 0 even if 0 is wrong. Returns `curve` itself if no
-/// such curve exists.
+/// dead zone takes. `coulomb` is at least a tenth of the resistance at half of `fastest`: a fit of
+/// logs that starts at 0 could stay there even if 0 is wrong. Returns `curve` itself if no such
+/// curve exists.
 Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTerms& terms,
                                  double fastest);
 

@@ -1,4 +1,5 @@
-/// Residuals of one window of a log, with derivatives. Private to identify/.
+/// Residuals of one window (about 10 s of a log, with its own initial state), with derivatives.
+/// Private to identify/.
 ///
 /// The model is simulated with the logged commands and compared with all measurements. Correlated
 /// errors of a channel are whitened. The Jacobian J has a row per sample, but only J^T J is stored.

@@ -136,7 +136,7 @@ std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<Dr
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
                          const FamilyFit& first) {
   using Kind = FreeQuantity::Kind;
-  constexpr double kAlike = 10.0;  // of AIC
+  constexpr double kAlike = 10.0;  // largest accepted increase of AIC
   LogFitOptions from = from_optimum(power_law, first);
   std::erase_if(from.terms, [](const FreeTerm& term) {
     const Kind kind = term.quantity.kind;

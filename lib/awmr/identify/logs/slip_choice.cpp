@@ -109,7 +109,7 @@ std::vector<Terms> other_explanations(const Terms& terms, const std::vector<Driv
 }  // namespace
 
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
-  constexpr double kPlainly = 10.0;  // difference of AIC
+  constexpr double kPlainly = 10.0;  // difference of AIC above which the logs decide
   if (!chosen.fit.usable || !reads_early(chosen.fit)) return std::nullopt;
   LogFitOptions options = from_optimum(chosen.options, chosen);
   std::vector<FamilyFit> others;

@@ -1,4 +1,5 @@
-/// Comparison of wheel slip with the effects that resemble it. Private to identify/.
+/// Comparison of wheel slip with the effects that resemble it, such as commands whose time stamps
+/// are late. Private to identify/.
 #pragma once
 
 #include <optional>

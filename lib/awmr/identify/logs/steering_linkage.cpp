@@ -127,7 +127,7 @@ std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Los
 }
 
 std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
-  constexpr double kPlainly = 10.0;  // difference of AIC
+  constexpr double kPlainly = 10.0;  // difference of AIC above which the logs decide
   if (!chosen.fit.usable || !has_linkage_error(chosen.fit.quantities)) return std::nullopt;
   LogFitOptions options = from_optimum(chosen.options, chosen);
   const LogProblem problem = log_problem(logs, options);

@@ -48,8 +48,9 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
 /// to the covariance, because the logs reduce the variance of ln s by the factor 1/(1 + D).
 void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
-/// True if the fit has a curve of the linkage of more than 5 %. Its true form is then too uncertain
-/// for intervals of the yaw resistance, whose form follows from the angles.
+/// True if the fit has a curve of the linkage of more than 5 %. The form of the yaw resistance
+/// follows from the angles, so the true form of this curve is then too uncertain for intervals of
+/// the yaw resistance.
 bool is_much_curved(const LogFit& fit);
 
 /// Withdraws the intervals of the yaw resistance if is_much_curved().

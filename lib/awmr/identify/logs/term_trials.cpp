@@ -67,7 +67,7 @@ double akaike_of(const NoiseIteration& fit) {
 }
 
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss) {
-  constexpr double kLargestFirstStep = 3.0;  // in large changes
+  constexpr double kLargestFirstStep = 3.0;  // limit of an initial guess, in large changes
   std::vector<FreeQuantity> quantities;
   std::vector<double> begin;
   for (const FreeTerm& term : more) {

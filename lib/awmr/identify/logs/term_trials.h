@@ -16,8 +16,8 @@ namespace awmr {
 double akaike_of(const NoiseIteration& fit);
 
 /// Adds the terms `more` to the estimated quantities of the converged fit `settled`, and makes a
-/// short fit (one round). It starts with white noise in place of drift, so that drift cannot absorb
-/// the effect of the terms. Initial guesses are limited to three large changes
+/// short fit (one round). The fit starts with white noise in place of drift, so that drift cannot
+/// absorb the effect of the terms. Initial guesses are limited to three large changes
 /// (FreeQuantity::large_change), except those of quantities that only describe a form
 /// (FreeQuantity::is_form()).
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss);

@@ -36,8 +36,8 @@ std::vector<UncertainChange> changes_before_rows(const LogWindow& window);
 inline constexpr double kMaxChangeShare = 0.2;
 
 /// Returns the logs with an additional row for every change of the commands, in the middle between
-/// two rows. It has the new commands and no measurements, and its time is uncertain. No rows are
-/// added in a gap of the log (kGapSteps).
+/// two rows. This row has the new commands and no measurements, and its time is uncertain. No rows
+/// are added in a gap of the log (kGapSteps).
 std::vector<DrivingLog> with_changes_between_rows(const std::vector<DrivingLog>& logs);
 
 /// Sums without the times of m changes.

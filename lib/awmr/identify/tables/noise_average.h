@@ -8,12 +8,12 @@
 ///     ln p_k = -n ln s_k + 1/2 ln det C_k + sum_i ln |d e_ki/d ln w_i| + constant
 ///
 /// for n runs with the rates w_i, residuals e_ki of standard deviation s_k in the unit of the
-/// error, and the covariance C_k of the fit. This is the likelihood, with the parameters and s_k
-/// integrated out; their priors are flat in the parameters and in ln s_k. The likelihood is a
-/// density of ln w_i under every error model, so that error models with different units can be
-/// compared. g is the resistance curve, g' its derivative, z the dead zone and t the time. |d e/d
-/// ln w| is then w g'/(g + z) for a relative error of the force, w g' for an absolute one, w for
-/// the rate and t for the time.
+/// error, and the covariance C_k of the fit. Up to a factor, p_k is the likelihood with the
+/// parameters and s_k integrated out, under priors that are flat in the parameters and in ln s_k.
+/// The likelihood is a density of ln w_i under every error model, so that error models with
+/// different units can be compared. g is the resistance curve, g' its derivative, z the dead zone
+/// and t the time. |d e/d ln w| is then w g'/(g + z) for a relative error of the force, w g' for an
+/// absolute one, w for the rate and t for the time.
 #pragma once
 
 #include <vector>

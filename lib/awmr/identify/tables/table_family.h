@@ -1,5 +1,5 @@
-/// Nonlinear fits of a table under all resistance families and error models, and the selection of
-/// one of them. Private to identify/.
+/// Nonlinear fits of a table under all resistance families (forms of the resistance law) and error
+/// models, and the selection of one of them. Private to identify/.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-/// Akaike's information criterion for the comparison of resistance families. Private to identify/.
+/// Akaike's information criterion for the comparison of resistance families (forms of the
+/// resistance law). Private to identify/.
 #pragma once
 
 #include <cmath>

@@ -49,8 +49,8 @@ std::optional<Diagnostic> normality(std::span<const double> residuals) {
   const double size = static_cast<double>(n);
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    // Far in a tail, a probability rounds to 0, which has no logarithm. This lower limit prevents
-    // it.
+    // Lower limit of probabilities. Far in a tail, a probability would round to 0, which has no
+    // logarithm.
     const double tiny = 1e-300;
     const double below = std::max(tiny, normal_cdf((x[i] - mean) / sd));
     const double above = std::max(tiny, normal_tail((x[n - 1 - i] - mean) / sd));
