@@ -14,7 +14,7 @@
 namespace awmr {
 namespace {
 
-/// Approximate time from a command to the vehicle's response.
+/// Assumed time from a command to the vehicle's response.
 constexpr double kResponse_s = 0.2;
 /// Adds the means of the commands to `sums`. The vehicle responds in the window to commands that
 /// were logged kResponse_s earlier. If the log has the steering angle instead of the steering

@@ -23,7 +23,7 @@ struct CandidateTerm {
 };
 
 /// The terms whose score test gives a value of more than three standard errors, most significant
-/// first.
+/// first. `settled`: the converged fit without these terms (here and below).
 std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   constexpr double kWorthATry = 3.0;
   const std::vector<FreeQuantity> channels = further_terms(settled.problem);
@@ -41,16 +41,17 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
 }
 
 /// Tries a low-pass filter in place of the delay of each channel in `lags_s`. The delay in `lags_s`
-/// is the initial guess of the time constant. Four filters are tried per channel: a continuous one,
-/// one with a step per row, and two of second order. The best of them is kept only if its AIC is
-/// lower than that of the best fit so far by more than kLikelierFilter.
+/// is the initial guess of the time constant. `lowest` keeps the best fit so far (here and below).
+/// Four filters are tried per channel: a continuous one, one with a step per row, and two of second
+/// order. The best of them is kept only if its AIC is lower than that of the best fit so far by
+/// more than kLikelierFilter.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {
   constexpr double kLikelierFilter = 10.0;
   constexpr double kButterworth = 0.70710678;
-  // If the speed is the only channel, its filter has the same effect as a motor lag, which is the
-  // more common cause. The filter is then not tried.
+  // If the speed is the only channel, its filter has the same effect as a motor lag. A motor lag is
+  // more common, so the filter is then not tried.
   if (settled.problem.model.noise.size() <= 1) return;
   for (const auto& [channel, lag_s] : lags_s) {
     NoiseIteration best = tried(settled, {{sensor_lag_of(channel), lag_s}}, loss);
@@ -144,9 +145,9 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
-/// Tries a motor lag in place of the fitted command delay `found_s`. First tries it together with a
-/// delay, which is negative if the time stamps of the commands are late. If `found_s` is positive,
-/// also tries the lag without a delay.
+/// Tries a motor lag in place of the fitted command delay `found_s`. First tries the lag together
+/// with a delay, which is negative if the time stamps of the commands are late. If `found_s` is
+/// positive, also tries the lag alone.
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;

@@ -29,7 +29,8 @@ struct Neighbour {
   bool has_back_emf = false;
 };
 
-/// A delay of the commands and a lag of the motors, except those that the fit already contains.
+/// A delay of the commands and a lag of the motors, except those that the fit already estimates and
+/// a lag that the vehicle file gives.
 std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
   constexpr double kBegin_s = 0.05;
   std::vector<FreeTerm> terms;

@@ -28,10 +28,11 @@ struct OpenAxes {
 };
 
 /// Selects families by rough fits (fit_roughly()), starting at the optimum of `first`. Each round
-/// tries every change of the family of one open axis. It also tries an additional delay of the
-/// commands, a lag of the motors, and back-EMF if that is a candidate term of `power_law`. Reason:
-/// a wrong family can imitate these. The best change is kept if it lowers LogFit::relative_error by
-/// more than 2 % (back-EMF: by a third). There are at most eight rounds.
+/// tries every change of the family of one open axis, except the axis that was changed last. It
+/// also tries an additional delay of the commands, a lag of the motors, and back-EMF if that is a
+/// candidate term of `power_law`. Reason: a wrong family can imitate these. The best change is kept
+/// if it lowers LogFit::relative_error by more than 2 % (back-EMF: by a third). There are at most
+/// eight rounds.
 ///
 /// Let E be the amount by which the relative error exceeds 1. Returns the last rough fit if its E
 /// is less than 0.7 times that of the families of `first`. Otherwise returns the rough fit of these

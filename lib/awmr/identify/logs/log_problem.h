@@ -91,8 +91,8 @@ std::vector<double> change_times_of(const std::vector<WindowErrors>& errors);
 bool all_finite(const std::vector<WindowErrors>& errors);
 bool all_finite(const std::vector<WindowSums>& sums);
 
-/// Number of windows (10 s each) in a sample of long logs. Logs with less than twice as many
-/// windows are used entirely.
+/// Number of windows (10 s each) in the sample with which the fit of long logs starts, to save
+/// time. Logs with less than twice as many windows are used entirely.
 inline constexpr std::size_t kSampleWindows = 12;
 
 /// True if the logs have so many windows, at least 2 kSampleWindows, that a sample of them saves

@@ -23,7 +23,8 @@ struct Multistart {
 /// with longer integration steps.
 LogProblem rough_problem(const LogProblem& problem);
 
-/// A quick search ends when a step changes the cost by less than this (relative).
+/// A quick search only finds a starting point. It ends when a step changes the cost by less than
+/// this (relative).
 inline constexpr double kRough = 1e-4;
 
 /// Finds initial guesses for the fit. If other trials gave the whole initial guess and `also_from`

@@ -79,7 +79,8 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
                            name_in(kFitSubjectNames, subject.name)));
 }
 
-/// Selects the requested family, or the one with the minimum AICc.
+/// Selects the fit of the requested family, or the one with the smallest AICc, under the error
+/// model `wanted`.
 Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, ErrorModel wanted,
                         const std::vector<FamilyCandidate>& candidates) {
   Choice choice;
@@ -89,8 +90,8 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   const bool tried = std::ranges::any_of(
       candidates, [&](const FamilyCandidate& c) { return c.problem.noise == wanted; });
   if (!chosen && !options.family.family && subject.points.size() < kMinToCompare) {
-    // With so few runs, no family has an AICc. The power law is chosen, because no family has fewer
-    // parameters.
+    // With so few runs, no family has an AICc. The power law is chosen, because no other family has
+    // fewer parameters.
     chosen = candidate_of(candidates, Family::kPower, wanted);
     choice.findings.push_back(not_compared(subject));
   }
