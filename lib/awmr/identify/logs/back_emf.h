@@ -35,8 +35,10 @@ LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options);
 /// False if k_e is not in `candidate_terms`, the terms that `fit` tested.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
-/// True if `with`, the fit that estimates k_e, identifies k_e and has an AIC that is lower than
-/// that of `without` by more than kFamilyAicThreshold.
+/// True if `with`, the fit that estimates k_e, is better than `without`. It must identify k_e, and
+/// its AIC must be lower by more than kFamilyAicThreshold. False if a channel of `with` has too
+/// large a drift (ChannelNoise::overwhelms_sensor()): another model error may then cause the
+/// difference.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
 /// Returns the warning `back-emf`, which states that the model with k_e is used, the value of k_e,

@@ -50,8 +50,8 @@ struct LogComparison {
 /// each such term from every log. If the estimates of a term differ between the logs by more than
 /// three standard errors, the term with the largest difference is fitted to each log.
 ///
-/// If the logs disagree on one of the following terms, all intervals of the common fit are invalid,
-/// because the other quantities absorb the effect of the term:
+/// If several logs disagree on one of the following terms, all intervals of the common fit are
+/// invalid, because the other quantities absorb the effect of the term:
 ///   - the term that was fitted in addition;
 ///   - errors of the commands in the common fit: steering trim, dead band and asymmetry of the
 ///     steering, force imbalance, saturation and exponent of the forces;
@@ -59,9 +59,10 @@ struct LogComparison {
 ///
 /// A single log of 20 s or more is tested by its parts: a fit of its first half predicts its second
 /// half and its last fifth (held_out.h). If both predictions are accepted (p > 0.05), there is no
-/// disagreement. Otherwise the halves are compared like two logs. If the halves agree, but the
-/// prediction of the last fifth is rejected (p < 0.001), the result of that prediction is returned
-/// as `missed`.
+/// disagreement. Otherwise the quantities of the common fit are compared between the halves as
+/// between two logs, without a search for missing terms; a disagreement does not make other
+/// intervals invalid. If the halves agree, but the prediction of the last fifth is rejected (p <
+/// 0.001), the result of that prediction is returned as `missed`.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr
