@@ -18,10 +18,10 @@ struct CoastReadings {
 };
 
 /// Removes rows that are not measurements:
-///   - all rows from the first speed of exactly 0 on, if at least half of these rows are 0. An
-///     encoder reads 0 at rest and also below its lowest speed, so these rows do not show when the
-///     vehicle stopped. If the speed before, extrapolated to the first of these rows, is
-///     significantly above 0, adds the finding `speed-cut-off`;
+///   - the rows at rest. They begin at the first speed of exactly 0 from which on at least half of
+///     the rows are 0. An encoder reads 0 at rest and also below its lowest speed, so these rows do
+///     not show when the vehicle stopped. If the speed before, extrapolated to the first of these
+///     rows, is significantly above 0, adds the finding `speed-cut-off`;
 ///   - repeated values of a sensor that is slower than the rows (find_repeats(); `held-samples`).
 /// Speed bins stay as they are.
 CoastReadings measured_rows(const std::vector<CoastCurve>& curves, std::vector<Finding>& findings);

@@ -29,10 +29,11 @@ struct ScrubPlan {
   std::vector<ScrubTurn> turns;
   std::string about;  ///< see Suggestion::about_scrub
 };
-/// Plans differential turns at 1/3, 2/3 and 1 times the highest measured yaw rate. The mean wheel
-/// force is that of straight driving at half the highest speed of the surge trials; without these,
-/// the middle of the force range. Plans only the turns for which the wheel forces suffice if the
-/// scrub moment is the smallest possible.
+/// Plans differential turns at 1/3, 2/3 and 1 times the highest measured yaw rate, or
+/// yaw_rate_max_degps if the vehicle file gives it. The mean wheel force is that of straight
+/// driving at half the highest speed of the surge trials; without these, the middle of the force
+/// range. Plans only the turns for which the wheel forces suffice if the scrub moment is the
+/// smallest possible.
 ScrubPlan scrub_plan(const Model& model);
 
 /// Plans the turn with motors off. Its speed is half of the highest speed of the surge trials.

@@ -60,7 +60,8 @@ struct ScrubTurn {
   /// Wheel forces F' (over F_max) for this yaw rate under the smallest and under the largest scrub
   /// moment. The two scrub moments are the ends of the measured 95 % interval. If the scrub was not
   /// measured, the lower one is the largest moment at which the vehicle did not turn (0 if none is
-  /// known). The upper one is then the moment of sliding tyres (friction 0.8).
+  /// known). The upper one is then the moment of sliding tyres (friction 0.8). If the wheel forces
+  /// do not suffice for the upper one, `most` has their limits.
   SideForces<double> least, most;
 };
 
