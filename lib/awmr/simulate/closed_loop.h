@@ -67,8 +67,8 @@ class ClosedLoop {
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
     PathRow path = {};                              ///< guidance columns of the current row
-    /// Reason why the run ends at the current sample, before the scenario's duration is over.
-    /// kDuration: the run does not end early.
+    /// Why the run ends at the current sample, before the scenario's duration is over. kDuration:
+    /// it does not end early.
     RunEnd ending = RunEnd::kDuration;
     std::vector<RunRow> rows = {};
     std::optional<Ending> end = {};  ///< absent: the run continues, or it failed
@@ -145,8 +145,8 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
                        index, runs_->vehicles);
 }
 
-/// True if the guidance must be computed run by run. False in open loop. Also false for heading
-/// steps without avoidance, shaping and stored rows, because all runs then have the same reference.
+/// True if the guidance must be computed run by run, because the runs have different references.
+/// False in open loop, and for heading steps without avoidance, shaping and stored rows.
 template <class Row>
 bool ClosedLoop<Row>::has_own_guidance() const {
   if (runs_->control.is_open_loop) return false;
@@ -259,7 +259,7 @@ RunRow ClosedLoop<Row>::row_of(std::size_t run, double t_s) const {
 }
 
 /// Appends the row of sample k to each active run. If a number in the row is not finite, the run
-/// ends, and the row is removed. (The first row, k = 0, is kept, so that a run has at least one.)
+/// ends and the row is removed. The first row (k = 0) is kept, so that each run has a row.
 template <class Row>
 void ClosedLoop<Row>::keep_rows(std::size_t k, double t_s) {
   if (!options_.keeps_rows) return;

@@ -45,14 +45,13 @@ LoopConditions conditions_of(const Vehicle& vehicle, const LoopConditions& missi
 /// Returns the conditions of a scenario. Sensors or motors that it lacks are ideal.
 LoopConditions conditions_of(const Scenario& scenario);
 
-/// Returns the scenario with sensors and actuators that have these conditions. Sensors or actuators
-/// that the scenario already has are kept unchanged.
+/// Adds sensors and actuators with these conditions to the scenario. Sensors or actuators that the
+/// scenario already has stay unchanged.
 Scenario under(const LoopConditions& conditions, Scenario scenario);
 
-/// Returns the scenario with the noise, the latency and the lag that vehicle.json gives. What
-/// vehicle.json does not give is ideal (kIdealConditions). Sensors or actuators that the scenario
-/// already has are kept unchanged, and an open-loop scenario gets no sensors. Applying the function
-/// twice has the same result as applying it once.
+/// Adds the noise, latency and lag of vehicle.json to the scenario. What vehicle.json does not give
+/// is ideal (kIdealConditions). Sensors or actuators that the scenario already has stay unchanged,
+/// and an open-loop scenario gets no sensors. A second call changes nothing.
 Scenario equipped(const Vehicle& vehicle, Scenario scenario);
 std::vector<Scenario> equipped(const Vehicle& vehicle, std::vector<Scenario> scenarios);
 

@@ -25,8 +25,8 @@ DisturbanceSource::DisturbanceSource(const std::vector<DisturbanceTerm>& terms,
           term.phase_rad ? *term.phase_rad : 2.0 * pi<double>() * running.random.uniform();
     }
     if (term.kind == DisturbanceTerm::Kind::kNoise) {
-      // Low-pass filtered noise x at the sample times, which has the standard deviation sigma from
-      // the start:
+      // Low-pass filtered noise x at the sample times. Its first value already has the standard
+      // deviation sigma:
       //   x(t + T_s) = c x(t) + sqrt(1 - c^2) sigma n,  c = exp(-2 pi f T_s)
       // n: standard normal number, f: bandwidth, T_s: sample time.
       running.keep = std::exp(-2.0 * pi<double>() * term.bandwidth_hz * sample_time_s);

@@ -9,22 +9,22 @@
 
 namespace awmr {
 
-/// Seed of a run, from which its random streams are made. Each use of random numbers, such as a
-/// sensor or a disturbance term, has its own stream.
+/// Seed of a run. Each use of random numbers, such as a sensor or a term of a disturbance, gets its
+/// own random stream from it, so that one use does not change the numbers of another.
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;  ///< number of the draw
-  /// Returns the random stream for the use with the number `use`, < 1024. The number of the stream
-  /// has bit 62 set. So it differs from the streams of compare/, whose numbers are small or have
-  /// bit 63 set.
+  /// Returns the random stream for the use with the number `use`, < 1024. Bit 62 of the stream
+  /// number is set. The streams of compare/ have small numbers or bit 63 set, so no stream is used
+  /// twice.
   Random random(std::uint64_t use) const {
     return {seed, (std::uint64_t{1} << 62U) | (sample << 10U) | use};
   }
 };
 
 /// Computes the seed of a run from the scenario's seed, the seed of the simulation, and the number
-/// `sample` of the Monte-Carlo draw. The constant is 2^64 divided by the golden ratio: so adjacent
-/// seeds of the simulation give seeds of runs that are far apart.
+/// `sample` of the Monte-Carlo draw. The constant is 2^64 divided by the golden ratio. With it,
+/// adjacent seeds of the simulation give run seeds that are far apart.
 inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::uint64_t sample) {
   return {scenario_seed + seed * 0x9E3779B97F4A7C15U, sample};
 }
@@ -45,7 +45,7 @@ class DisturbanceSource {
     DisturbanceTerm term;
     Random random;
     double phase_rad = 0.0;
-    double keep = 0.0;   ///< c: factor of the low pass over one sample
+    double keep = 0.0;   ///< c: factor by which the low pass keeps its old value over one sample
     double value = 0.0;  ///< state of the low pass
   };
   std::vector<Running> terms_;

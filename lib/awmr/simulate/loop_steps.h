@@ -1,7 +1,7 @@
-/// The part of a sample that computes the controllers and the metrics. The functions work on rows
-/// (row_view.h), that is, on all runs that are simulated together. With those of vehicle_steps.h,
-/// they are the arithmetic of the closed loop, for a single run and for several runs in vector
-/// registers. Private to this folder.
+/// The part of a sample that computes controllers and metrics, for all runs that are simulated
+/// together (rows of numbers, see row_view.h). Together with the functions of vehicle_steps.h, it
+/// is the arithmetic of the closed loop: for a single run, or several runs in vector registers.
+/// Private to this folder.
 #pragma once
 
 #include "awmr/simulate/meter.h"
@@ -10,9 +10,9 @@
 
 namespace awmr {
 
-/// All numbers of the runs that are simulated together. The struct is plain data: the kernels of
-/// lanes/ are compiled for other instruction sets, and must not share functions with the rest of
-/// the program.
+/// All numbers of the runs that are simulated together. The struct is plain data. Reason: the
+/// kernels of lanes/ are compiled for other instruction sets, and a function shared with the rest
+/// of the program could contain instructions that the processor does not have.
 template <class Row>
 struct LoopRuns {
   ControllerSetup control;

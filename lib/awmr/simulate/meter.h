@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// Data of the vehicle that the metrics need, taken from the limits of its controller.
+/// Data of the vehicle that the metrics need. They are taken from the limits of its controller.
 template <class T>
 struct MetricsVehicle {
   T front_axle_m;      ///< l_f, m
@@ -79,7 +79,8 @@ struct MetricsAccumulator {
   T saturation_s = T(0.0);
   T steering_travel_deg = T(0.0);
   T cross_track_m2 = T(0.0);
-  /// flag: in the second half, the vehicle was more than tolerance_m from the path's point
+  /// flag: in the second half of the run, the vehicle was more than tolerance_m from the path's
+  /// point
   T strayed = T(0.0);
   T clearance_min_m = T(0.0);
   T speed_reached = T(0.0);  ///< flag: the speed has reached the commanded one

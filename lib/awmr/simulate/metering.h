@@ -19,7 +19,7 @@ struct Ending {
 /// Computes the time data of each row of a run, in sequence.
 class MeterClock {
  public:
-  /// `last`: index of the last row, from 0, of a run that does not end early. The scenario must
+  /// `last`: index of the last row, from 0, if the run does not end early. The scenario must
   /// outlive the clock.
   MeterClock(const Scenario& scenario, std::size_t last) : scenario_(&scenario), last_(last) {}
   MetricsTime next(double t_s);

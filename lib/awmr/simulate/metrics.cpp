@@ -17,7 +17,7 @@ double goal_rad(const RunRow& row, const Scenario& scenario) {
   return scenario.shaping || scenario.avoidance ? row.path.psi_goal_rad : row.psi_ref_rad;
 }
 
-/// True if the commanded speed is constant in this scenario: only then a speed drop is defined.
+/// True if the commanded speed is constant in this scenario. Otherwise a speed drop is not defined.
 bool has_one_speed(const Scenario& scenario) {
   if (scenario.avoidance || std::holds_alternative<LissajousPath>(scenario.guidance)) return false;
   const auto* waypoints = std::get_if<WaypointPath>(&scenario.guidance);
@@ -80,7 +80,7 @@ MetricsTask metrics_task(const Scenario& scenario) {
 
 namespace {
 
-/// Adds the metrics of the course: of commanded headings, or of a path or route.
+/// Adds the metrics of heading steps, or of a path or route.
 void add_course(MetricsAccumulator<double>& sums, const Ending& ending, const Scenario& scenario,
                 Metrics& m) {
   if (std::holds_alternative<HeadingSteps>(scenario.guidance)) {

@@ -49,9 +49,10 @@ WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// Returns the motor commands after lag, `arriving`, but 0 for each motor with the command 0. With
-/// back-EMF, this command switches the motor off at once. If the command after lag were still
-/// applied, the back-EMF would brake the wheel (motor_force() in dynamics.h).
+/// Returns `arriving`, the motor forces after lag, with 0 for each motor whose command is 0.
+/// Reason: with back-EMF, the command 0 switches the motor off at once. Without this function, the
+/// remaining lag would keep the motor on, and its back-EMF would brake the wheel (motor_force() in
+/// dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {

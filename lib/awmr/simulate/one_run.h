@@ -17,9 +17,8 @@ inline constexpr double kStopped_mps = 1e-3;
 /// requests.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
-/// Returns the properties that the controllers of all runs of a scenario share. `controller`: that
-/// of any of the runs. The member is_observed stays false, because it depends on the gains of each
-/// run.
+/// Returns the controller properties that all runs of a scenario share. `controller`: that of any
+/// of the runs. The member is_observed stays false, because it depends on the gains of each run.
 ControllerSetup controller_setup(const Scenario& scenario, const Controller<double>& controller,
                                  double sample_time_s);
 

@@ -17,8 +17,8 @@ double turn(const Position<double>& a, const Position<double>& b, const Position
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }
 
-/// True if the segments a-b and c-d cross. A point on a line counts as left of it. So if a chain of
-/// segments has a vertex on the segment a-b, it crosses a-b once and not twice.
+/// True if the segments a-b and c-d cross. A point on a line counts as left of it. So a chain of
+/// segments with a vertex on the segment a-b crosses a-b once and not twice.
 bool cross(const Position<double>& a, const Position<double>& b, const Position<double>& c,
            const Position<double>& d) {
   const auto left = [](double area) { return area >= 0.0; };

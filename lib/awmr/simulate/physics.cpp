@@ -17,9 +17,9 @@ namespace {
 /// minute differ by 1e-5 m from those of an independent integrator.
 constexpr double kStepsPerTimeConstant = 6.0;
 
-/// Up to this speed (m/s or rad/s), the simulation may replace a resistance by a chord, a straight
-/// line through the origin. Near rest, a resistance can be so steep that it would need very short
-/// steps.
+/// Up to this speed (m/s or rad/s), the simulation may replace a resistance by a chord (a straight
+/// line through the origin). Near rest, a resistance can be too steep for the integration steps. A
+/// larger value permits longer steps, and makes the motion near rest less exact.
 constexpr double kChordSpeed = 1e-3;
 
 double step_for_chord(const Resistance<double>& law, double inertia) {
@@ -27,10 +27,10 @@ double step_for_chord(const Resistance<double>& law, double inertia) {
   return relaxation_time_s(law, inertia, kChordSpeed);
 }
 
-/// Limits the command of a motor so that the magnitude of its force F' is at most `most`, as on
-/// slippery ground. With back-EMF, F' = e - k_e w (motor_force()): e is the drive, k_e the back-EMF
-/// coefficient, w = `wheel_mps` the rolling speed. So the drive is limited to e = F' + k_e w for
-/// the largest F'.
+/// Limits the command of a motor so that its force F' is at most `most` in magnitude, as on
+/// slippery ground. With back-EMF, F' = e - k_e w (motor_force()), with the drive e, the back-EMF
+/// coefficient k_e and the rolling speed w = `wheel_mps`. So the drive is limited to e = F' + k_e w
+/// for the largest F'.
 double slipping(const Plant<double>& plant, double command, double wheel_mps, double most) {
   const double k = plant.back_emf_s_per_m;
   const double drive = beyond_dead_zone(command, plant.wheel_dead_zone);
@@ -39,8 +39,8 @@ double slipping(const Plant<double>& plant, double command, double wheel_mps, do
   return with_dead_zone(math::saturate(force, most) + k * wheel_mps, plant.wheel_dead_zone);
 }
 
-/// Number of integration steps per sample. The tolerance 1e-9 prevents that rounding adds a step to
-/// a sample of exactly n steps.
+/// Number of integration steps per sample. The tolerance 1e-9 keeps rounding errors from adding a
+/// step if a sample has exactly n steps.
 double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_time_s) {
   return std::max(1.0, std::ceil(sample_time_s / step_limit(plant, on_tyres).step_s - 1e-9));
 }
@@ -50,8 +50,8 @@ double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_
 /// The step h is limited by each time constant T that does not depend on speed: those of the sway
 /// resistance (m'/a_s), the servo and the back-EMF.
 ///   h <= T/6
-/// The step is also limited so that a chord replaces the resistance g (g1 or g3) only below
-/// kChordSpeed. This is the equation of rest_speed() solved for h; the inertia is m' or I'z:
+/// A chord may replace the resistance g (g1 or g3) only below kChordSpeed, which limits the step,
+/// too. This is the equation of rest_speed() solved for h; the inertia is m' or I'z:
 ///   h <= inertia kChordSpeed / g(kChordSpeed)
 /// Coulomb friction needs a chord only on tyres (resolved_at_rest()).
 StepLimit step_limit(const Plant<double>& with_friction, bool on_tyres) {

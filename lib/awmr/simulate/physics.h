@@ -1,6 +1,6 @@
 /// Simulates the motion of vehicles in the environment of a scenario, sample by sample. The closed
-/// loop (closed_loop.h) uses it, and an external controller, such as one on a chip, can use it
-/// (Physics).
+/// loop (closed_loop.h) uses these functions. The class Physics is for an external controller, such
+/// as one on a chip.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -65,11 +65,11 @@ double battery_share(const Battery& battery, double t_s);
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
               double& steering_command_rad);
 
-/// Returns the plant to integrate in steps of step_s seconds. Its resistances near rest are replaced
-/// by straight lines through the origin (chords, rest.h) where they are too steep for such steps.
-/// It has no Coulomb friction, which is added step by step (sliding.h). On tyres, the surge
-/// resistance g1 acts at the wheels; Coulomb friction is then part of the chord, which is chosen for
-/// the wheels (resolved_at_rest_on_tyres()).
+/// Returns the plant for integration steps of step_s seconds. Near rest, a resistance can be too
+/// steep for such steps; there, it is replaced by a straight line through the origin (chord,
+/// rest.h). The plant has no Coulomb friction, because the integration steps add it (sliding.h). On
+/// tyres, the surge resistance g1 acts at the wheels, and its chord is chosen for them, with Coulomb
+/// friction (resolved_at_rest_on_tyres()).
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
 /// Longest RK4 step for the plant's time constants that do not depend on speed. `parameter` is the
@@ -78,15 +78,16 @@ struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};
 };
-/// Computes the longest step for a plant. With `on_tyres`, the sway resistance g2 and the yaw
-/// resistance g3 are not considered, because the tyres replace them.
+/// Computes the longest step for a plant. With `on_tyres`, the sway and yaw resistances g2 and g3
+/// do not limit the step, because tyre forces replace them.
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
-/// Number of RK4 steps in the whole duration of the scenario, if no step has to be halved.
+/// Number of RK4 steps in the whole duration of the scenario, assuming that no step has to be
+/// halved.
 double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// Returns the properties that the vehicles of all runs share. set_up_vehicle() then adds back-EMF,
-/// scrub and front-wheel drive if any of the vehicles has them.
+/// Returns the properties that the vehicles of all runs share. Back-EMF, scrub and front-wheel
+/// drive are still missing: set_up_vehicle() adds them if any of the vehicles has them.
 VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s);
 
 /// Sets up the vehicle of the run with the index `run`, in the scenario's initial state.

@@ -25,8 +25,8 @@ constexpr int kMaxTries = 1000;
 /// a draw do not depend on whether the model has scrub.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 
-/// An eigenvalue of a covariance may be negative by this fraction of the largest one. Reason: a
-/// derived parameter (m' from a1, b1) makes the covariance singular, and rounding can then make an
+/// An eigenvalue of a covariance may be negative by this fraction of the largest one. A derived
+/// parameter (m' from a1, b1) makes the covariance singular, and rounding can then make an
 /// eigenvalue negative.
 constexpr double kSingularTolerance = 1e-9;
 
@@ -215,7 +215,7 @@ int PlantSampler::rank() const {
 
 std::vector<std::vector<double>> PlantSampler::directions_of(
     std::span<const ParameterId> ids) const {
-  // Each row of L is divided by its length, so that the scale of a parameter has no effect. The
+  // Each row of L is divided by its length, so that the unit of a parameter has no effect. The
   // directions are the eigenvectors of L^T L whose eigenvalues are above 0.
   const std::size_t n = centre_.size();
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(eigen_index(n), eigen_index(n));

@@ -12,6 +12,7 @@
 namespace awmr {
 
 /// Fraction of the draws in which m' is raised to Model::mass_norm_by_grip (see PlantSampler).
+/// Chosen: a larger fraction trusts the grip of the tyres more than the identified m'.
 inline constexpr double kGripShare = 0.25;
 
 /// Draws random plants. The parameters in the model's covariance C are drawn, the others keep their
@@ -25,16 +26,15 @@ inline constexpr double kGripShare = 0.25;
 /// them. So the distribution of the parameter has these quantiles, and its rank correlations are
 /// those of C.
 ///
-/// If the model has mass_norm_by_grip, the identified normalised mass m' would require more grip
-/// than tyres have. Therefore, in the fraction kGripShare of the draws, m' is raised to at least
-/// mass_norm_by_grip, and I'z by the same factor.
+/// Model::mass_norm_by_grip is set if the identified normalised mass m' is too small: its
+/// accelerations would need more grip than tyres have. Therefore, in the fraction kGripShare of the
+/// draws, m' is raised to at least mass_norm_by_grip, and I'z by the same factor.
 ///
 /// Exponents and optional terms of a resistance (Coulomb, quadratic, dead zone) must not be
-/// negative, because a resistance does not fall with speed and does not drive the vehicle. All
-/// parameters are drawn again until this holds. So a term that was fitted as 0 has a half-normal
+/// negative, because a resistance does not fall with speed and does not drive the vehicle. If one
+/// is negative, all parameters are drawn again. So a term that was fitted as 0 has a half-normal
 /// distribution with a mean of 0.8 standard errors. The ranges surge_beta_range and yaw_beta_range
-/// of the vehicle do not limit the draws: if an estimate is near an end of its range, the true
-/// value can lie beyond this end.
+/// of the vehicle do not limit the draws: the true value can lie beyond an end of its range.
 class PlantSampler {
  public:
   /// Makes a sampler for the model. If the model has a scrub moment, it is drawn independently of
@@ -53,8 +53,8 @@ class PlantSampler {
   /// Draws `count` plants by a Latin hypercube, so that even a few draws cover the distribution
   /// evenly. The range of each standard normal number is divided into `count` strata of equal
   /// probability, and each stratum is used once. The seed determines the order of the strata and
-  /// the position within each. If the i-th draw, i from 1, has a negative exponent or term,
-  /// draw(seed, i) replaces it.
+  /// the position within each. If draw i (from 1) has a negative exponent or term, draw(seed, i)
+  /// replaces it.
   Result<std::vector<Plant<double>>> draw_evenly(std::uint64_t seed, int count) const;
 
   /// Returns the plant for given standard normal numbers n, one for each parameter of the

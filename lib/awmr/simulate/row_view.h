@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <cstring>
 
-/// Attribute of a function of the loop: the compiler inlines all functions that it calls. A call
-/// would move the contents of registers to memory.
+/// Attribute of a function of the loop: the compiler inlines all functions that it calls. Without
+/// it, each call would move the contents of registers to memory, which is slow.
 #define AWMR_WHOLE __attribute__((flatten))
 
 namespace awmr {

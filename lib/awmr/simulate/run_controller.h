@@ -1,7 +1,7 @@
 /// The simulated controller of a run: computes the commands of a sample from measurements and
-/// reference. It consists of the control laws (or LQI, constant thrust, open loop), the disturbance
-/// observer and the allocation. Templates for a single run and for a batch of runs. Private to this
-/// folder.
+/// reference. It consists of heading and speed law (or LQI, constant thrust, open loop),
+/// disturbance observer and allocation. The templates serve a single run or a batch of runs.
+/// Private to this folder.
 #pragma once
 
 #include "awmr/control/control_step.h"
@@ -56,7 +56,8 @@ Observers<T> observers_of(const ControllerSetup& setup, const RunController<T>& 
   return {c.yaw_observer, c.surge_observer, setup.anti_windup};
 }
 
-/// Returns yaw_split() of the run's yaw mode. The mode follows from steering_share: 0, 1/2 or 1.
+/// Returns yaw_split() of the run's yaw mode. steering_share identifies the mode: 0 is
+/// differential, 1/2 combined, 1 steering.
 template <class T>
 YawSplit<T> yaw_split_of(const ControllerSetup& setup, const RunController<T>& c) {
   const Mask<T> may = Mask<T>(setup.split == CombinedSplit::kRedistribute);

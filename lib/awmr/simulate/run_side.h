@@ -16,14 +16,14 @@ namespace awmr {
 /// Returns the path of the side file: the path of the CSV file with `.json` appended.
 std::filesystem::path run_side_path(const std::filesystem::path& csv);
 
-/// Returns the content of the side file: `provenance`, the SHA-256 of the text `csv`, the keys of
-/// the JSON object in the text `figures`, and the findings. `figures` can be empty. Precondition:
+/// Returns the content of the side file: `provenance`, the SHA-256 of the CSV text `csv`, the keys
+/// of `figures`, and the findings. `figures` is the text of a JSON object, or empty. Precondition:
 /// none of its keys is another key of the file.
 std::string run_side_text(std::string_view csv, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
-/// Checks that the file `side` may be written. Errors (input): a file with this name exists and is
-/// not a side file, the description that `simulate` writes next to the CSV file of a run.
+/// Checks that the file `side` may be written. Errors (input): a file with this name exists, but is
+/// not a side file of a run. (It is then not overwritten.)
 Status check_run_side(const std::filesystem::path& side);
 
 /// The JSON Schema of the side file.

@@ -24,8 +24,8 @@
 
 namespace awmr {
 
-/// Open loop: constant thrust and yaw moment. The allocation of the yaw mode limits them and
-/// converts them to commands.
+/// Open loop: constant thrust and yaw moment. The allocation converts them to commands of the yaw
+/// mode, within their limits.
 struct OpenLoop {
   double tau_speed = 0.0;   ///< thrust divided by F_max, forward positive
   double tau_turn_m = 0.0;  ///< yaw moment divided by F_max, m, counter-clockwise positive
@@ -102,7 +102,7 @@ enum class PositionMethod {
 inline constexpr NameTable<PositionMethod, 2> kPositionMethodNames{
     {{"filter", PositionMethod::kFilter}, {"none", PositionMethod::kNone}}};
 
-/// A scenario: one run to simulate. If an optional field is absent, its feature is off, unless the
+/// A scenario: one run to simulate. An absent optional field switches its feature off, unless the
 /// comment of the field says otherwise.
 struct Scenario {
   std::string name;
@@ -119,10 +119,11 @@ struct Scenario {
   std::vector<SlipperyPatch> patches = {};
   std::optional<Battery> battery = {};  ///< absent: constant voltage
   std::optional<Sensors> sensors = {};  ///< absent: the controller measures the true state
-  PositionMethod estimator = PositionMethod::kFilter;  ///< used only if there is a GPS
+  PositionMethod estimator = PositionMethod::kFilter;  ///< how the guidance gets the position from
+                                                       ///< GPS fixes; no effect without a GPS
   std::optional<Actuators> actuators = {};  ///< absent: exact commands, motors without lag
   ControlOptions control = {};
-  /// model parameters at an end of their interval, in the plant only
+  /// plant parameters to set to an end of their 95 % interval; the controller keeps the estimates
   std::vector<CornerParameter> corner = {};
   /// Tyres of the four-wheel plant (model/tyres.h). Absent: the plant is the 3-DOF model.
   std::optional<Tyres<double>> tyres = {};
@@ -159,7 +160,7 @@ struct TyreConflict {
   std::string message;  ///< the reason and the remedy
 };
 /// Returns the keys of the scenario that conflict with the key `tyres`. The scenario need not have
-/// tyres: the function also tells whether tyres can be added.
+/// this key, so that a caller can ask whether tyres may be added.
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 
 /// Checks the keys of a scenario with tyres. Errors (input): there is one of tyre_conflicts().

@@ -50,8 +50,8 @@ class ScenarioGuidance {
   int missed() const { return laws_.progress.missed; }
 
  private:
-  /// The parts of the guidance that a scenario can use (guidance/parts.h). The clock is in s and
-  /// does not wrap.
+  /// The parts of the guidance that a scenario can use (guidance/parts.h). Times are in s and do
+  /// not wrap, unlike the clock of a firmware.
   struct Parts {
     using Line = AnyLineFollower<double>;
     using Path = TimedPathFollower;

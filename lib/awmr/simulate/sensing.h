@@ -62,8 +62,8 @@ class Sensing {
   double sample_time_s_;
   Sensor heading_, yaw_rate_, speed_;
   Random gps_;
-  /// True motion at the latest samples; the number of samples follows from the latencies of the
-  /// sensors.
+  /// True motion at the latest samples. The number of stored samples follows from the latencies of
+  /// the sensors.
   std::vector<Measurement<double>> motion_;
   /// number of past positions to keep, for the latency of the GPS
   std::size_t kept_;

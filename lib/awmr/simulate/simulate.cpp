@@ -62,7 +62,7 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
 namespace {
 
 /// Returns the disturbance observer of the scenario, or else that of the gains. Bandwidth 0: none.
-/// With an LQI, the observer of the gains is not used, because it was tuned for the sliding mode.
+/// The observer of the gains was tuned for the sliding mode, so it is not used with an LQI.
 ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>& gains) {
   ObserverGains<double> observer = scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
   if (const auto& own = scenario.control.observer) {
@@ -74,8 +74,8 @@ ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>&
 }
 
 /// True if nothing in this row turns the vehicle or moves it sideways. Rounding errors, such as
-/// those of sin(pi) or atan2, are tolerated. They have a larger effect than usual, because the
-/// unknown resistances in yaw and sway are simulated as 0.
+/// those of sin(pi) or atan2, are tolerated. Here they have a larger effect than usual: the unknown
+/// resistances in yaw and sway are simulated as 0, so nothing damps them.
 bool is_straight(const RunRow& row) {
   constexpr double kRounding = 1e-9;  // m/s, rad/s, rad, m
   const double turning[] = {row.state.v_mps,        row.state.r_radps,

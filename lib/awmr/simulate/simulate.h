@@ -78,7 +78,8 @@ struct Run {
   RunEnd end = RunEnd::kDuration;
   /// number of missed waypoints, including those that an obstacle covers
   int missed_waypoints = 0;
-  /// Resets of the position estimate after rejected fixes; counted up to 255.
+  /// How often the position estimate was restarted because it rejected the GPS fixes. The counter
+  /// stops at 255.
   int position_resets = 0;
 };
 
@@ -86,40 +87,43 @@ struct Run {
 struct SimulateOptions {
   /// T_s, s, > 0: time between two commands of the controller.
   double sample_time_s = 0.01;
-  /// RK4 steps per sample, > 0, for studies of the integration error. Absent: as substeps_for()
-  /// computes.
+  /// RK4 steps per sample, > 0; set it only to study the integration error. Absent: the result of
+  /// substeps_for().
   std::optional<int> substeps;
-  /// Seed of the simulation. The random numbers depend on it and on the scenario's own seed.
+  /// Seed of the simulation. Together with the scenario's own seed, it determines all random
+  /// numbers.
   std::uint64_t seed = 0;
-  /// Number of the Monte-Carlo draw (0, 1, 2, ...). Runs with the same seed and different numbers
-  /// have different random numbers.
+  /// Number of the Monte-Carlo draw (0, 1, 2, ...). With the same seed, each number gives different
+  /// random numbers.
   std::uint64_t sample = 0;
-  /// As BatchRun::noise.
+  /// Sensor noise drawn in advance, or null (BatchRun::noise).
   const DrawnNoise* noise = nullptr;
 };
 
-/// Limits of a run. kMaxRows rows take half a gigabyte; kMaxSteps RK4 steps take about a minute.
+/// Limits of a run, chosen for memory and time: kMaxRows rows take half a gigabyte, and kMaxSteps
+/// RK4 steps take about a minute.
 inline constexpr double kMaxRows = 2e6;
 inline constexpr double kMaxSteps = 1e8;
 inline constexpr int kMaxSubsteps = 100'000'000;
 
-/// Returns the number of RK4 steps per sample, in [1, kMaxSubsteps]. It is large enough for the
-/// plant's time constants that do not depend on speed (step_limit() in physics.h).
+/// Returns the number of RK4 steps per sample, in [1, kMaxSubsteps]. The steps are short enough for
+/// those time constants of the plant that do not depend on speed (step_limit() in physics.h).
 int substeps_for(const Plant<double>& plant, double sample_time_s);
-/// Same as above, for a scenario: if it has tyres, they replace the plant's sway and yaw
-/// resistance.
+/// Same as above, for a scenario. If the scenario has tyres, their forces replace the sway and yaw
+/// resistance of the plant.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// Makes a controller with these gains. Its model is this plant, whose resistances it feeds
-/// forward, and its limits are those of the vehicle. Its friction width in yaw is that of steering
-/// mode; each run sets the friction width of its own mode.
+/// Makes a controller with these gains. It uses the plant as its model, feeds forward the plant's
+/// resistances, and has the limits of the vehicle. Its friction width in yaw (HeadingGains in
+/// model/gains.h) is that of steering mode. Each run replaces it by that of its own mode.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
 
-/// Makes a controller from the estimates of the model. A scenario's corner does not change it. If
-/// the model only has parameters for straight motion, the controller is only for straight motion,
-/// too. Errors (input): those of Model::plant() and check_observer_rate().
+/// Makes a controller whose model has the estimated parameters, even if a scenario sets parameters
+/// of the plant to an end of their interval. If the model has only the parameters of straight
+/// motion, the controller can only drive straight. Errors (input): those of Model::plant() and
+/// check_observer_rate().
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
 /// Simulates the model with the controller of controller_for(), at the vehicle's sample time. A
@@ -132,8 +136,8 @@ Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scena
                      YawMode mode);
 
 /// Checks the length of a run before it is simulated. Errors (input): the run would have more than
-/// kMaxRows rows, or more than kMaxSteps RK4 steps. The message names duration_s, or the parameter
-/// whose time constant requires so many steps. `model_file` is the file that the message names.
+/// kMaxRows rows, or more than kMaxSteps RK4 steps. The message names the cause: duration_s, or the
+/// parameter with the short time constant. `model_file` is the model file that the message names.
 Status check_work(const Plant<double>& plant, const std::string& model_file,
                   const Scenario& scenario, double sample_time_s);
 
@@ -142,8 +146,8 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
 Status failure_of(const Run& run, const Scenario& scenario);
 
 /// Simulates a run with the given plant and controller. The result has at least one row. Its end is
-/// RunEnd::kFailed if the run could not continue, or is too long for check_work(). The scenario's
-/// corner is not applied; plant_for() gives the plant at the corner.
+/// RunEnd::kFailed if the run could not continue, or is too long for check_work(). The function
+/// does not set the parameters of Scenario::corner: pass the plant that plant_for() returns.
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 

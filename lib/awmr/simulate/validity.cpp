@@ -269,12 +269,13 @@ void note_extrapolation(const Model& model, double fastest_degps, const std::str
 
 namespace {
 
-/// Force over F_max with which the motors push a vehicle backward that rolls backward at the speed
-/// u = speed_mps, if the controller gets |u|. The speed law requests the force F' =
-/// -unsigned_push() / n of each of n driven wheels. The motor drive e, limited by the largest
-/// backward force, and the force at the wheel, which rolls at -u, are
+/// Force divided by F_max with which the motors push a vehicle further backward. The vehicle rolls
+/// backward at the speed u = speed_mps, and the controller gets |u|. The speed law requests the
+/// force F' = -unsigned_push() / n of each of n driven wheels. The drive e of the motor and the
+/// force F at the wheel are
 ///   e = max(F' + k_e u, F'min),   F = e + k_e u
-/// A drive e >= 0 does not push backward. F'min includes the dead zone.
+/// F'min is the largest backward force, including the dead zone. A drive e >= 0 does not push
+/// backward.
 double backward_push(const Plant<double>& plant, double force_min, const SpeedGains<double>& gains,
                      double speed_mps) {
   const double wheels = driven_wheels(plant);

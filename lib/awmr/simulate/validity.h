@@ -1,6 +1,6 @@
 /// Warnings about a simulation: turns faster than the measured ones, requests that the vehicle
-/// cannot meet, parameters without an interval. Also limits the rate of heading commands, which
-/// keeps turns within the measured range of yaw rates.
+/// cannot meet, parameters without an interval. A function here also limits the rate of heading
+/// commands, which keeps turns within the measured range of yaw rates.
 #pragma once
 
 #include <algorithm>
@@ -26,9 +26,9 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
 std::optional<Finding> missing_intervals(const Model& model);
 
 /// Warning `imprecise-parameter` for each positive parameter that random plants vary, if its
-/// standard error is above kImprecise of its value. The draws are log-normal, so that in 5 % of
-/// them the parameter is off by more than a factor of exp(2 sigma), sigma: relative standard error.
-/// The message names the trial that would identify the parameter.
+/// standard error is above kImprecise of its value. With a relative standard error sigma, 5 % of
+/// these log-normal draws are wrong by more than a factor of exp(2 sigma). The message names the
+/// trial that would identify the parameter.
 std::vector<Finding> imprecise_parameters(const Model& model);
 inline constexpr double kImprecise = 0.5;
 
@@ -37,11 +37,12 @@ inline constexpr double kImprecise = 0.5;
 /// than the motors make (`unreachable-speed`).
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
-/// Warning `unsigned-speed-runs-away`, for a speed sensor without a sign, such as a GPS: the speed
-/// law would accelerate a vehicle that rolls backward. The force is limited by the largest backward
-/// force of the wheels, their dead zone and back-EMF; without backward force, the vehicle cannot
-/// run away. The message has the highest speed at which this happens. Absent if it happens at no
-/// speed that the vehicle can reach backward. `file`: the file of the gains.
+/// Warning `unsigned-speed-runs-away`, for a speed sensor without a sign, such as a GPS. If the
+/// vehicle rolls backward, the speed law takes this for forward motion, and accelerates it
+/// backward. The limit is the largest backward force of the wheels, less dead zone and back-EMF;
+/// without backward force, the vehicle cannot run away. The message has the highest speed at which
+/// this happens. Absent if the vehicle cannot reach such a speed backward. `file`: the file of the
+/// gains.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
                                               const ModeGains& gains, const std::string& file);
 
@@ -65,9 +66,9 @@ inline constexpr const char* kRateName = "heading_rate_limit";
 /// Returns a message that describes why a choice is invalid; empty if it is valid.
 std::string fault_of_rate(const HeadingRateChoice& choice);
 
-/// Returns the heading rate limit for a comparison: `choice`, the value of the option, if it is
-/// given. Else the result is "measured" if the model has a highest measured yaw rate, because the
-/// yaw resistance is extrapolated in faster turns, and otherwise "none".
+/// Returns the heading rate limit for a comparison: the option `choice`, if it is given. Else
+/// "measured" if the model has a highest measured yaw rate, because faster turns extrapolate the
+/// yaw resistance; otherwise "none".
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model);
 
 /// Limits the rate of heading commands in every scenario. No effect if the choice is empty or

@@ -1,6 +1,6 @@
 /// The part of a sample that computes the vehicles: motors and battery convert the commands to
-/// forces, and the forces move the vehicles. The functions work on rows (row_view.h), that is, on
-/// all runs that are simulated together. Private to this folder.
+/// forces, and the forces move the vehicles. The functions compute all runs that are simulated
+/// together (rows of numbers, see row_view.h). Private to this folder.
 #pragma once
 
 #include "awmr/simulate/motion.h"
@@ -204,9 +204,9 @@ void move_alone(const View& view, Vehicles<Row>& v, const SideForces<typename Vi
       stepper);
 }
 
-/// Integrates the vehicles. Several functions compute the time derivatives of the state, with more
-/// or fewer terms. This uses the one with the fewest terms that suffices for these vehicles. The
-/// choice is made here, because a branch in the function would slow down every integration step.
+/// Integrates the vehicles. There are several functions for the time derivatives of the state, with
+/// more or fewer terms. This function selects the one with the fewest terms that suffices for these
+/// vehicles. Tests for each term inside the derivatives would slow down every integration step.
 template <class View, class Row, class Stepper = RungeKutta4>
 void move(const View& view, Vehicles<Row>& v, const Stepper& stepper = {}) {
   using T = typename View::Number;

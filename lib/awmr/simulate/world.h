@@ -81,15 +81,15 @@ struct SlipperyPatch {
 };
 
 /// Battery with falling voltage, which the controller does not measure. Discharge: from `from_s` to
-/// `to_s`, the largest effective motor command falls linearly to the fraction `share_end`; then it
-/// is constant. Sag: the voltage drops when the motors draw current.
+/// `to_s`, the largest possible motor command falls linearly to the fraction `share_end`, and then
+/// stays constant. Sag: the voltage drops while the motors draw current.
 struct Battery {
   double from_s = 0.0;  ///< start of the decrease, >= 0
   double to_s = 1.0;    ///< end of the decrease, > from_s
   /// largest motor command at the end, divided by that at the start, [0, 1]
   double share_end = 1.0;
-  /// Internal resistance of the battery divided by the resistance of the winding of one motor, >=
-  /// 0. It is about the relative voltage drop when one motor is stalled. 0: no sag.
+  /// Internal resistance of the battery divided by the winding resistance of one motor, >= 0. It is
+  /// about the relative voltage drop when one motor is stalled. 0: no sag.
   double sag = 0.0;
 };
 
@@ -154,8 +154,9 @@ struct ControlOptions {
     double yaw_max_m = 0.0;
     /// largest disturbance in surge that is compensated: force divided by F_max, > 0
     double surge_max = 0.0;
-    /// true: the observer uses the command after the limits. false: it uses the command before the
-    /// limits. A saturated actuator then looks like a disturbance, and the estimate winds up.
+    /// true: the observer gets the commands after the limits. false: it gets those before the
+    /// limits. A saturated actuator then looks like a disturbance, and the estimate grows without
+    /// reason (wind-up).
     bool anti_windup = true;
   };
   std::optional<Observer> observer;

@@ -172,9 +172,9 @@ Sensors read_sensors(JsonObject json) {
   return sensors;
 }
 
-/// Reads the actuators. `us_per_deg`: change of the servo's pulse width per degree of steering,
-/// microseconds. `step_us`: resolution of the pulse width, microseconds; for example 0.5 for a
-/// timer of an ATmega at 2 MHz.
+/// Reads the actuators. In the file, `us_per_deg` is the change of the servo's pulse width per
+/// degree of steering, microseconds, and `step_us` the resolution of the pulse width, microseconds
+/// (0.5 for a timer of an ATmega at 2 MHz).
 Actuators read_actuators(JsonObject json) {
   Actuators actuators;
   if (auto servo = json.optional_object("servo")) {
@@ -196,8 +196,8 @@ enum class HeadingLaw { kSlidingMode, kLqi };
 constexpr NameTable<HeadingLaw, 2> kHeadingLaws{
     {{"sliding_mode", HeadingLaw::kSlidingMode}, {"lqi", HeadingLaw::kLqi}}};
 
-// Permitted ranges of the LQI weights. The upper ends exceed the range of any sensor. For all
-// weights within the ranges, the gains are finite.
+// Permitted ranges of the LQI weights. The upper ends exceed the range of any sensor. Within these
+// ranges, the gains are always finite.
 constexpr NumberRule kLqiHeading_deg{.min = 1e-3, .max = 180.0};
 constexpr NumberRule kLqiYawRate_degps{.min = 1e-3, .max = 1e5};
 constexpr NumberRule kLqiIntegral_deg_s{.min = 1e-3, .max = 1e6};

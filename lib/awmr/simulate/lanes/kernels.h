@@ -25,8 +25,8 @@ extern const awmr::lanes::Kernel awmr_lanes_neon;
 namespace awmr {
 namespace lanes {
 
-/// Returns the kernels that are built and that this processor can run, the widest registers first.
-/// If there is none, simulate() computes one run at a time.
+/// Returns the kernels in this program that the processor can run, those with the widest registers
+/// first. If the list is empty, simulate() computes one run at a time.
 std::vector<const Kernel*> supported_kernels();
 
 }  // namespace lanes

@@ -111,9 +111,9 @@ struct SinCos {
   Lanes sin, cos;
 };
 
-/// Largest |angle|, rad, for sin and cos. The reduction to |r| <= pi/4 subtracts a multiple (the
-/// quadrant) of pi/2. There, pi/2 is the sum of three parts. The first two have 33 bits, so that
-/// their products with a quadrant up to 2^20 are exact.
+/// Largest |angle|, rad, for sin and cos. To reduce the angle to |r| <= pi/4, a multiple of pi/2 is
+/// subtracted; the integer factor is the quadrant. pi/2 is split into three parts. The first two
+/// have 33 bits, so that their products with a quadrant up to 2^20 are exact.
 constexpr double kLargestAngle = 0x1p20;
 
 AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
@@ -130,11 +130,10 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   const Lanes z = r * r;
   const Lanes s = fma(r * z, polynomial(kSin, z), r);
   const Lanes c = fma(z * z, polynomial(kCos, z), fma(z, Lanes(-0.5), Lanes(1.0)));
-  // An angle is reduced by a number of right angles, its quadrant. In odd quadrants, sine and
-  // cosine are swapped. To test for them, the last bit of the quadrant is shifted to a place where
-  // it alone makes the number 2.0. The second bit of the quadrant is the sign of the sine, the
-  // second bit of quadrant + 1 that of the cosine. To set a sign, the bit is shifted to the place
-  // of the sign bit.
+  // In odd quadrants, sine and cosine are swapped. The test shifts the last bit of the quadrant to
+  // the place where this bit alone is the number 2.0. The second bit of the quadrant is the sign of
+  // the sine; that of quadrant + 1 is the sign of the cosine. To set a sign, this bit is shifted to
+  // the sign bit.
   const Bits whole = to_bits(rounded.value);
   const LaneMask swapped = to_register((whole & Bits(std::uint64_t{1})) << 62) > Register(1.0);
   const auto with_sign = [&whole](const Lanes& value, std::uint64_t quadrants_on) -> Lanes {
@@ -188,8 +187,8 @@ AWMR_LANE_INLINE Lanes atan2(const Lanes& y, const Lanes& x) {
 
 AWMR_LANE_INLINE Lanes hypot(const Lanes& x, const Lanes& y) { return sqrt(x * x + y * y); }
 
-/// wrap_angle() of control/wrap_angle.h for lanes. It subtracts all full turns at once instead of
-/// in loops.
+/// wrap_angle() of control/wrap_angle.h for lanes. It subtracts all full turns in one step, because
+/// the lanes would need different numbers of loops.
 AWMR_LANE_INLINE Lanes wrap_angle(const Lanes& angle_rad) {
   constexpr double kTurn = 0x1.921fb54442d18p+2;
   constexpr double kTurnRest = 0x1.1a62633145c07p-52;

@@ -2,10 +2,10 @@
 /// which the templates of model/ and control/ simulate several vehicles at once. For kernel files
 /// only (kernel.inc).
 ///
-/// A kernel file defines AWMR_LANES, the name of its instruction set, before it includes this file.
-/// The name is a namespace around every type here, so it is part of the name of every template
-/// instantiated with such a type. Without this namespace, the linker would merge functions of the
-/// same name from several kernels. It could keep one that needs a newer processor.
+/// Before a kernel file includes this file, it defines AWMR_LANES, the name of its instruction set.
+/// This name is a namespace around every type here, so each kernel has its own template instances.
+/// Without it, the linker would merge instances of several kernels. It could keep one with
+/// instructions that the processor does not have.
 #pragma once
 
 #include <xsimd/xsimd.hpp>

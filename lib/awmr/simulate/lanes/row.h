@@ -1,6 +1,6 @@
 /// `Row`: one number of each of the sixteen runs that are simulated together. The struct is plain
-/// data: the kernels are compiled for other instruction sets, and must not share functions with the
-/// rest of the program.
+/// data. Reason: kernels are compiled for other instruction sets, and a function shared with the
+/// rest of the program could contain instructions that the processor does not have.
 #pragma once
 
 namespace awmr {
