@@ -21,9 +21,9 @@
 namespace awmr {
 namespace {
 
-/// Smallest scrub moment of the search, as a fraction of the largest one. The search goes from
-/// small to large moments, a factor of ten at a time, because runs with a larger moment need
-/// shorter integration steps.
+/// Smallest scrub moment of the search, as a fraction of the largest one. The search starts with
+/// small moments, and increases them by a factor of ten at a time: runs with a larger moment need
+/// shorter integration steps, and may not be needed at all.
 constexpr double kMin = 1e-4;
 
 /// Inputs of the break-even analysis for one scenario on the nominal model and one mode.
@@ -57,7 +57,7 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
 /// True if mode A is ahead of mode B when both have the same scrub. `run`, `other`: metrics of A
 /// and B with this scrub; absent if the simulation failed. `without`: metrics of A without scrub. A
 /// is ahead if its score is at least as good, or if only the simulation of B failed. A is not ahead
-/// if its own simulation failed. Nor is it ahead if scrub keeps it from completing the scenario, or
+/// if its own simulation failed, if scrub keeps it from completing the scenario, or if scrub
 /// removes one of its scored metrics, such as the settling time.
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
@@ -77,7 +77,7 @@ std::vector<double> evenly_between(double lo, double hi) {
   }
   return values;
 }
-/// kBatchRuns values from `lo` to `hi` with equal ratios.
+/// kBatchRuns values from `lo` to `hi`, each the same factor larger than the one before.
 std::vector<double> in_ratios_between(double lo, double hi) {
   std::vector<double> values = evenly_between(std::log(lo), std::log(hi));
   std::transform(values.begin(), values.end(), values.begin(),
@@ -92,8 +92,8 @@ std::optional<std::size_t> first_false(const std::vector<bool>& all) {
 }
 
 /// Returns the smallest scrub moment at which a mode is no longer ahead, with an error of at most 1
-/// %. Absent if the mode is ahead up to `most_m`. `ahead`: function that returns for each moment
-/// whether the mode is ahead.
+/// %. Absent if the mode is ahead up to `most_m`. `ahead` computes for a list of moments whether
+/// the mode is ahead at each.
 template <class Ahead>
 std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   constexpr double kFine = 0.01;
@@ -115,8 +115,8 @@ std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   return std::nullopt;
 }
 
-/// Returns the runs of the nominal model (sample 0) without tyre scrub. If the model has scrub, the
-/// runs are repeated without it.
+/// Returns the runs of the nominal model (sample 0) without tyre scrub. They are simulated again
+/// only if the model has scrub.
 Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model, const ModeGains& gains,
                                                       const std::vector<Scenario>& scenarios,
                                                       const Comparison& comparison, int threads) {
@@ -150,9 +150,9 @@ struct Question {
   BreakEven entry;
 };
 
-/// Returns a Question for `setting.mode` and each mode of which it is ahead. The other mode has
-/// smaller wheel-force differences and a worse score. It is left out if it completes the scenario
-/// and `setting.mode` does not. `rows`: the rows of sample 0, the nominal model.
+/// Returns a Question for `setting.mode` and each mode of which it is ahead: the other mode has
+/// smaller wheel-force differences and a worse score. Another mode is left out if it completes the
+/// scenario and `setting.mode` does not. `rows`: the rows of sample 0, the nominal model.
 std::vector<Question> questions_of(const ModeSetting& setting, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
@@ -209,7 +209,7 @@ void add_measured(const Model& model, BreakEven& entry) {
       lead_of(entry) != Lead::kOpen || !scrub->ci95_m.contains(*entry.yaw_coulomb_m)) {
     return;
   }
-  // With n turns, the half width of the measured interval is proportional to 1/sqrt(n). n is
+  // The half width of the measured interval is proportional to 1/sqrt(n) for n turns. n is
   // sufficient if the interval no longer contains the break-even scrub.
   constexpr double kMaxTurns = 1000.0;
   const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);

@@ -24,13 +24,13 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const ModeGains
                                              const CompareOptions& options);
 
 /// True if scrub was not measured at yaw rates like those of the run: the highest yaw rate of the
-/// run is more than a factor of 1.2 (kLittleFurther) outside the range of the measured ones. False
-/// if scrub was not measured at all.
+/// run is outside the measured range by more than a factor of 1.2 (kLittleFurther). False if scrub
+/// was not measured at all.
 bool turns_at_other_rates(const BreakEven& entry);
 
-/// Returns the break-even analysis as text for a terminal. It has for each pair of modes the
-/// smallest break-even scrub of all scenarios, and the result with the measured scrub. If scrub was
-/// not measured, it names the trials to record.
+/// Returns the break-even analysis as text for a terminal. For each pair of modes, it has the
+/// smallest break-even scrub of all scenarios, and whether the first mode stays better with the
+/// measured scrub. If scrub was not measured, the text names the trials to record.
 std::string break_even_table(const std::vector<BreakEven>& entries);
 
 }  // namespace awmr

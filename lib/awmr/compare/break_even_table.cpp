@@ -11,10 +11,10 @@
 namespace awmr {
 namespace {
 
-/// Text about one pair of modes with the measured scrub. It has the numbers of scenarios in which
-/// the first mode is still ahead, is no longer ahead, or the result is undecided. For undecided
-/// results, it adds the yaw rates at which scrub was not measured, and the number of turns that
-/// would decide a result. `all`: the entries of the pair.
+/// Text about one pair of modes with the measured scrub: the numbers of scenarios in which the
+/// first mode is still ahead, is no longer ahead, or undecided. For undecided results, it adds the
+/// yaw rates at which scrub was not measured, and the number of turns that would decide a result.
+/// `all`: the entries of the pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;
   int at_other_rates = 0;

@@ -42,11 +42,12 @@ struct Layout {
 using Slots = std::vector<std::optional<ComparisonRow>>;
 
 /// Longest run, in control steps, whose sensor noise is drawn in advance and shared by the modes.
-/// The noise takes 24 bytes per step and run, up to 38 MB for a batch.
+/// It limits the memory: noise takes 24 bytes per step and run, up to 38 MB for a batch.
 constexpr double kMaxSharedNoise = 1e5;
 
-/// Sensor noise of some samples of a scenario, used by blocks of runs in different modes and with
-/// different gains, possibly on different threads. The first block that needs the noise draws it; the last one frees it.
+/// Sensor noise of some samples of a scenario. Blocks of runs in different modes and with different
+/// gains use it, possibly on different threads. The first block that needs the noise draws it; the
+/// last one frees it.
 class SharedNoise {
  public:
   /// Noise of each sample, by the number of the sample.
@@ -84,9 +85,8 @@ struct Block {
   Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
 };
 
-/// Divides the samples of this part into blocks of kBatchRuns. The blocks of the same samples in
-/// all scenarios, gains and modes are consecutive, so that a stopped comparison has complete
-/// samples.
+/// Divides the samples of this part into blocks of kBatchRuns. Blocks of the same samples follow
+/// each other, for all scenarios, gains and modes. So a stopped comparison has complete samples.
 std::vector<Block> blocks_of(const Layout& layout, const Shard& shard) {
   std::vector<std::size_t> samples;
   for (std::size_t sample = 0; sample < layout.samples; ++sample) {
@@ -181,8 +181,8 @@ void run_block(const RunSetup& setup, const Block& block, Slots& slots,
   }
 }
 
-/// Runs the blocks of this part of the comparison. If the comparison is stopped, blocks that have
-/// begun are finished, and the others are left out.
+/// Runs the blocks of this part of the comparison. If the user stops the comparison, blocks that
+/// have begun are finished, and no further block starts.
 Result<Slots> run_blocks(const RunSetup& setup) {
   const CompareOptions& options = setup.options;
   const std::size_t count = setup.layout.count();

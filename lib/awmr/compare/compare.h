@@ -42,7 +42,7 @@ struct ComparisonRow {
   std::string gains = {};  ///< NamedGains::name
 };
 
-/// A yaw mode with a set of gains. The contenders of a scenario are ranked.
+/// A yaw mode with a set of gains. Contenders are ranked against each other in each scenario.
 struct Contender {
   YawMode mode{};
   std::string gains;  ///< NamedGains::name; empty if there is only one set
@@ -57,8 +57,8 @@ struct Contender {
 /// cases.
 inline constexpr int kFewSamples = 6;
 
-/// Maximum number of runs of a comparison. The number of runs is scenarios x sets of gains x modes
-/// x samples (including the nominal one). A run takes about 2 kB of memory.
+/// Maximum number of runs of a comparison: scenarios x sets of gains x modes x samples (including
+/// the nominal one). It limits the memory, of which a run takes about 2 kB.
 inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
@@ -72,23 +72,22 @@ struct CompareOptions {
   Preferences preferences = {};
   /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
-  /// Computes Comparison::changes, further rankings with one changed assumption each: on the plant
-  /// that the scenario does not use (3-DOF model or four wheels) and, with a single set of gains,
-  /// with slower and faster gains. If the comparison is divided into parts (`shard`), only part 1
-  /// computes these rankings.
+  /// Computes Comparison::changes: further rankings with one changed assumption each. One uses the
+  /// plant that the scenario does not use (3-DOF model or four wheels). With a single set of gains,
+  /// two others use slower and faster gains. If the comparison is divided into parts (`shard`),
+  /// only part 1 computes these rankings.
   bool other_settings = false;
-  /// Tyres of the four-wheel plant, used if `other_settings` repeats a scenario that has no tyres
-  /// itself.
+  /// Tyres with which `other_settings` simulates a scenario that has none.
   Tyres<double> tyres = {};
-  /// Part of the samples to run, to be combined by merge_shards() (shard.h); default: all samples.
+  /// Part of the samples to run; merge_shards() (shard.h) combines the parts. Default: all samples.
   /// There can be at most as many parts as samples, including the nominal one.
   Shard shard = {};
   /// Number of threads, >= 0; 0: one per core. Results do not depend on it.
   int threads = 0;
   /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// When *stop becomes true, runs in progress finish and no other run starts. Null: the comparison
-  /// cannot be stopped.
+  /// If *stop becomes true, no further run starts, and runs in progress finish. Null: the
+  /// comparison cannot be stopped.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -126,8 +125,8 @@ struct BreakEven {
 enum class Lead {
   kKept,  ///< the mode is ahead in the whole measured range, or with any scrub up to most_m
   kLost,  ///< the mode is ahead nowhere in the measured range
-  /// Undecided, and not kKept: the mode is ahead in only a part of the range, or scrub was not
-  /// measured at the yaw rates of the run.
+  /// Undecided: the mode is ahead in only a part of the range, or scrub was not measured at the yaw
+  /// rates of the run. Not used if kKept applies.
   kOpen,
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
@@ -186,10 +185,10 @@ struct Comparison {
 /// A scenario without sensors or actuators gets those of the vehicle (equipped() in
 /// simulate/conditions.h).
 /// For a sample, the fitted parameters are drawn from the model's covariance
-/// (simulate/plant_sampler.h); noise and disturbances are drawn with the seeds of scenario and
+/// (simulate/plant_sampler.h). Noise and disturbances are drawn with the seeds of scenario and
 /// options. All modes and gains use the same draws. The controller uses the nominal parameters. A
 /// block of kBatchRuns samples (simulate/batch.h) is finished in every scenario and mode before the
-/// next block starts, so a stopped comparison is valid for the samples that it finished.
+/// next block starts. So a stopped comparison is valid for the samples that it finished.
 ///
 /// Errors (input): the model lacks a parameter, a covariance (with samples) or an interval that a
 /// scenario's corner needs; no scenario or gains, or two of the same name; a negative number of

@@ -22,13 +22,14 @@ std::vector<Finding> compare_findings(const Model& model, const std::vector<Scen
                                       const HeadingRateChoice& rate);
 
 /// Returns the warning `incomplete-if-changed` for each scenario and change (other plant, slower or
-/// faster gains) with which a mode completes no run, although it completes some without the change.
+/// faster gains) that makes a mode fail: it completes some runs without the change, and none with
+/// it.
 std::vector<Finding> completion_findings(const Comparison& comparison);
 
 /// Returns the warning `beyond-trials` if a run turns faster than 1.2 times the highest yaw rate of
 /// the trials from which yaw resistance was identified. The warning is about the run with the
-/// highest yaw rate. Empty if no run does, or if the yaw rate of the trials is unknown.
-/// `provenance`: provenance of the comparison.
+/// highest yaw rate. Empty if no run turns so fast, or if the yaw rate of the trials is unknown.
+/// `provenance`: origin of the comparison (its input files).
 std::vector<Finding> extrapolation_findings(const Comparison& comparison,
                                             const Provenance& provenance);
 

@@ -17,8 +17,8 @@
 namespace awmr {
 namespace {
 
-/// Largest accepted value of a metric. Larger ones could make sums of squares over the samples
-/// infinite.
+/// Largest accepted value of a metric, far above any real one. Larger values could make sums of
+/// squares over the samples infinite.
 constexpr double kLargest = 1e100;
 
 template <class Number>
@@ -27,8 +27,7 @@ bool read_number(const std::string& text, Number& value) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
-/// Reads a row of comparison.csv. Empty if the cells are not valid, that is, if comparison_csv()
-/// does not write such cells.
+/// Reads a row of comparison.csv. Empty if comparison_csv() cannot have written these cells.
 std::optional<ComparisonRow> row_of(const std::vector<std::string>& cells, bool with_gains) {
   constexpr std::size_t kFirst = 4;
   if (cells.size() != kFirst + kMetricColumns.size() + (with_gains ? 1 : 0)) return std::nullopt;

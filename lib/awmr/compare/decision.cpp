@@ -68,9 +68,9 @@ std::optional<NarrowLead> narrow_lead_of(const ScenarioRows& scenario,
   return lead;
 }
 
-/// Returns the weights with which `own` is furthest behind `other`. Each weight w_k is multiplied
-/// or divided by kWeightFactor. Let d_k be the mean loss (log_loss()) of own minus that of other in
-/// metric k, and m = ln(1 + relevance). Own is behind if
+/// Returns the weights with which `own` is furthest behind `other`. Each weight w_k may be
+/// multiplied or divided by kWeightFactor. Let d_k be the mean loss (log_loss()) of own minus that
+/// of other in metric k, and m = ln(1 + relevance). Own is behind if
 ///   sum over k of w_k (d_k - m) > 0.
 /// Each term is maximised separately: w_k is multiplied by the factor if d_k > m, else divided.
 Preferences worst_weights(const ModeRows& own, const ModeRows& other,

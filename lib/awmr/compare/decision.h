@@ -34,9 +34,9 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
      {"level", DecisionKind::kLevel},
      {"undecided", DecisionKind::kUndecided}}};
 
-/// A lead by one metric alone: the only mode of rank 1 is relevantly better than another mode in
-/// just one ranked metric, and relevantly worse in some. With the weight of the one metric divided
-/// by kWeightFactor, the other mode has rank 1, too.
+/// A lead by one metric alone. The only mode of rank 1 is relevantly better than another mode in
+/// just one ranked metric, and relevantly worse in some. If the weight of this metric is divided by
+/// kWeightFactor, the other mode has rank 1, too.
 struct NarrowLead {
   MetricId metric{};
   std::vector<Contender> others;  ///< these other modes
@@ -85,7 +85,7 @@ std::string text_of(const Change& change);
 
 /// Verdict on a scenario in one sentence: the best mode, how far the others are behind, and how
 /// robust the result is. A single mode of rank 1 is called "ahead here" instead of "best" if it
-/// does not keep rank 1 with another plant, other weights or other gains.
+/// loses rank 1 with another plant, other weights or other gains.
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
                        const std::optional<Decision>& decision,
                        const std::vector<PairedDifference>& differences,

@@ -44,8 +44,8 @@ struct MetricColumn {
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
   /// Differences of the metric up to this floor do not matter, in the metric's unit, >= 0
-  /// (scoring.h). A metric with a floor above 0 can be used to rank modes, and lower values are
-  /// better. A metric with the floor 0 is never used.
+  /// (scoring.h). Above 0: the metric can be used to rank modes, and lower values are better. 0:
+  /// the metric is never used to rank.
   double ranking_floor = 0.0;
   double default_weight = 0.0;  ///< weight in the ranking, unless the user sets it
 
@@ -59,10 +59,10 @@ struct MetricColumn {
   }
 };
 
-/// All metrics. The following have the default weight 1 in the ranking: heading and cross-track
-/// error, settling and finishing time, speed drop, mechanical work and tyre work. All others have
-/// the weight 0. Sideslip, for example, follows from the geometry of the turn, and the control
-/// variation is nearly 0 in some modes, so that its ratios mean little.
+/// All metrics. These have the default weight 1 in the ranking: heading and cross-track error,
+/// settling and finishing time, speed drop, mechanical work and tyre work. All others have the
+/// weight 0. For example, sideslip follows from the geometry of the turn. The control variation is
+/// nearly 0 in some modes, so its ratios mean little.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,
      1.0},

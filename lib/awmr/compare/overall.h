@@ -39,9 +39,9 @@ std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison,
 /// Returns the scenarios that have a ranking.
 std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& scenarios);
 
-/// Finds scenarios with identical runs: all metrics of all modes and samples are equal. Returns for
-/// each scenario the index of the first scenario with the same runs; its own index, if no earlier
-/// one has them. Summaries count only the first of identical scenarios.
+/// Finds scenarios with identical runs, in which all metrics of all modes and samples are equal.
+/// Returns for each scenario the index of the first scenario with the same runs, or its own index.
+/// Summaries count only this first scenario.
 std::vector<std::size_t> first_with_same_runs(const std::vector<EvaluatedScenario>& scenarios);
 
 /// For each metric that can be used to rank modes, counts the scenarios in which a contender (a

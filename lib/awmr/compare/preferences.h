@@ -14,8 +14,8 @@
 namespace awmr {
 
 inline constexpr double kMaximumWeight = 1000.0;
-/// Permitted range of Preferences::relevance. Smaller margins make all scores nearly equal: the
-/// offset floor/relevance, which is added to each metric (scoring.h), is at 0.001 already above
+/// Permitted range of Preferences::relevance. A smaller margin would make all scores nearly equal:
+/// the offset floor/relevance is added to each metric (scoring.h), and at 0.001 it is already above
 /// most values of the metrics. With 0, rounding could decide a rank.
 inline constexpr NumberRule kRelevance{.min = 0.001, .max = 1.0};
 
@@ -23,8 +23,9 @@ struct Preferences {
   /// Weights by name of the metric, in [0, kMaximumWeight]. A metric that is not listed has its
   /// default weight (metric_columns.h).
   std::map<std::string, double, std::less<>> weights;
-  /// Relevance margin, in kRelevance. Relative differences of a metric up to this do not matter,
-  /// nor do differences up to the metric's floor (MetricColumn::ranking_floor).
+  /// Relevance margin, in kRelevance. Two values of a metric count as equal if their relative
+  /// difference is at most this, or their difference is at most the metric's floor
+  /// (MetricColumn::ranking_floor).
   double relevance = 0.05;
   friend bool operator==(const Preferences&, const Preferences&) = default;
 };

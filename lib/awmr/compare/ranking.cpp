@@ -60,9 +60,9 @@ Behind behind(const RankingEntry& own, const RankingEntry& leader, double releva
   return {ratio, within ? Conclusion::kEquivalent : Conclusion::kUndecided};
 }
 
-/// Divides a count of 1 equally among the best entries. These are the entries whose value is within
-/// `margin` of the smallest, because smaller differences do not matter. Entries that complete too
-/// few runs (RankingEntry::completes) are ignored.
+/// Divides a count of 1 equally among the best entries. An entry is one of the best if its value is
+/// within `margin` of the smallest, because smaller differences do not matter. Entries that
+/// complete too few runs (RankingEntry::completes) are ignored.
 template <class Value>
 void count_best(const std::vector<RankingEntry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
@@ -116,8 +116,8 @@ bool is_scored(MetricId metric, const std::vector<ScoredMetric>& scoring) {
                      [&](const ScoredMetric& scored) { return scored.metric->id == metric; });
 }
 
-/// True if two modes are equivalent in every scored metric that both have. The difference of the
-/// two scores then does not matter, even if it is significant.
+/// True if two modes are equivalent in every scored metric that both have. Even a significant
+/// difference of their scores then does not matter.
 bool equivalent_in_all(const Contender& a, const Contender& b,
                        const std::vector<ScoredMetric>& scoring,
                        const std::vector<PairedDifference>& differences) {

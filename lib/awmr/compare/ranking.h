@@ -22,16 +22,16 @@ struct RankedMode {
   double completed_share = 0.0;  ///< share of completed runs, in [0, 1]
   /// 95 % interval of `score`; absent for the first mode, and below 2 samples.
   std::optional<Interval> behind_ci95;
-  /// Conclusion from comparing the score with that of a leader; kRelevant: this mode is worse,
-  /// completes significantly less often, or never although the leader does. The leader is the best
-  /// mode of the same rank. For the best mode of a rank, it is the best mode of the rank above.
-  /// Absent for the first mode.
+  /// Conclusion from comparing this mode with its leader; absent for the first mode. The leader is
+  /// the best mode of the same rank; for this best mode, it is the best mode of the rank above.
+  /// kRelevant: this mode has a worse score, completes significantly less often, or never completes
+  /// although the leader does.
   std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the other modes of the same rank
-  /// Share in [0, 1] of random weightings of the metrics with which this mode has the best score;
-  /// and the same for the samples instead of weightings (absent below 2 samples).
-  ///   - A weighting or sample is divided equally among all modes whose score is within `relevance`
-  ///     of the best.
+  /// Share in [0, 1] of random weightings of the metrics with which this mode has the best score.
+  /// first_by_samples: the same for the samples; absent below 2 samples.
+  ///   - If the scores of several modes are within `relevance` of the best, they share a weighting
+  ///     or sample equally.
   ///   - A mode that completes significantly less often has the shares 0.
   ///   - Modes that are tied for rank 1 get the mean of their shares of weightings and, if they are
   ///     equivalent, the mean of their shares of samples.
@@ -62,9 +62,10 @@ inline constexpr std::string_view kNotRanked =
 /// a heading error, a cross-track error or a finish time.
 bool has_a_goal(const ScenarioRows& scenario);
 
-/// Ranks the modes, best first. Empty if no metric with a weight applies, or if the scenario has no
-/// target (open loop), because lower metrics are then not better. `statistics`: statistics_of()
-/// this scenario, with preferences of the same relevance. `seed`: seed of the random weightings.
+/// Ranks the modes, best first. Empty if no metric with a weight applies. Also empty if the
+/// scenario has no target (open loop): lower metrics are then not better. `statistics`:
+/// statistics_of() this scenario, with preferences of the same relevance. `seed`: seed of the
+/// random weightings.
 std::vector<RankedMode> rank(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                              const Preferences& preferences = {}, std::uint64_t seed = 1);
 

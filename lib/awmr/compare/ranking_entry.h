@@ -29,8 +29,8 @@ struct RankingEntry {
 };
 
 /// True if two modes complete the scenario about equally often: the exact McNemar test finds no
-/// significant difference. False if only one of the two completes any run. With a single run, the
-/// numbers must be equal.
+/// significant difference between the paired runs. False if only one of the two completes any run.
+/// With a single run, both or neither must complete it.
 bool complete_alike(const ModeRows& a, const ModeRows& b);
 
 /// Returns the modes of a scenario, best first: those that complete often enough

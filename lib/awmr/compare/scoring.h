@@ -31,18 +31,18 @@ std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
 /// Loss of a run in one metric, ln(x + f): x is the value of the metric (0 if negative), and f the
-/// metric's floor divided by the relevance margin. The offset f prevents ratios of small values
-/// from dominating the score: adding floor + relevance x to x multiplies x + f by 1 + relevance,
-/// whatever x is.
+/// metric's floor divided by the relevance margin. Without the offset f, ratios of small values
+/// would dominate the score. With it, adding floor + relevance x to x always multiplies x + f by 1
+/// + relevance.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
 /// Mean of log_loss() over the drawn samples of a mode, or its value for the nominal run if there
 /// are none (ModeRows::counted).
 double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored);
 
-/// Score of a run, lower is better: the weighted sum of log_loss() over its metrics. If the score of
-/// a run is larger by D than that of another one, its values x + f (log_loss()) are exp(D) times as
-/// large, as the weighted geometric mean over the metrics.
+/// Score of a run, lower is better: the weighted sum of log_loss() over its metrics. A score that
+/// is larger by D means that the values x + f (log_loss()) are exp(D) times as large, as the
+/// weighted geometric mean over the metrics.
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring);
 
 /// log_score() of each drawn sample of a mode, or of the nominal run if there are none

@@ -24,7 +24,7 @@ PartText comparison_part(const Comparison& part, const CompareOptions& options,
 /// Result of merge_shards(): the whole comparison, with the data that its output files need.
 struct Merged {
   Comparison comparison;
-  /// Options of the parts. Only samples, seed and preferences are set.
+  /// Options of the parts; only samples, seed and preferences are set
   CompareOptions options;
   Provenance provenance;
   /// completion_findings() and extrapolation_findings() of all runs, then the findings of the first

@@ -30,8 +30,8 @@ std::optional<double> difference(const MetricColumn& metric, const Metrics& a, c
   return *x - *y;
 }
 
-/// Differences of all metrics between all pairs of contenders. A row is one metric of one pair, and
-/// a column is one sample, so that a bootstrap resample is a sum of columns.
+/// Differences of all metrics between all pairs of contenders. Each row is one metric of one pair,
+/// each column one sample, so that a bootstrap resample is a sum of columns.
 struct Differences {
   std::vector<PairedDifference> results;
   Eigen::ArrayXXd values;  ///< difference; 0 if a contender of the pair has no value

@@ -31,12 +31,11 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 /// True if any mode has the metric in any counted run.
 bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 
-/// Returns the fraction of the sorted bootstrap means to cut off on each side of an interval. With
-/// it, the true mean is beyond this end of the interval with the probability `tail` (Hesterberg's
-/// expanded percentiles):
+/// Returns the fraction of the sorted bootstrap means to cut off at each end, so that the true mean
+/// is beyond this end with the probability `tail` (Hesterberg's expanded percentiles):
 ///   Phi(-t sqrt(n/(n-1))),  t: the 1 - tail quantile of Student's t with n - 1 degrees of freedom
-/// Phi is the standard normal distribution function, n is `count`, the number of values. Cutting
-/// off `tail` itself would make the intervals too narrow for few values. Below kFewSamples values,
+/// Phi is the standard normal distribution function, and n = `count` the number of values. Cutting
+/// off `tail` itself would make intervals from few values too narrow. Below kFewSamples values,
 /// they are too narrow even with this correction.
 double bootstrap_tail(std::size_t count, double tail);
 
@@ -59,7 +58,7 @@ struct PairedDifference {
   std::optional<Interval> ci95;  ///< 95 % interval of the mean; absent for fewer than 2 samples
   std::optional<double> p;       ///< p-value of the paired t test; absent for fewer than 2 samples
   /// p with Holm's correction for the number of differences in the scenario. The difference is
-  /// significant if it is below 0.05; the probability of any false positive in the scenario is then
+  /// significant if it is below 0.05. Any false positive in the scenario then has a probability of
   /// at most 5 %.
   std::optional<double> p_holm;
   /// Largest difference that does not matter, in the metric's unit, >= 0: the larger of the
@@ -92,10 +91,9 @@ struct ScenarioStatistics {
   /// Differences of every metric between every pair of contenders with the same gains or the same
   /// mode.
   std::vector<PairedDifference> differences;
-  /// Bootstrap means from which intervals of scores follow: for each mode and metric (index:
-  /// loss_row()), the mean log_loss() (scoring.h) in each resample; 0 for metrics that are never
-  /// ranked. Empty below 2 samples. The mean score with any weights is a weighted sum of these
-  /// series.
+  /// Means of log_loss() (scoring.h) for each mode and metric (index: loss_row()), in each
+  /// bootstrap resample. A weighted sum of these rows is the mean score with these weights, from
+  /// which its interval follows. 0 for metrics that are never ranked; empty below 2 samples.
   std::vector<std::vector<double>> resampled_losses;
 };
 

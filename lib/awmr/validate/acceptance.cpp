@@ -23,8 +23,8 @@ namespace {
 constexpr double kLevel = 0.95;
 constexpr double kShortest_s = 2.0;
 /// Number of the first random stream of the predicted drives. Drive i draws its latencies, its
-/// initial state and its added noise from the stream kReadingsStream + i. The number is so large
-/// that the simulator uses none of these streams.
+/// initial state and its added noise from the stream kReadingsStream + i. The number is large
+/// enough that the simulator uses none of these streams.
 constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
@@ -191,8 +191,8 @@ Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> d
 }
 
 /// For each predicted drive, the largest ratio of distance to usual distance
-/// (Compared::largest/Compared::usual) over the channels. The division makes the channels
-/// comparable.
+/// (Compared::largest/Compared::usual) over the channels. The usual distance makes channels
+/// comparable that have different distributions.
 std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std::size_t draws) {
   std::vector<double> factors(draws);
   for (const Compared& one : channels) {
@@ -252,8 +252,8 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
     result.channels.push_back(evaluate(one, allowed));
     reached = std::max(reached, result.channels.back().distance / one.usual);
   }
-  // p counts the logged drive as well as the n predicted ones: if the model is right, the rank of
-  // the logged drive among all n + 1 drives is uniformly distributed.
+  // p counts the logged drive among the n predicted ones. If the model is right, the rank of the
+  // logged drive among all n + 1 drives is uniformly distributed.
   const auto as_far = std::count_if(factors.begin(), factors.end(),
                                     [&](double factor) { return factor >= reached; });
   result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);

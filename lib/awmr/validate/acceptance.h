@@ -18,7 +18,8 @@ namespace awmr {
 
 struct AcceptanceOptions {
   YawMode mode = YawMode::kCombined;
-  /// Number of predicted drives, 39 ... 10000. Fewer than 39 cannot resolve a p-value of 0.05.
+  /// Number of predicted drives, 39 ... 10000. With fewer than 39, the p-value is too coarse to
+  /// compare with 0.05.
   int draws = 200;
   std::uint64_t seed = 1;
   /// Time in the log, s, at which the scenario begins. Absent: the time of the first row with a
@@ -28,8 +29,8 @@ struct AcceptanceOptions {
 };
 
 /// One channel of the drive, compared with the predicted drives. Measured and predicted values are
-/// averaged over windows of half a second. The distance of a window is the difference of its mean
-/// from the mean of the predictions, divided by the standard deviation of the predictions.
+/// averaged over windows of half a second. The distance of a window is its measured mean minus the
+/// mean of the predictions, in magnitude, divided by the standard deviation of the predictions.
 struct ChannelAcceptance {
   std::string channel;  ///< name: "heading_rad", "force_left"
   std::string unit;
@@ -38,13 +39,15 @@ struct ChannelAcceptance {
   /// True: `noise` was estimated from the log, because neither scenario nor vehicle gives it.
   bool noise_from_log = false;
   double distance = 0.0;  ///< largest distance of a window, >= 0
-  /// Limit of the distance: 95 % of the predicted drives are within the limits of all channels.
+  /// Limit of `distance`. The limits of all channels together are chosen so that 95 % of the
+  /// predicted drives are within them.
   double allowed = 0.0;
   bool inside = false;  ///< true: distance <= allowed
   /// Scenario time, s, of the first window whose distance is larger than allowed. Absent if there
   /// is no such window.
   std::optional<double> outside_since_s = {};
-  double difference = 0.0;  ///< measured minus predicted mean, window of `distance`, in `unit`
+  double difference = 0.0;  ///< measured minus predicted mean in the window with the largest
+                            ///< distance, in `unit`
 };
 
 /// A possible cause of the difference between the logged drive and the prediction: a change of one
@@ -63,12 +66,12 @@ struct Acceptance {
   std::string scenario;
   YawMode mode{};
   double from_s = 0.0;  ///< time in the log at which the scenario begins
-  /// Duration of the comparison, s. It ends with the log, the scenario or the shortest simulated
-  /// run, whichever is first.
+  /// Duration of the comparison, s. It ends when the log, the scenario or the shortest simulated
+  /// run ends.
   double duration_s = 0.0;
   int draws = 0;
-  /// Fraction of all drives (the predicted ones and the logged one) that are at least as far from
-  /// the prediction as the logged one.
+  /// Fraction of all drives (predicted and logged) that are at least as far from the prediction as
+  /// the logged drive.
   double p_value = 0.0;
   bool inside = false;  ///< true: p_value > 0.05, the drive agrees with the prediction
   std::vector<ChannelAcceptance> channels = {};
@@ -76,11 +79,12 @@ struct Acceptance {
   std::vector<FaultHypothesis> hypotheses = {};
 };
 
-/// Simulates the scenario with vehicles drawn from the model's covariance (without a covariance,
-/// with the model itself), and compares the logged drive with these predicted drives. They start
-/// from the state at the beginning of the logged drive. Sensor noise, sensor latency and motor lag
-/// are those of the scenario or the vehicle. If neither has a value, noise is estimated from the
-/// log, and latencies and lag are drawn between 0 and twice the defaults of LoopConditions.
+/// Simulates the scenario with vehicles drawn from the model's covariance, and compares the logged
+/// drive with these predicted drives. (A model without covariance is itself the vehicle of every
+/// drive.) The predicted drives start from the state at the beginning of the logged drive. Sensor
+/// noise, sensor latency and motor lag are those of the scenario or the vehicle. If neither gives a
+/// value, noise is estimated from the log, and latencies and lag are drawn between 0 and twice the
+/// defaults of LoopConditions.
 /// Errors (input): the vehicle does not have the yaw mode of the options; the log has no command,
 /// or less than 2 s of the scenario; from_s is not within the log; options.draws is out of range;
 /// the errors of simulate(), controller_for() and PlantSampler.

@@ -1,7 +1,7 @@
 /// Checks of the paper's claims C1 to C14 by simulation of a model. Private to validate/.
 ///
-/// The paper does not give numbers for its terms ("fast", "slight", "no overshoot"). Each check
-/// therefore has its own numerical criterion for "reproduced", which is part of the output
+/// The paper uses terms without numbers ("fast", "slight", "no overshoot"). Therefore each check
+/// has a numerical criterion for "reproduced", chosen here and printed in the output
 /// (Claim::tolerance). A claim that does not meet it is reported as not reproduced, with the
 /// simulated numbers (Claim::figure).
 #pragma once
@@ -35,7 +35,7 @@ struct ModeRun {
 using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 
 /// Calls simulate(). If simulate() returns an error, the result is a run of one row that ends as
-/// kFailed, so that the claim is not reproduced.
+/// kFailed. The claim is then not reproduced.
 Run run_or_failed(const Model& model, const ModeGains& gains, const Scenario& scenario,
                   YawMode mode);
 /// Common inputs of the claims' simulations.
@@ -86,11 +86,11 @@ std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 ///                                                                   [paper 5, section 7]
 std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);
 
-/// Longest settling time that counts as fast in C3, s: the time for the heading step at the largest
+/// Longest settling time that counts as fast in C3, s: the heading step divided by the largest
 /// steady yaw rate of the mode, plus 4 (T1 + 2 T2). T1 = 1/lambda and T2 = epsilon/(2 mu) are time
 /// constants of the heading law with the paper's gains. The sliding variable S decays with the time
-/// constant 2 T2, then the heading error decays with T1. After four time constants e^-4 = 1.8 %
-/// remains, which is within the settling band of 2 %.
+/// constant 2 T2, then the heading error with T1. After four time constants e^-4 = 1.8 % remains,
+/// which is within the settling band of 2 %.
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
                           double step_rad, double speed_mps);
 /// Number of reversals of a signal. A reversal is a return by more than `band` from the signal's

@@ -32,8 +32,8 @@ double white_noise(const std::vector<double>& values, double quantum) {
   return std::max(least, spread / std::sqrt(6.0));
 }
 
-/// A sensor of the controller, as pointers to members: where a scenario's Sensors have the errors
-/// of the sensor, and where a run's Measurement has its reading.
+/// A sensor of the controller, as pointers to members: the sensor's errors in a scenario's Sensors,
+/// and its reading in a run's Measurement.
 struct ControllersSensor {
   Channel Sensors::*errors;
   double Measurement<double>::*reading;

@@ -19,8 +19,8 @@ namespace awmr {
 struct DriveChannel {
   std::string name;
   std::string unit;
-  /// Returns the value of the channel in a row of a simulated run: for a command, the command; for
-  /// a measured quantity, the reading of the controller's sensor, or the state if there is no
+  /// Returns the value of the channel in a row of a simulated run. For a measured quantity, it is
+  /// the reading of the controller's sensor, or the true state if the controller has no such
   /// sensor.
   std::function<double(const RunRow& row)> of_run;
   double noise = 0.0;           ///< standard deviation of the noise of a reading, in `unit`
@@ -54,8 +54,9 @@ LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Veh
 
 /// Returns the measured channels of the log and its commands, over duration_s from row `first`,
 /// each with the standard deviation of its noise. Sensors of the controller have the noise and
-/// rounding of the scenario. If these are 0, and for every other sensor, the noise is estimated
-/// from the log. Commands have no noise. Precondition: the scenario has `sensors`.
+/// rounding that the scenario gives. The noise of other sensors, or of those with 0 in the
+/// scenario, is estimated from the log. Commands have no noise. Precondition: the scenario has
+/// `sensors`.
 std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, double duration_s,
                                       const Scenario& scenario);
 

@@ -14,15 +14,15 @@
 namespace awmr {
 namespace {
 
-/// Criterion for the claim that the distance d from the line tends to 0: largest |d| in the last
-/// quarter of the run, as a fraction of the lane's half width.
+/// Criterion of C9, that the distance d from the line tends to 0: largest |d| in the last quarter
+/// of the run, as a fraction of the lane's half width.
 constexpr double kOnTheLineShare = 0.01;
-/// Criterion for the claim that the modes avoid obstacles alike: the longest finishing time of a
-/// mode exceeds the shortest by at most this fraction.
+/// Criterion of C10, that the modes avoid obstacles alike: the longest finishing time of a mode
+/// exceeds the shortest by at most this fraction.
 constexpr double kAlikeShare = 0.10;
-/// Criterion for the claim that the timed path is followed: largest distance from the moving point
-/// of the path. It is a twentieth of the path's width of 20 m; less is hardly visible in a printed
-/// figure.
+/// Criterion of C11, that the timed path is followed: largest distance from the moving point of the
+/// path. It is a twentieth of the path's width of 20 m; a smaller distance is hardly visible in a
+/// printed figure.
 constexpr double kPathTolerance_m = 1.0;
 /// A value counts as equal to the best one if it is at most this fraction larger.
 constexpr double kAsGoodShare = 0.01;

@@ -17,7 +17,8 @@ struct ChannelValidation {
   std::string unit;
   int samples = 0;
   PredictionError one_step;  ///< errors of the prediction from each measured row to the next
-  /// Errors of the prediction over windows of LogValidation::horizon_s, each from a measured state.
+  /// Errors of the prediction over windows of up to LogValidation::horizon_s. Each window starts
+  /// from a measured state.
   PredictionError long_horizon;
   PredictedSeries series = {};  ///< long-horizon prediction, reduced to the points for a chart
 };
@@ -32,9 +33,10 @@ struct LogValidation {
   bool passed = false;
 };
 
-/// Predicts the channels of the log from its commands. A channel that does not vary (a vehicle at
-/// rest) has no NRMSE (RMS error divided by the standard deviation of the measurements) and is left
-/// out. `tolerance`: largest accepted NRMSE. `motor_lag_s`: time constant of the motors, s, >= 0.
+/// Predicts the channels of the log from its commands. A channel is accepted if its NRMSE (RMS
+/// error divided by the standard deviation of the measurements) is at most `tolerance`. A channel
+/// that does not vary (a vehicle at rest) has no NRMSE and is left out. `motor_lag_s`: time
+/// constant of the motors, s, >= 0.
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s = 0.0);
 

@@ -17,8 +17,8 @@
 namespace awmr {
 namespace {
 
-/// Factor on m', the normalised mass, with which a tyre friction of 0.8 is just enough for full
-/// thrust (open_cases.h).
+/// Factor on the normalised mass m'. With the increased m', a tyre friction of 0.8 is just enough
+/// for full thrust (open_cases.h).
 double mass_factor(const Model& model) {
   const double least_mass_norm = kFullThrust / (kTyreFriction * kGravity_mps2);
   return least_mass_norm / *model[ParameterId::kMassNorm].value;
@@ -40,7 +40,8 @@ ControlOptions control_in(const ClaimCase& open) {
 }
 
 /// Divides the indices of the cases into batches with the same allocation and split. A batch has at
-/// most two cases, because the six runs of claim C11 (two cases in three modes) take 120 MB.
+/// most two cases, to limit the memory: the six runs of claim C11 (two cases in three modes) take
+/// 120 MB.
 std::vector<std::vector<std::size_t>> batches_of(const std::vector<ClaimCase>& cases) {
   constexpr std::size_t kCasesMax = 2;
   std::map<std::pair<AllocationForm, CombinedSplit>, std::vector<std::size_t>> open;
@@ -61,8 +62,8 @@ ClaimCase with_result(ClaimCase open, bool reproduced) {
   return open;
 }
 
-/// Settings of a case as numbers. If two cases have the same key after Setting::forget() of one
-/// setting, they differ only in this setting.
+/// Settings of a case as numbers. Two cases with the same key after Setting::forget() of one
+/// setting differ only in this setting.
 using Key = std::tuple<int, double, double, double, int>;
 /// A setting that the paper leaves open.
 struct Setting {

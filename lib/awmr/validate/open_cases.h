@@ -21,7 +21,8 @@
 
 namespace awmr {
 
-/// Returns all combinations. If the model's m' is at least 2/(0.8 g), they include only its m'.
+/// Returns all combinations. If the model's m' already is at least 2/(0.8 g), m' and I'z are not
+/// varied.
 std::vector<ClaimCase> open_cases(const Model& model);
 
 /// Adds to each claim its verdict in all cases, and the settings on which the verdict depends.
@@ -31,9 +32,9 @@ void add_open_cases(const Model& model, const std::optional<ModeGains>& gains,
                     const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
                     const Progress& progress = {});
 
-/// Text of the settings on which the verdict depends, the most decisive first. "wheel_force (8 of
-/// 12)": in 8 of the 12 combinations of the other settings, the verdict depends on wheel_force.
-/// Empty if the verdict is the same in all cases.
+/// Text of the settings on which the verdict depends, the most decisive first. Example:
+/// "wheel_force (8 of 12)" means that the verdict depends on wheel_force in 8 of the 12
+/// combinations of the other settings. Empty if the verdict is the same in all cases.
 std::string decisive_settings(const std::vector<ClaimCase>& cases);
 
 }  // namespace awmr

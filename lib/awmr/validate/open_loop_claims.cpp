@@ -19,8 +19,8 @@ namespace {
 constexpr double kCircleTurn_m = 0.4;  ///< the paper's constant tau_turn [paper 3.5.2]
 
 /// Largest accepted relative difference between the final speed and the solution of g1(u) =
-/// tau_speed. At the end of the run the transient has decayed, and the error of the integrator is
-/// far smaller than this.
+/// tau_speed. The error of the integrator is far smaller, and the transient has decayed at the end
+/// of the run.
 constexpr double kSteadyTolerance = 1e-3;
 /// Largest accepted relative difference from a measured speed: 5 %, because the paper's Table 2
 /// itself has an error of 5 % (it prints 1.03 m/s for 10 m in 9.26 s, which is 1.080 m/s).

@@ -11,7 +11,8 @@ namespace awmr {
 namespace {
 
 /// Criterion for "without overshoot", "without steady error" and "constant": largest difference of
-/// the speed from u_d, as a fraction of u_d. It is not visible in a printed figure.
+/// the speed from u_d, as a fraction of u_d. A smaller difference is not visible in a printed
+/// figure.
 constexpr double kNoSpeedError = 0.01;
 /// Criterion for a "slight" drop: largest drop, as a fraction of u_d.
 constexpr double kSlightDrop = 0.20;
@@ -47,8 +48,8 @@ std::string why_it_converges(bool none_over, bool no_error) {
 }  // namespace
 
 /// Evaluates the overshoot of the speed from the start to the second heading step, and the speed
-/// error at the end of the run. The excess over u_d after the heading step is reported, but does
-/// not affect the verdict. (C5 evaluates the drop of the speed at the step.)
+/// error at the end of the run. An excess over u_d after the heading step is reported, but does not
+/// affect the verdict; C5 evaluates the drop of the speed there.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
   const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };

@@ -164,8 +164,8 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
 /// True if a log has longer time steps than the controller, so that the commands between its rows
 /// are unknown.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
-  // Limit of the ratio of time step to sample time. Above it, rows are missing; jitter of the time
-  // stamps alone stays below it.
+  // Largest ratio of time step to sample time that is explained by jitter of the time stamps. Above
+  // it, rows are missing.
   constexpr double kLonger = 1.2;
   return std::ranges::any_of(
       logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
@@ -185,9 +185,9 @@ std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) 
 }
 
 /// Increases the standard errors by the error due to unknown commands between the rows of a slow
-/// log (tyre_fit.h). For this the fit is repeated without every other logged command. Half of the
-/// resulting change is added in quadrature, so that a 95 % interval includes the change. Returns
-/// false if the repeated fit does not converge.
+/// log (tyre_fit.h). To estimate this error, the fit is repeated without every other logged
+/// command. Half of the resulting change is added in quadrature, so that a 95 % interval includes
+/// the change. Returns false if the repeated fit does not converge.
 bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant<double>& plant,
                                 double motor_lag_s, const Plants& plants, ShownFit& shown) {
   const std::vector<DrivingLog> halved = with_half_of_the_commands(logs);

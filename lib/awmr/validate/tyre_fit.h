@@ -4,9 +4,9 @@
 /// The tyre parameters are the friction mu and the cornering stiffness c_a; all other parameters
 /// stay as identified. The logs are divided into windows of 5 s, of which at most 60 are used,
 /// evenly chosen. Each window is simulated from its first measured state. Errors in the first
-/// second of a window do not count, because the unmeasured part of that state decays. The mean over
-/// the window is subtracted from the errors of heading and position. With the n_c errors e of
-/// channel c,
+/// second of a window do not count: the unmeasured part of its initial state must first decay. Each
+/// window's mean error of heading and position is subtracted from these errors. With the n_c errors
+/// e of channel c,
 ///
 ///     minimise over log mu, log c_a:    sum over c of n_c log(sum e^2 / n_c)
 ///
@@ -17,19 +17,20 @@
 ///
 ///     C = (W - 1)/W sum d_w d_w',    d_w = (H - J_w' J_w)^-1 J_w' e_w
 ///
-/// A log with longer time steps than the controller lacks commands. If commands change fast, this
-/// changes the fitted friction by several per cent. For such logs the fit is repeated with only
-/// every other command, held over two rows. With the result x2 of that fit, the standard error of
-/// each parameter becomes sqrt(C_ii + ((x2 - x)_i/2)^2).
+/// If the rows of a log are further apart than the controller's sample time, some commands are not
+/// in the log. If commands change fast, this changes the fitted friction by several per cent. For
+/// such logs, the fit is repeated with only every other command, held over two rows. With the
+/// result x2 of that fit, the standard error of each parameter becomes sqrt(C_ii + ((x2 -
+/// x)_i/2)^2).
 ///
 /// The better plant is found by cross-validation: the tyres are fitted to every other window and
 /// predict the remaining windows, then the two halves are exchanged. For each held-out window w
 ///
 ///     D_w = sum over c of log(sum e^2 of the 3-DOF model / sum e^2 of the four wheels).
 ///
-/// The mean of D_w has a 95 % interval by Student's t over the windows; if the interval contains 0,
-/// neither plant is better. The comparison favours the 3-DOF model if this was fitted to the same
-/// logs.
+/// The mean of D_w has a 95 % interval by Student's t over the windows. If the interval contains 0,
+/// neither plant is better. The comparison favours the 3-DOF model if that model was fitted to the
+/// same logs.
 #pragma once
 
 #include <filesystem>
@@ -71,11 +72,11 @@ inline constexpr std::size_t kMinTyreWindows = 12;
 /// Text in validation.json instead of the better plant if neither is better.
 inline constexpr std::string_view kUndecidedPlant = "undecided";
 
-/// Fits the tyres to the logs. A parameter is determined by the logs if it is inside its range and
-/// the standard error of its logarithm is at most 0.5. If only one is determined, the other keeps
-/// its default (warning `tyres-not-shown`). Returns nothing if the fit fails; a finding with the
-/// severity error has the reason: `tyres-need-turns` (too few windows, or too few with one kind of
-/// turn), `tyres-not-shown` (neither parameter is determined), `tyres-not-converged`. Other
+/// Fits the tyres to the logs. The logs determine a parameter if its estimate is inside its range
+/// and the standard error of its logarithm is at most 0.5. If they determine only one, the other
+/// keeps its default (warning `tyres-not-shown`). If the fit fails, returns nothing and adds a
+/// finding with the severity error: `tyres-need-turns` (too few windows, or too few with one kind
+/// of turn), `tyres-not-shown` (neither parameter is determined), `tyres-not-converged`. Other
 /// findings: `plants-compared` (note), `inertia-of-logs` (warning: I'z was fitted to logs with the
 /// 3-DOF model and can include moments of the tyres). Errors (input): the model lacks a parameter,
 /// or has a time constant too short for a simulation; the vehicle does not drive all four wheels.

@@ -31,9 +31,8 @@ Eigen::VectorXd weighted(const ReplayedWindow& window, const Weights& weights,
   return errors;
 }
 
-/// Step of the forward differences, in the logarithm of a parameter. With smaller steps,
-/// derivatives would be wrong where the errors jump because the simulation changes its integration
-/// step.
+/// Step of the forward differences, in the logarithm of a parameter. Smaller steps would give wrong
+/// derivatives, because the errors jump where the simulation changes its integration step.
 constexpr double kStepOfDerivative = 1e-3;
 
 class TyreCost : public ceres::CostFunction {

@@ -40,8 +40,8 @@ struct ShownFit {
 
 LogTyres default_tyres();
 
-/// Fits both parameters from several starts. If the windows do not determine one of them, sets it
-/// to its default and fits the other again. A fit that does not converge is returned at once
+/// Fits both parameters from several starts. If the windows do not determine one of them, sets this
+/// one to its default and fits the other again. A fit that does not converge is returned at once
 /// (Fit::converged is false). Empty if the windows cannot be simulated from any start.
 std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& plants);
 

@@ -32,8 +32,8 @@ std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& 
   return angles;
 }
 
-/// True for rows whose errors count: all rows after the first second of the window. Part of the
-/// initial state is not measured. The errors due to this part decay in the first second.
+/// True for rows whose errors count: all rows after the first second of the window. In this second,
+/// errors due to the unmeasured part of the initial state decay.
 bool counts(const LogWindow& rows, std::size_t row) {
   constexpr double kBegin_s = 1.0;
   return rows.log->t_s[row] - rows.log->t_s[rows.begin] >= kBegin_s;
@@ -53,8 +53,8 @@ struct ErrorsByRow {
   Eigen::Index count = 0;
 };
 
-/// Subtracts the mean over the window from the errors of heading and position. The initial heading
-/// and position are single measurements, whose errors would shift all later values of the window.
+/// Subtracts the mean over the window from the errors of heading and position. Reason: the initial
+/// heading and position are single measurements, whose errors shift all later values of the window.
 Eigen::VectorXd about_their_mean(const ReplayedWindow& window, Eigen::VectorXd errors) {
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     double sum = 0.0;

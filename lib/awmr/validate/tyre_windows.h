@@ -55,13 +55,13 @@ using Windows = std::vector<const ReplayedWindow*>;
 std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
                                        const std::vector<ReplayedLog>& replayed);
 
-/// All windows or, if there are more than 60, 60 of them, evenly chosen. With more windows the fit
-/// would be slower, but hardly better.
+/// All windows or, if there are more than 60, 60 of them, evenly chosen. More windows would slow
+/// down the fit and hardly improve it.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
 /// Cause of the turns in a window: different left and right wheel forces (by_sides), or the
-/// steering. At most one of the two is true. Its commands are not near 0, and the sum over the
-/// window of its squared yaw moment is at least 3 times that of the other cause.
+/// steering. At most one of the two is true. A cause is true if its commands are not near 0, and
+/// its squared yaw moment, summed over the window, is at least 3 times that of the other cause.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;
@@ -78,7 +78,8 @@ struct Plants {
         body(resolved_at_rest_on_tyres(on_tyres(plant), four_wheel_step_s)) {}
 
   /// Returns the plant with negligible sway resistance g2 and yaw resistance g3. On the four-wheel
-  /// plant the forces of the tyres replace both, and g3 would require short integration steps.
+  /// plant, the forces of the tyres replace both. A remaining g3 would require short integration
+  /// steps.
   static Plant<double> on_tyres(Plant<double> plant) {
     plant.sway_alpha = 0.0;
     plant.yaw = {.alpha = 1e-9, .beta = 1.0};

@@ -29,8 +29,8 @@ struct TrialResidual {
   std::optional<double> relative_error;  ///< (predicted - measured)/measured
 };
 
-/// A combination of the settings that the paper leaves open (open_cases.h), and the verdict on a
-/// claim with them.
+/// A combination of the settings that the paper leaves open (open_cases.h), and whether it
+/// reproduces a claim.
 struct ClaimCase {
   AllocationForm allocation = AllocationForm::kExact;
   Interval wheel_force;      ///< limits of F', the force of one wheel divided by F_max
@@ -74,8 +74,8 @@ struct Validation {
   std::vector<Acceptance> drives;  ///< results for drives of a scenario under the controller
   std::vector<Claim> claims;
   /// Verdict of the validation. True if every kind of trial and every log is predicted within its
-  /// tolerance, and every drive of a scenario agrees with the prediction. False if there are
-  /// neither trials, logs nor drives.
+  /// tolerance, and every drive of a scenario agrees with the prediction. False if there is nothing
+  /// to compare: neither trials, logs nor drives.
   bool passed = false;
   std::string verdict;  ///< `passed` and its reasons in one sentence
 };
@@ -99,11 +99,11 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
 
 /// Predicts the model's trials and checks the paper's claims. A claim that is not reproduced is a
 /// result about the paper, not about the model, so claims do not affect `passed`. Without gains,
-/// only C1, C2 and C14 are checked. The verdict names the claims that are left out because the
-/// model lacks parameters, or because the vehicle does not have four driven wheels and steering.
-/// Errors (input): the model lacks a parameter that its trials measure or, with gains, any
-/// parameter; the input or the measurement of a trial is not above 0; the tolerance is not above 0;
-/// the errors of batch_arithmetic().
+/// only C1, C2 and C14 are checked. Claims are left out if the model lacks parameters, or if the
+/// vehicle does not have four driven wheels and steering; the verdict names them. Errors (input):
+/// the model lacks a parameter that its trials measure or, with gains, any parameter; the input or
+/// the measurement of a trial is not above 0; the tolerance is not above 0; the errors of
+/// batch_arithmetic().
 Result<Validation> validate(const Model& model, const std::optional<ModeGains>& gains,
                             const ValidateOptions& options);
 
