@@ -45,8 +45,8 @@ bool is_null_at(const Json& document, const std::string& file, const std::string
   return document.contains(pointer) && document.at(pointer).is_null();
 }
 
-/// Reads a JSON file of the project. A null value is reported as missing, not as an error of the
-/// file, because the user still has to fill it in.
+/// Reads a JSON file of the project. A null value marks what the user still has to fill in. So it
+/// is reported as missing, not as an error of the file.
 template <class T>
 std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::path&),
                              Check& check) {
@@ -77,8 +77,8 @@ bool has_rows(const fs::path& path, Check& check) {
          std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
 }
 
-/// Returns one of the parameters that this kind of trial identifies. Messages describe the trial by
-/// trial_of() of this parameter.
+/// Returns one of the parameters that this kind of trial identifies. By this parameter, trial_of()
+/// finds the description of the trial for messages.
 ParameterId shown_by(TrialKind kind) {
   switch (kind) {
     case TrialKind::kTurning:
@@ -144,8 +144,8 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
            info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 
-/// If a fault of the file `path` is in the list, adds another fault whose message suggests column
-/// mappings. They are guessed from the file's column names.
+/// If the list has a fault of the file `path`, adds another fault that suggests column mappings.
+/// They are guessed from the file's column names.
 void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& options,
                       std::vector<Fault>& faults) {
   const std::string place = path.string() + ":";
@@ -185,8 +185,8 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
-  // A column mapping that no file uses is usually a fault. It is accepted as long as some files
-  // have no rows, because the mapping may be for one of these files, which are not read.
+  // A column mapping that no file uses is usually a fault. But as long as some files have no rows,
+  // it may be for one of these files, which are not read. It is then accepted.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;
@@ -202,8 +202,8 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const std::vector<Finding>& found = trials->findings;
   check.notes.insert(check.notes.end(), found.begin(), found.end());
   if (as_is || std::none_of(found.begin(), found.end(), contradicts)) return;
-  // Reads the trials again without `as_is`. Each contradiction is then reported as a fault with the
-  // column mapping that corrects it.
+  // Reads the trials again without `as_is`. Then each contradiction is a fault, whose message has
+  // the column mapping that corrects it.
   std::erase_if(check.notes, contradicts);
   files.options.as_is = false;
   if (const auto refused = load_trials(files); !refused) {

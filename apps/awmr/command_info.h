@@ -1,5 +1,6 @@
 /// Describes all commands as data, and generates completion scripts and manual pages from them. The
-/// data come from the CLI11 definitions that also parse the options and print `--help`.
+/// data come from the definitions (in the library CLI11) that also parse the options and print
+/// `--help`.
 #pragma once
 
 #include <string>
@@ -58,8 +59,8 @@ std::string completion_text(Shell shell, const std::vector<CommandInfo>& command
 /// "awmr-identify" for a command.
 std::string page_name(const CommandInfo& command);
 
-/// Returns the manual page of a command in man(7) format. If `command` is the program itself, the page lists all
-/// commands.
+/// Returns the manual page of a command in man(7) format. For the program itself, the page lists
+/// all commands.
 std::string man_page(const CommandInfo& command, const std::vector<CommandInfo>& commands);
 
 }  // namespace awmr::cli

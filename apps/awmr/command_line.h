@@ -12,8 +12,7 @@ namespace awmr::cli {
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// Describes an error of the command line: CLI11's message, the unknown command or option, and the
-/// known name that is closest to it. Precondition: `app` has not changed since the parse that
-/// failed.
+/// known name that is closest to it. Precondition: `app` is unchanged since the parse that failed.
 std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error, int argc,
                              char** argv);
 

@@ -1,6 +1,6 @@
-/// The commands of the program. A struct has the options of each command, execute() runs it, and
-/// add_NAME() adds it to the command line. The command `run` calls the execute() functions of the
-/// other commands.
+/// The commands of the program. Each command has a struct with its options, a function execute()
+/// that runs it, and a function add_NAME() that adds it to the command line. The command `run`
+/// calls the execute() functions of the other commands.
 #pragma once
 
 #include <filesystem>
@@ -52,7 +52,7 @@ struct IdentifyCommand {
   IdentifyOptions identify;
   TrialOptions trials;
   fs::path output;
-  /// Names under which the output file lists its inputs. Only `run` sets them; empty: the file
+  /// Names under which the output file lists its inputs. Only `run` sets them. Empty: the file
   /// names.
   InputNames names = {};
 };
@@ -67,10 +67,10 @@ struct LiveCommand {
   std::optional<fs::path> record = {};  ///< file of the recording; default: next to the model
   double every_s = 5.0;                 ///< interval between two updates of the display, > 0
   double budget_s = 5.0;                ///< time limit of an interim fit, > 0
-  /// Half width of a 95 % interval, > 0, that is small enough for a parameter
-  /// (Precision::half_width).
+  /// Target precision: a parameter is known well enough if the half width of its 95 % interval
+  /// (Precision::half_width) is at most this; > 0.
   double enough = 0.1;
-  /// True: the recording ends as soon as every half width is at most `enough`.
+  /// True: the recording ends as soon as every parameter is known well enough (`enough`).
   bool until_enough = false;
   double duration_s = 0.0;  ///< end the recording after this time; 0: no limit
   /// The recording ends after this time without data; 0: no limit.
@@ -107,8 +107,8 @@ struct TuneCommand {
   fs::path output;
   AllocationChoice allocation = {};
   bool nominal = false;
-  /// true: tune a disturbance observer; false: tune none. Must not contradict tune.json. If absent,
-  /// the keys `observer` and `no_observer` of tune.json decide.
+  /// true: tune a disturbance observer; false: tune none. A value that contradicts tune.json is an
+  /// error. If absent, the keys `observer` and `no_observer` of tune.json decide.
   std::optional<bool> observer = {};
   std::optional<fs::path> baseline = {};  ///< replaces `baseline` of tune.json
   std::optional<YawMode> mode = {};       ///< replaces `mode` of tune.json
@@ -128,7 +128,7 @@ struct ValidateCommand {
   AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
   TrialOptions trials = {};  ///< column mappings and used time spans of the logs
-  /// True: column mappings for files that are not in `logs` are ignored. False: such mappings are
+  /// Column mappings for files that are not in `logs`: true: they are ignored; false: they are
   /// errors.
   bool other_columns = false;
   double horizon_s = 10.0;  ///< length of the windows over which logs are predicted

@@ -158,7 +158,7 @@ void add_preferences(CLI::App& command, Texts& texts) {
       ->check(within(kRelevance.min, kRelevance.max));
 }
 
-/// Describes the heading-rate limit. If the choice is 'measured', the text has the rate from the
+/// Describes the heading-rate limit. For 'measured', the text has the number, which is in the
 /// model.
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
@@ -222,8 +222,8 @@ Result<Outcome> whole_outcome(const CompareCommand& command, const ComparedInput
   return outcome;
 }
 
-/// Checks the output files, so that an error is found before the long computation. Errors (input):
-/// an output cannot be written, or is an input.
+/// Checks the output files before the long computation, so that errors are found early. Errors
+/// (input): an output cannot be written, or is an input.
 Status check_outputs_of(const CompareCommand& command) {
   return cli::check_outputs(command.output,
                             command.shard

@@ -8,8 +8,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Single-quotes a string for bash, zsh and fish. A quote within the string ends the quoted part,
-/// is escaped, and a new quoted part begins.
+/// Single-quotes a string for bash, zsh and fish. Each quote within the string is replaced: the
+/// quoted part ends, an escaped quote follows, and a new quoted part begins.
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
@@ -49,7 +49,7 @@ std::vector<std::string> names_of(const std::vector<CommandInfo>& commands) {
   return names;
 }
 
-// ---- bash: the word before the current one determines the candidates for completion
+// ---- bash: the word before the current one determines which words can complete it
 
 std::string bash_action(const OptionInfo& option) {
   switch (option.kind) {

@@ -47,8 +47,8 @@ int to_stdout(const std::string& text, int exit_code) {
   return 2;
 }
 
-/// Makes the titles in the summary bold. A line is a title if it is not indented and either has one
-/// word only or is followed by an indented line.
+/// Makes the titles in the summary bold. A line is a title if it is not indented and either has
+/// only one word or stands above an indented line.
 std::string styled(const std::string& summary, const Style& style) {
   std::istringstream lines(printable_lines(summary));
   std::string text;
@@ -97,7 +97,7 @@ int report(const std::string& command, const Result<Outcome>& result, Manner man
 }
 
 /// Executes the command. Shows the command's name as progress until the command reports its own
-/// progress. The command `live` is excepted, because it has its own screen.
+/// progress. `live` is an exception, because it has its own screen.
 Result<Outcome> watched(const std::string& name, const std::function<Result<Outcome>()>& execute) {
   if (name == "live") return execute();
   const Working working("awmr " + name);

@@ -52,8 +52,8 @@ CLI::Option* add_output(CLI::App& command, std::filesystem::path& path, const st
 CLI::Option* add_output_directory(CLI::App& command, std::filesystem::path& path,
                                   const std::string& meaning);
 
-/// Copies the findings of the outcome into its JSON document. Call this function once, after all
-/// findings are known and before the document is written.
+/// Copies the findings of the outcome into its JSON document. Call this function once: when all
+/// findings are known, and before the document is written.
 void put_findings_into_document(Outcome& outcome);
 
 /// Adds the findings to the outcome's JSON document. If a path is given, also writes the document
@@ -61,7 +61,7 @@ void put_findings_into_document(Outcome& outcome);
 Status write_document(const std::optional<std::filesystem::path>& path, Outcome& outcome);
 
 /// Checks by check_output() that each of the files `names` can be written into a directory. The
-/// directory need not exist. Creates nothing.
+/// directory may be missing. Creates nothing.
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
                      std::span<const std::filesystem::path> inputs);
 

@@ -7,13 +7,15 @@
 
 namespace awmr {
 
-/// Returns the files that `awmr init` writes, from the folder templates/, sorted by path. A line of a file may begin with the mark `@NAME `. Such a
-/// line is written, without the mark, only for that kind of drive: NAME is a drive
-/// (model/vehicle.h), or `steered` for all drives with steering.
+/// Returns the files that `awmr init` writes, from the folder templates/, sorted by path. A line of
+/// a file may begin with the mark `@NAME `. Such a line is only for one kind of drive, and is
+/// written without the mark. NAME is a drive (model/vehicle.h), or `steered` for all drives with
+/// steering.
 const std::vector<EmbeddedFile>& project_templates();
 
-/// Returns the files that `awmr init --example` writes: unmodified copies of the configs and datasets
-/// in the source tree. The path of each is that in the source tree: "configs/paper/project.json".
+/// Returns the files that `awmr init --example` writes: unmodified copies of the configs and
+/// datasets in the source tree. Each has the path that it has in the source tree:
+/// "configs/paper/project.json".
 const std::vector<EmbeddedFile>& example_files();
 
 /// Returns a list whose only file is FINDINGS.md, the page with the meaning and the remedy of each

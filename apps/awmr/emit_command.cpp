@@ -72,8 +72,8 @@ Json table_json(const EmittedTable& table) {
           {"worst_relative_error", table.worst_relative_error}};
 }
 
-/// Adds a warning if a resistance table is less accurate than the default bound. Adds none if the
-/// user gave a bound, because a table that misses it is an error.
+/// Adds a warning if a resistance table is less accurate than the default bound. If the user gave a
+/// bound, there is no warning: a table that misses it is an error.
 void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& command,
                 Outcome& outcome) {
   if (command.emit.table_error || table.largest_relative_error() <= kTableError) return;
@@ -86,8 +86,8 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
            name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
 }
 
-/// Warns of gains that are too weak to hold a heading. The criterion is the steady heading error of
-/// a vehicle whose left and right motors differ by 16 %. The limit is kMaxOnCourse_rad/2, half of
+/// Warns of gains that are too weak to hold a heading. They are, if the steady heading error of a
+/// vehicle whose left and right motors differ by 16 % exceeds kMaxOnCourse_rad/2. This is half of
 /// the largest error that the sketches accept without fault 17.
 void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
                       Outcome& outcome) {
@@ -101,9 +101,9 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
            degrees(parameters.steady_error_rad))});
 }
 
-/// Warns of a sample time that the firmware cannot use. It is shorter than the chip's longest step
-/// with the parts that are compiled in, longer than the permitted time between two steps, or longer
-/// than half of the heading timeout.
+/// Warns of a sample time that the firmware cannot use: it is shorter than the chip's longest step
+/// with the compiled parts, longer than the permitted time between two steps, or longer than half
+/// of the heading timeout.
 std::vector<Finding> sample_time(double sample_time_s, const ModeGains& gains,
                                  const EmitCommand& command) {
   const double longest_step_s =

@@ -52,8 +52,11 @@ std::vector<std::string> parts_of(const std::string& list) {
   return parts;
 }
 
-/// Reads the rows of FINDINGS.md, `| codes | severity | meaning | remedy |`. A row has one severity
-/// for all its codes, or one for each; tests/cli/findings.py checks this.
+/// Reads the rows of FINDINGS.md, `| codes
+/// severity
+/// meaning
+/// remedy |`. A row has one severity for all its codes, or one for each (tests/cli/findings.py
+/// checks that).
 std::vector<Explanation> explanations() {
   std::vector<Explanation> all;
   std::string group;

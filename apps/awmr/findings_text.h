@@ -13,7 +13,7 @@ namespace awmr::cli {
 std::string to_text(const Finding& finding, const Style& style);
 
 /// Returns the text of the findings, those with the largest effect on the results first. The first
-/// three have a line each; if there are more than three errors, every error has a line. If two or
+/// three findings have a line each, and all errors do, even if there are more than three. If two or
 /// more findings remain, a last line counts them by code.
 std::string findings_text(const std::vector<Finding>& findings, const Style& style);
 

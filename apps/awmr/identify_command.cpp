@@ -36,8 +36,8 @@ Result<Provenance> provenance_of(const IdentifyCommand& command) {
   return provenance;
 }
 
-/// Approximate upper bound of the search time, s, for display only: the search is limited
-/// by its effort, not by time.
+/// Approximate longest duration of the search, s, for the progress display only: the search is
+/// limited by its effort, not by time.
 double about_longest_s(const Trials& trials, const IdentifyOptions& options) {
   if (options.time_limit_s > 0.0 || trials.data.logs.empty()) return options.time_limit_s;
   double longest_s = 40.0;

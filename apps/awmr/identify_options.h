@@ -40,7 +40,7 @@ Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials)
 std::vector<std::pair<std::string, std::string>> described(const IdentifyOptions& options);
 
 /// Appends the options `--from`, `--until` and `--exclude`, as pairs of name and value, to `words`.
-/// Appends nothing if the logs are used as a whole.
+/// Appends nothing if the logs are used completely.
 void describe_parts(const TrialOptions& trials,
                     std::vector<std::pair<std::string, std::string>>& words);
 

@@ -10,8 +10,8 @@
 
 namespace awmr::cli {
 
-/// Options of a fit as they come from the command line. CLI11 writes most of them into a command;
-/// the others are kept as texts, which command_of() parses.
+/// Options of a fit as they come from the command line. CLI11 writes most of them directly into
+/// `command`. The others stay texts, which command_of() parses.
 struct IdentifyWords {
   IdentifyCommand command;
   ColumnWords columns;

@@ -87,7 +87,7 @@ Status write_all(const std::vector<OutputFile>& files) {
   }
   if (written) written = write_files(files);
   if (written) return written;
-  // Errors are ignored: a directory that is not empty, or that was not created, remains.
+  // Errors are ignored: remove() leaves a directory that is not empty or was not created.
   std::error_code ignored;
   // Clang 14 cannot compile std::views::reverse of GCC 12's library.
   for (auto directory = made.rbegin(); directory != made.rend(); ++directory) {

@@ -36,8 +36,8 @@ constexpr NameTable<LiveEnd, 6> kLiveEndWords{
      {"enough was recorded", LiveEnd::kEnough},
      {"the recording has reached its maximum size", LiveEnd::kFull}}};
 
-/// Length of the first part of a recording, in which the display is updated every second. A wrong
-/// unit is then reported early.
+/// Length of the first part of a recording, s, in which the display is updated every second, so
+/// that a wrong unit is reported early.
 constexpr double kAtFirst_s = 20.0;
 
 std::vector<fs::path> inputs_of(const LiveCommand& command) {
@@ -84,7 +84,7 @@ Status check(const LiveCommand& command) {
 }
 
 /// Returns the time of the next update. The pause before it is at least as long as the last update
-/// took. Updates therefore use at most half of the time.
+/// took, so that updates use at most half of the time.
 Clock::time_point next_look(Clock::time_point begin, Clock::time_point looked, double every_s) {
   const Clock::time_point now = Clock::now();
   const bool early = Seconds(now - begin).count() < kAtFirst_s;
@@ -141,7 +141,7 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   std::optional<LiveEnd> end;
   while (!end) {
     // Data may have arrived during the last update. They are added before the end conditions are
-    // checked, so that none are lost.
+    // checked; otherwise they would be lost.
     const std::string bytes = stream.take(std::chrono::milliseconds(100));
     followed.recording.add(bytes);
     if (!bytes.empty()) last_byte = Clock::now();

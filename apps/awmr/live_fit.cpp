@@ -42,7 +42,7 @@ LiveFit::LiveFit(const LiveCommand& command, Vehicle vehicle)
              .options = command.identify.trials},
       options_(command.identify.identify),
       enough_(command.enough) {
-  // The diagnostics that do not change the estimates are left out here, to save time. The final fit
+  // To save time, diagnostics that do not change the estimates are left out here. The final fit
   // computes them.
   options_.time_limit_s = command.budget_s;
   options_.bootstrap = 0;

@@ -24,7 +24,8 @@ struct LiveUpdate {
   bool out_of_time = false;
   /// The manoeuvre that would improve the model most; empty if the model is accurate enough.
   std::string next = {};
-  /// Half width of a 95 % interval that is small enough.
+  /// Target precision: largest half width of a 95 % interval with which a parameter is known well
+  /// enough.
   double enough = 0.1;
   /// Parameters whose intervals must be small enough; empty: all.
   std::vector<ParameterId> requested = {};

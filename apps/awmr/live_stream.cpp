@@ -21,8 +21,8 @@ using namespace std::chrono_literals;
 /// Interval, ms, at which the reading thread checks whether it must stop and whether the file has
 /// grown.
 constexpr int kPause_ms = 50;
-/// Largest number of bytes that may wait to be taken by take(). Beyond it, the thread stops
-/// reading, and the writer of a pipe has to wait.
+/// Largest number of bytes that may wait for take(). When it is reached, the thread stops reading,
+/// and the program that writes into a pipe has to wait.
 constexpr std::size_t kMaxAhead = std::size_t{1} << 24U;
 
 bool is_regular(int file) {

@@ -63,10 +63,10 @@ class RecorderStream {
   std::thread reader_;
 };
 
-/// While an object exists, SIGINT, SIGTERM and SIGHUP (terminal closed) do not end the program;
-/// came() returns true after one of them arrived. After the first SIGHUP, further ones are ignored:
-/// kernel and shell send one each, and the results must still be written. Only one object may exist
-/// at a time.
+/// While an object exists, SIGINT, SIGTERM and SIGHUP (terminal closed) do not end the program.
+/// After one of them has arrived, came() returns true. After the first SIGHUP, further ones are
+/// ignored: when a terminal closes, kernel and shell send one each, and the results must still be
+/// written. Only one object may exist at a time.
 class Interruption {
  public:
   Interruption();

@@ -42,9 +42,9 @@ std::vector<Ways> needs_of(TrialKind kind) {
   return {};
 }
 
-/// Returns the required columns of the trial for which the file seems to have no column. For a
-/// quantity that several sets of columns can give, returns the missing columns of the most complete
-/// set.
+/// Returns the required columns of the trial for which the file seems to have no column. If several
+/// sets of columns can give a quantity, only the missing columns of the most complete set are
+/// returned.
 std::vector<std::string> open_columns(const std::vector<ColumnGuess>& guesses, TrialKind kind) {
   std::set<std::string> found;
   for (const ColumnGuess& guess : guesses) found.insert(guess.column);

@@ -48,7 +48,7 @@ inline constexpr std::uint64_t kAnySeed = std::numeric_limits<std::uint64_t>::ma
 
 /// Accepts a number if it is finite and from `min` to `max`, no text follows it, and it fits the
 /// type of the option: a whole number for integers, without minus sign for unsigned ones. CLI11
-/// alone does not check this. It converts -1 and 10^23 to 2^64 - 1, and accepts nan in every range.
+/// alone would convert -1 and 10^23 to 2^64 - 1, and accept nan in every range.
 template <class Number>
 CLI::Validator within(Number min, Number max) {
   static_assert(std::is_arithmetic_v<Number>);
@@ -77,8 +77,8 @@ inline CLI::Validator not_empty() {
       [](const std::string& path) { return path.empty() ? "is empty: give a path" : ""; }, "");
 }
 
-/// Refuses the output path "-", because many programs understand it as standard output, which awmr
-/// does not support.
+/// Refuses the output path "-". Many programs understand it as standard output, which awmr does not
+/// support.
 inline CLI::Validator not_standard_output() {
   return CLI::Validator(
       [](const std::string& path) {

@@ -38,7 +38,7 @@ enum class Injection {
   kSpeedStale,      ///< the time of the last speed is 10 s old
   kCommandTimeout,  ///< the time of the last command is 10 s old
   kStepLate,        ///< a pause of 10 s before a step
-  kParameters,      ///< a bit flipped in the parameters in flash, before the start
+  kParameters,      ///< a bit of the parameters in flash is flipped before the start
   kReset,           ///< the chip is reset, as after a drop of its supply, and starts again
   // Sensor failures. The checks of the emitted sketches detect them (control/heading_check.h,
   // gps_check.h).
@@ -128,19 +128,19 @@ struct PilOptions {
   /// Goal of the compiler. Absent: small size if the scenario has a timed path, obstacles, or two
   /// or more optional parts (the position estimate counts as one); else few cycles.
   std::optional<Optimize> optimize;
-  /// Largest permitted number of clock cycles of a control step. Absent: 13,000 with resistance
-  /// tables, 24,000 with powf; with optional parts or the position estimate, 75 % of the sample
-  /// time.
+  /// Largest permitted number of clock cycles of a control step. Absent: 75 % of the sample time
+  /// with optional parts or the position estimate; otherwise 13,000 with resistance tables, 24,000
+  /// with powf.
   std::optional<unsigned> cycles_max;
   unsigned flash_max = 20480;  ///< largest permitted use of flash, bytes
   unsigned ram_max = 1024;     ///< largest permitted use of RAM, without the stack, bytes
-  /// Largest permitted difference of any signal, in SI units, from the same run computed in float
-  /// on the host. Absent: 0 with resistance tables, 1e-6 with powf.
+  /// Largest permitted difference of any signal, in SI units, between the chip's run and the same
+  /// run computed in float on the host. Absent: 0 with resistance tables, 1e-6 with powf.
   std::optional<double> difference_max;
-  /// Largest permitted difference of the heading from the same run computed in double on the host,
-  /// deg; it may be met at the same or a neighbouring sample. Absent: 0.05, or 2 if obstacles are
-  /// avoided or sensors simulated. In these cases one of the runs may change its path one sensor
-  /// sample before the other.
+  /// Largest permitted difference of the heading, deg, between the chip's run and the same run
+  /// computed in double on the host. The headings are compared at the same or a neighbouring
+  /// sample. Absent: 0.05, or 2 if obstacles are avoided or sensors simulated: one of the runs may
+  /// then change its path one sensor sample before the other.
   std::optional<double> heading_max_deg;
   Injection injection = Injection::kNone;
   unsigned hostile_steps = 6000;  ///< steps with hostile inputs after the scenario; 0: none

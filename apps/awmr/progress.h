@@ -15,7 +15,7 @@ namespace awmr::cli {
 /// The kinds of progress display that are enabled.
 struct ProgressManner {
   bool on_terminal = true;  ///< a redrawn line on a terminal; false with `--quiet`
-  /// Progress as printed lines, which only `live` has, if stderr is no terminal; false with
+  /// Progress as printed lines, if stderr is no terminal. Only `live` prints such lines. False with
   /// `--quiet` or `--json`.
   bool in_lines = true;
 };
@@ -37,8 +37,8 @@ std::size_t terminal_columns();
 /// Shows a progress line at the bottom of the terminal as long as the object exists: the current
 /// work and the elapsed time. If the work reports its parts, the line also shows the fraction done
 /// and the time left. Otherwise it shows the longest expected duration, if that is known. If stderr
-/// is not a terminal, nothing is shown. If several objects exist, the latest is shown; objects must
-/// be destroyed in reverse order.
+/// is not a terminal, nothing is shown. Of several objects, the latest is shown; destroy them in
+/// reverse order.
 class Working {
  public:
   /// `most_s`: approximate longest duration, s; 0 if unknown.
@@ -67,7 +67,7 @@ class Working {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::thread drawer_;
-  /// Object whose line this one covers. It is shown again when this one ends.
+  /// Object whose line is hidden by the line of this one; shown again when this one ends.
   const Working* covered_ = nullptr;
 };
 

@@ -14,7 +14,8 @@
 
 namespace awmr::cli {
 
-/// Content of a project file. The paths are relative to that file in the file itself, but not here.
+/// Content of a project file. In the file, paths are relative to the file's directory. Here, they
+/// are resolved.
 struct Project {
   std::filesystem::path vehicle;
   std::optional<std::filesystem::path> surge;

@@ -49,9 +49,9 @@ constexpr ProjectKey kKeys[] = {
 };
 
 /// Returns the text that replaces an option in messages to a user of project.json: the key with the
-/// same effect and its file. If there is no such key, the text is the command with the option.
-/// `option`: name of the option, possibly followed by its value, as given to option_text(): "family
-/// surge=...".
+/// same effect, and its file. If there is no such key, it is the command with the option. `option`:
+/// name of the option, possibly followed by its value ("family surge=..."), as given to
+/// option_text().
 std::string project_text(std::string_view command, std::string_view option) {
   std::string name(option.substr(0, option.find(' ')));
   std::ranges::replace(name, '_', '-');

@@ -1,6 +1,6 @@
-/// Adapts messages of other commands for users of `run` and `check`. Messages name command-line
-/// options that `run` and `check` do not have. Such an option is replaced by the key of
-/// project.json or tune.json that has the same effect.
+/// Adapts messages of other commands for users of `run` and `check`. These messages name
+/// command-line options, which `run` and `check` do not have. So each such option is replaced by
+/// the key of project.json or tune.json that has the same effect.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@ namespace awmr::cli {
 
 /// Replaces the options that findings and errors of `command` name (by option_text()). For example,
 /// "--as-is" of identify becomes "`identify/as_is` of project.json". An option without such a key
-/// becomes the command with the option: "awmr compare --break-even".
+/// gets the name of its command: "awmr compare --break-even".
 Result<Outcome> for_project(std::string_view command, Result<Outcome> step);
 
 }  // namespace awmr::cli

@@ -14,8 +14,9 @@
 namespace awmr::cli {
 namespace {
 
-/// Writes the data of all figures, or nothing if a file cannot be written. A figure without data is
-/// not an error; a note names it. An existing plot.py is kept, because the user may have edited it.
+/// Writes the data of all figures; if a file cannot be written, writes none. A figure without data
+/// is no error, and a note names it. An existing plot.py is kept, because the user may have edited
+/// it.
 Status write_figures(FigureSet figures, const fs::path& directory, Outcome& outcome) {
   AWMR_RETURN_IF_ERROR(make_directory(directory));
   const fs::path plot = directory / kPlotName;

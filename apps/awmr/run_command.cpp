@@ -34,8 +34,8 @@ void add_written(Outcome& total, const std::vector<fs::path>& written) {
   total.written.insert(total.written.end(), written.begin(), written.end());
 }
 
-/// Adds the outcome of a step to the combined one. The summary gets only the short text of the step
-/// (Outcome::brief), below the line `title`.
+/// Adds the outcome of a step to the combined one. Of the step's text, the summary gets only the
+/// short one (Outcome::brief), below the line `title`.
 void add_step(Steps& steps, const char* title, Outcome step) {
   Outcome& total = steps.total;
   steps.documents.emplace_back(step.written.front().stem().string(), std::move(step.document));
@@ -156,7 +156,7 @@ Status report_step(const RunCommand& command, Outcome& total) {
 }
 
 /// Writes the Arduino library. If that fails, for example because the firmware does not support the
-/// vehicle, adds the warning `no-library`. It is no error, because the other results are valid.
+/// vehicle, adds the warning `no-library`. It is no error: the other results are valid.
 void emit_library(const fs::path& model, const fs::path& gains, const fs::path& output, bool as_is,
                   Outcome& total) {
   const Result<Outcome> emitted = for_project(
@@ -171,8 +171,8 @@ void emit_library(const fs::path& model, const fs::path& gains, const fs::path& 
        "there is no Arduino library for this vehicle: " + emitted.error().faults.front().message});
 }
 
-/// True if the model lacks a parameter that `tune` needs. This is not the same as a parameter that
-/// `identify` refused, because such a parameter may still have a given or an assumed value.
+/// True if the model lacks a parameter that `tune` needs. A parameter that `identify` refused is
+/// not always lacking: it may have a given or an assumed value.
 Result<bool> lacks_parameters(const Outcome& identified, const fs::path& model) {
   if (!identified.refused) return false;
   AWMR_ASSIGN_OR_RETURN(const Model fitted, read_model(model));

@@ -19,8 +19,8 @@ inline constexpr const char* kLibrary = "firmware";
 /// the subdirectories `firmware` and `figures` are not among them.
 std::vector<std::string> run_outputs(const Project& project);
 
-/// Checks that `run` may overwrite the files in the directory. Errors (input): each such file that
-/// awmr did not write. The check recognises a result of awmr by the command that it names, and an
+/// Checks that `run` may overwrite the files in the directory. Errors (input): each file that awmr
+/// did not write. The check recognises a result of awmr by the command that it names, and an
 /// emitted file by the manifest.
 Status check_own_results(const std::filesystem::path& directory);
 

@@ -1,6 +1,6 @@
-/// Options of the commands that simulate scenarios: `--plant` and `--tyres` (the simulated vehicle
-/// model, and its tyres), `--allocation`, and `--heading-rate-limit` (how fast the commanded heading
-/// may change, simulate/validity.h).
+/// Options of the commands that simulate scenarios: `--plant` (the simulated vehicle model),
+/// `--tyres` (its tyres), `--allocation`, and `--heading-rate-limit` (how fast the commanded
+/// heading may change, simulate/validity.h).
 #pragma once
 
 #include <fmt/format.h>
@@ -27,7 +27,8 @@ namespace awmr::cli {
 struct PlantChoice {
   /// Simulated vehicle model for all scenarios; empty: as each scenario selects.
   std::optional<PlantKind> kind = {};
-  /// A validation.json. Its fitted tyres replace those of the scenarios and the default ones.
+  /// A validation.json. Its fitted tyres are used instead of those of the scenarios and the default
+  /// ones.
   std::optional<std::filesystem::path> tyres_file = {};
   /// True (only for `compare`): if `kind` is empty, the ranking is also computed with the other
   /// vehicle model.
@@ -94,7 +95,7 @@ inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Fin
 }
 
 /// Applies the options to every scenario. Errors (input): a scenario uses a feature that the
-/// four-wheel model does not support; a tyre file is given, but no run uses tyres.
+/// four-wheel model does not support; a file with tyres is given, but no run uses tyres.
 inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
                      std::span<Scenario> scenarios) {
   std::vector<Fault> faults;
@@ -138,7 +139,7 @@ inline std::string plants_text(std::span<const Scenario> scenarios) {
 }
 
 /// Returns name and description of the vehicle model, for the list of options in an output file.
-/// Empty if `--plant` is not given and all scenarios use the 3-DOF model.
+/// Empty without `--plant`, if all scenarios use the 3-DOF model.
 inline std::vector<std::pair<std::string, std::string>> options_of(
     const PlantChoice& choice, std::span<const Scenario> scenarios) {
   const bool is_model = std::none_of(scenarios.begin(), scenarios.end(),
@@ -147,9 +148,9 @@ inline std::vector<std::pair<std::string, std::string>> options_of(
   return {{kPlantName, plants_text(scenarios)}};
 }
 
-/// Form of the equations that compute wheel forces and steering angle (exact, or for small angles),
-/// if given on the command line. Overrides the form in the vehicle and the scenarios. Empty: no
-/// override.
+/// Form of the allocation, the equations that compute wheel forces and steering angle: exact, or
+/// for small angles. A form on the command line replaces those of the vehicle and the scenarios.
+/// Empty: none is given.
 using AllocationChoice = std::optional<AllocationForm>;
 
 inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
@@ -172,16 +173,15 @@ inline std::vector<std::pair<std::string, std::string>> options_of(const Allocat
   return {{"allocation", std::string(name_in(kAllocationFormNames, *choice))}};
 }
 
-/// Makes the chosen form apply everywhere: sets it in the model's vehicle, and removes the forms in
-/// the scenarios, which would have precedence. Does nothing without a choice.
+/// Makes the chosen form apply everywhere: sets it in the model's vehicle, and removes it from the
+/// scenarios, whose form would have precedence. Does nothing without a choice.
 inline void choose(const AllocationChoice& choice, Model& model, std::span<Scenario> scenarios) {
   if (!choice) return;
   model.vehicle.allocation = *choice;
   for (Scenario& scenario : scenarios) scenario.control.allocation.reset();
 }
 
-/// Adds `--heading-rate-limit`. `by_default`: text for the help, which describes what happens without the
-/// option.
+/// Adds `--heading-rate-limit`. `by_default`: text for the help about the case without the option.
 inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
                                    const char* by_default) {
   command
@@ -203,8 +203,8 @@ inline std::vector<std::pair<std::string, std::string>> options_of_rate(
   return {{kRateName, choice}};
 }
 
-/// Describes the heading-rate limit. If the choice is 'measured', the text has no number, because
-/// the number is in the model. Empty if only the scenarios limit the rate.
+/// Describes the heading-rate limit. For 'measured', the text has no number, because the number is
+/// in the model. Empty if only the scenarios limit the rate.
 inline std::string words_of_rate(const HeadingRateChoice& choice) {
   if (choice == kNoRate) return {};
   if (choice == kMeasuredRate)

@@ -1,5 +1,4 @@
-/// Lets Ctrl-C (SIGINT) stop a long computation in such a way that the finished part of the results
-/// can be written.
+/// Lets Ctrl-C (SIGINT) stop a long computation so that its finished part can still be written.
 #pragma once
 
 #include <atomic>
@@ -8,7 +7,7 @@
 namespace awmr::cli {
 
 /// Handles SIGINT as long as the object exists. The first signal requests a stop. A second one ends
-/// the program at once, as it would without this object.
+/// the program at once, as the first one would without this object.
 class StopOnInterrupt {
  public:
   StopOnInterrupt();
@@ -19,8 +18,8 @@ class StopOnInterrupt {
   static std::atomic<bool>& requested();
 };
 
-/// Prints the notice (not with --json). Then ends the program by the signal SIGINT itself, so that
-/// the calling program or shell sees that Ctrl-C ended it.
+/// Prints the notice (not with --json). Then ends the program by the signal SIGINT itself. The
+/// calling program or shell then sees that Ctrl-C ended it.
 void end_interrupted(const std::string& notice);
 
 }  // namespace awmr::cli

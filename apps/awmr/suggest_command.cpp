@@ -22,8 +22,8 @@ namespace {
 /// Largest number of trials on the printed sheet. The output file contains all trials.
 constexpr std::size_t kSheetTrials = 8;
 
-/// A metric of a simulated closed loop, such as the heading error. Its sensitivity to the
-/// parameters of the vehicle is computed with an unchanged controller.
+/// A metric of a simulated closed loop, such as the heading error. Its sensitivity to the vehicle's
+/// parameters is computed with an unchanged controller.
 struct LoopMetric {
   const char* name;
   std::optional<double> Metrics::*value;

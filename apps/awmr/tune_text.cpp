@@ -35,14 +35,14 @@ std::string described(const std::string& name, const std::vector<ConstraintRepor
                      report->meaning);
 }
 
-/// An active limit is printed only if widening it by 10 % would improve the objective by at least
-/// this fraction.
+/// An active constraint is printed only if it matters: widening its limit by 10 % would improve the
+/// objective by at least this fraction.
 constexpr double kLeastGain = 0.001;
 
-/// Describes the active constraints whose limits keep the search from a better objective: how much
-/// a wider limit would improve the objective, the key that sets the limit, and what is limited.
-/// Constraints with less effect than kLeastGain are omitted (gains.json has them). Also gives the
-/// ranges of the gains mu and mu_s in which the objective is practically the same.
+/// Describes the active constraints that keep the search from a better objective: how much a wider
+/// limit would improve the objective, the key that sets the limit, and what is limited. Constraints
+/// with less effect than kLeastGain are left out (gains.json has them). Also gives the ranges of
+/// the gains mu and mu_s in which the objective is practically the same.
 std::string active_text(const Tuning& tuning) {
   constexpr std::size_t kTextIndent = 12;
   constexpr std::size_t kTextWidth = 98;
@@ -79,7 +79,8 @@ std::string open_text(const UnmodelledVariation& open) {
 }
 
 /// Describes the worst case of the heading loop in each mode: the smallest damping ratio and delay
-/// margin over the confidence set of the model's parameters.
+/// margin over the 95 % region of the model's parameters (without a covariance, for the model
+/// itself).
 std::string certificate_text(const Certificate& certificate) {
   std::string by_mode;
   for (const ModeCertificate& one : certificate.modes) {
@@ -108,9 +109,9 @@ std::string steering_note(const std::vector<EvaluatedGains>& all) {
          "while a heading is held\n";
 }
 
-/// Returns a table of the metrics of each set of gains. They are computed on fresh draws: newly
-/// drawn vehicles that were not used for tuning. If there are several scenarios, the table has a
-/// part for each. Empty if no fresh draws were made.
+/// Returns a table of the metrics of each set of gains. They are computed on fresh draws, that is,
+/// newly drawn vehicles that were not used for tuning. If there are several scenarios, the table
+/// has a part for each. Empty without fresh draws.
 std::string evaluation_table(const std::vector<EvaluatedGains>& all,
                              const std::vector<EvaluatedGains>& by_scenario) {
   if (all.empty()) return {};

@@ -73,8 +73,9 @@ auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const
   return all;
 }
 
-/// Evaluates the logs. Without a scenario, the model predicts their motion. With a scenario, they
-/// are compared with simulated drives of this scenario under the controller.
+/// Evaluates the logs. Without a scenario, the logs are compared with the motion that the model
+/// predicts. With a scenario, they are compared with simulated drives of this scenario under the
+/// controller.
 Status add_evaluated_logs(const ValidateCommand& command, const Model& model,
                           const std::optional<ModeGains>& gains, Validation& validation,
                           std::vector<Finding>& findings) {
@@ -139,9 +140,9 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
-/// Adds the warning `log-of-the-fit` for each log that the model was fitted to. Such a log is
-/// recognised by its SHA-256, which is among those of the model's inputs. The first input of the
-/// validation is skipped, because it is the model itself.
+/// Adds the warning `log-of-the-fit` for each log that the model was fitted to. The SHA-256 of such
+/// a log is among those of the model's inputs. The first input of the validation is the model
+/// itself, so it is skipped.
 void note_fitted_logs(const Model& model, const Provenance& provenance,
                       std::vector<Finding>& findings) {
   for (const InputFile& input : provenance.inputs) {

@@ -108,16 +108,17 @@ struct BreakEven {
   double sliding_m = 0.0;
   /// Highest yaw rate in the run of `mode` on the nominal model without scrub, deg/s, >= 0.
   double fastest_degps = 0.0;
-  /// Range of the scrub moment measured in differential turns, m. It contains the 95 % interval
-  /// and, if scrub depends on the yaw rate, the values at all measured rates. It also contains the
-  /// largest moment that did not turn the vehicle. If the model has only this moment, the range is
-  /// from it to most_m. Absent if the model has neither.
+  /// Range of the scrub moment measured in differential turns, m. It contains the 95 % interval,
+  /// the largest moment that did not turn the vehicle and, if scrub depends on the yaw rate, the
+  /// values at all measured rates. If only the moment that did not turn the vehicle is known, the
+  /// range is from it to most_m. Absent if nothing was measured.
   std::optional<Interval> measured_m = {};
   /// Yaw rates of the turns in which scrub was measured, deg/s; absent if the model has no scrub.
   std::optional<Interval> measured_degps = {};
-  /// Total number of differential turns, recorded and further ones, that would decide whether
-  /// `mode` is ahead with the measured scrub. Assumes that mean and scatter of the turns stay the
-  /// same. At most 1000. Absent if this is already decided, or if turns cannot decide it.
+  /// Total number of differential turns (those already recorded and further ones) that would decide
+  /// whether `mode` stays ahead with the measured scrub. Assumes that further turns have the same
+  /// mean and scatter. At most 1000. Absent if this is already decided, or if turns cannot decide
+  /// it.
   std::optional<int> turns_to_decide = {};
 };
 
@@ -161,10 +162,9 @@ struct Change {
 /// Result of compare().
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< finished runs, sorted by scenario, gains, mode, sample
-  /// Number of complete samples, including the nominal one. A sample is complete if its run is
-  /// finished in every scenario and mode with every set of gains; the samples 0, 1, 2, ... up to
-  /// the first incomplete one count. Fewer than requested if the comparison was stopped, or is a
-  /// part.
+  /// Number of complete samples, including the nominal one. A sample is complete if its runs are
+  /// finished in every scenario and mode with every set of gains. Samples count up to the first
+  /// incomplete one. Fewer than requested if the comparison was stopped, or is a part.
   int whole_samples = 0;
   bool stopped = false;  ///< true: stopped before all runs were done
   /// Rounding of the runs (BatchArithmetic::rounding): "fused" or "scalar". Rows with different

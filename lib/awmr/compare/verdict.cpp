@@ -44,8 +44,8 @@ const PairedDifference* widest_gap(const std::vector<PairedDifference>& differen
 /// finish_time_s: 8.2 s more (95 %: 8 to 8.4)". Empty without such a metric.
 std::string gap_text(const PairedDifference* gap, const Contender& other) {
   if (gap == nullptr) return "";
-  // The difference is first minus second, but the text states how much larger the metric of `other`
-  // is. The sign is therefore changed if `other` is the second.
+  // The difference is first minus second. The text states how much larger the metric of `other` is,
+  // so the sign changes if `other` is the second.
   const double sign = gap->second == other ? -1.0 : 1.0;
   const MetricColumn& metric = column_of(gap->metric);
   std::string text = fmt::format(", most of all in {}: {:.3g} {} more", metric.name,

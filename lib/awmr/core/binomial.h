@@ -7,9 +7,8 @@
 
 namespace awmr {
 
-/// Clopper-Pearson 95 % interval of the probability of success, for `successes` in `runs` >= 1. The
-/// interval contains the true probability in at least 95 % of samples, whatever this probability
-/// is.
+/// Clopper-Pearson 95 % interval of the probability of success, for `successes` in `runs` >= 1.
+/// Whatever the true probability is, at least 95 % of such intervals contain it.
 Interval clopper_pearson(std::size_t successes, std::size_t runs);
 
 /// p value of the two-sided exact McNemar test that two paired proportions are equal. `only_first`:

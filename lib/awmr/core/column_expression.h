@@ -21,8 +21,8 @@ class ColumnExpression {
   /// Maximum length of the text, in bytes.
   static constexpr std::size_t kLongest = 1000;
 
-  /// Parses a formula. Errors, as text: the formula is longer than kLongest; has a character or a
-  /// function that formulas cannot have; or is incomplete or malformed.
+  /// Parses a formula. Errors, as text: the formula is longer than kLongest; it has a character or
+  /// a function that formulas cannot have; it is incomplete or malformed.
   static tl::expected<ColumnExpression, std::string> parse(std::string_view text);
 
   ColumnExpression(ColumnExpression&&) noexcept;

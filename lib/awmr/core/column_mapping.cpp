@@ -140,8 +140,8 @@ Result<ColumnMapping> parse_column(std::string_view text) {
 std::string text_of(const ColumnMapping& mapping) {
   const std::string name =
       mapping.file.empty() ? mapping.name : fmt::format("{}:{}", mapping.file, mapping.name);
-  // The parser stores a constant such as 0.5 as a column name, too, because a column could have
-  // this name. The constant is written as it was given.
+  // A constant such as 0.5 is not scaled. (The parser also stored it as a column name, because a
+  // column could have this name.) The constant is written as it was given.
   const bool scaled = !mapping.source.empty() && !number_from_text(mapping.expression);
   if (!scaled) return fmt::format("{}={}", name, mapping.expression);
   // Quotes only where the parser needs them, so that plain names remain readable.

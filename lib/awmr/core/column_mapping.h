@@ -1,4 +1,4 @@
-/// Mapping that defines one of awmr's columns by the columns of a file: by a column with another
+/// Mapping that defines a column of awmr by the columns of a user's file: by a column with another
 /// name or unit, or by a formula over several columns.
 #pragma once
 
@@ -19,9 +19,9 @@ struct ColumnMapping {
   std::string source;  ///< name of a column; empty: definition 2 does not apply
   double scale = 1.0;
   double offset = 0.0;
-  std::string expression = {};  ///< text after the '='; empty: only definition 2 applies
+  std::string expression = {};  ///< text after the '='; empty: only definition 2 can apply
   std::string file = {};        ///< name or path of the file that it is for; empty: all files
-  /// True for a mapping from vehicle.json. It has the lowest priority, and need not be used.
+  /// True for a mapping from vehicle.json. It has the lowest priority. Not using it is no fault.
   bool standing = false;
 };
 
@@ -30,7 +30,7 @@ struct ColumnMapping {
 /// double quotes if it contains '*' or '+'. After a scale or a quoted SOURCE, `-OFFSET` is also
 /// accepted. Errors: a text that is none of these; a scale of 0.
 Result<ColumnMapping> parse_column(std::string_view text);
-/// As parse_column(text), but takes `[FILE:]NAME` and EXPRESSION as separate texts, as JSON has
+/// As parse_column(text), but with `[FILE:]NAME` and EXPRESSION as separate texts, as JSON has
 /// them.
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);
 

@@ -38,9 +38,9 @@ struct Candidate {
   std::vector<std::string> missing;  ///< columns that the mapping uses and the header lacks
 };
 
-/// Interprets a mapping for the header of one file as the first of these that the header permits:
-/// the column whose name is the mapping's whole expression; a column with scale and offset; a
-/// formula (column_mapping.h).
+/// Interprets a mapping for the header of one file. Uses the first of these that the header
+/// permits: the column whose name is the mapping's whole expression; a column with scale and
+/// offset; a formula (column_mapping.h).
 Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, Header header) {
   Candidate candidate{
       .source = {.column = column, .indices = {}, .mapping = &mapping}, .names = {}, .missing = {}};
@@ -144,7 +144,8 @@ class Search {
   }
 
   /// Uses the column that find_time() recognises as the time t_s. Returns false if there is none.
-  /// Returns true if one is used, and also if several columns may be the time, which is a fault.
+  /// Returns true if one is used, and also if several columns may be the time: this is reported as
+  /// a fault.
   bool use_time() {
     auto time = find_time(header_, samples_);
     if (!time) {

@@ -42,10 +42,10 @@ struct ColumnSources {
 /// Finds the source of each requested column. A mapping can be used if the header has all columns
 /// that the mapping names. Of several sources, the first in this order is used: a mapping for this
 /// file; a mapping for every file; a mapping in vehicle.json; the column of the requested name. If
-/// the time t_s has no source, find_time() looks for one. `samples`: cells of the first row, in
-/// which dates are recognised. `file`: path of the table. Faults: a missing required column; two
-/// mappings of one column; a formula for which the header lacks some of its columns; a name that
-/// occurs twice in the header; several columns that may be the time.
+/// the time t_s has none of these, find_time() looks for a time column. `samples`: cells of the
+/// first row, by which dates are recognised. `file`: path of the table. Faults: a missing required
+/// column; two mappings of one column; a formula for which the header lacks some columns; a name
+/// that occurs twice in the header; several columns that may be the time.
 ColumnSources find_columns(std::span<const std::string> header,
                            std::span<const std::string> samples, std::span<const CsvColumn> columns,
                            std::span<const ColumnMapping> mappings, const std::string& file);

@@ -158,8 +158,8 @@ bool CsvParser::read_row() {
   return true;
 }
 
-/// True if decimal commas probably made too many cells in this row: the delimiter is a comma, the
-/// row has more cells than the header, and all its cells are whole numbers.
+/// True if decimal commas probably split numbers in this row into too many cells: the delimiter is
+/// a comma, the row has more cells than the header, and all its cells are whole numbers.
 bool CsvParser::has_decimal_commas() const {
   if (header_.delimiter != ',' || cells_.size() <= header_.names.size()) return false;
   const auto is_whole = [](const CsvCell& cell) {
@@ -211,8 +211,8 @@ double CsvParser::value_of(const CsvCell& cell, const UsedColumn& used) {
   return kFaultyCell;
 }
 
-/// Adds a fault if the commas in the file's numbers can be decimal commas or thousands separators,
-/// or if other numbers have a decimal point.
+/// Adds a fault if it is unclear whether the commas in the file's numbers are decimal commas or
+/// thousands separators, or if other numbers have a decimal point.
 void CsvParser::check_commas() {
   if (const auto wrong = fault_of(commas_)) {
     fault(ErrorCode::kAmbiguous, commas_.comma->line, commas_.comma->character, *wrong);

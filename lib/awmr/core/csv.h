@@ -71,9 +71,9 @@ class CsvTable {
   /// As column(), but moves the values out of the table: its column is empty afterwards.
   /// Precondition: has(column).
   std::vector<double> take(std::string_view column);
-  /// By row: true if the file has a value. In the other rows, the table repeats the previous value;
-  /// before the first value, it repeats the first one. Empty: the file has a value in every row.
-  /// Precondition: has(column).
+  /// By row: true if the file has a value. In the other rows, the table has the previous value, or
+  /// before the first value the first one. Empty: the file has a value in every row. Precondition:
+  /// has(column).
   const std::vector<bool>& present(std::string_view column) const;
   /// Line in the file, from 1.
   int line(std::size_t row) const { return parts_.lines[row]; }
@@ -83,8 +83,8 @@ class CsvTable {
   /// `FILE:LINE:1` of the header.
   std::string header_place() const;
   const std::vector<CsvNote>& notes() const { return parts_.notes; }
-  /// Clock time of the first row, s, which was subtracted from the times t_s. 0 if the file has no
-  /// clock time.
+  /// Clock time of the first row, s, such as seconds since 1970. It was subtracted from the times
+  /// t_s. 0 if the file has no clock time.
   double clock_s() const { return parts_.clock_s; }
   /// Indices of the mappings that were used, in the list of mappings given to the reader.
   const std::vector<std::size_t>& mapped() const { return parts_.mapped; }

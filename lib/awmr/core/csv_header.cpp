@@ -32,9 +32,9 @@ struct Delimiter {
   int found = 0;  ///< number of requested columns among the cells of the header
 };
 
-/// Finds the delimiter of the scanner's next line: the character that splits the line into cells
-/// with the most names of requested columns. If several characters find equally many names, the one
-/// that makes the most cells is returned.
+/// Finds the delimiter of the scanner's next line. It is the character that splits the line into
+/// cells with the most names of requested columns. If several characters find equally many names,
+/// it is the one that makes the most cells.
 Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& wanted) {
   int best = 0;
   Delimiter chosen;
@@ -131,9 +131,9 @@ bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
                      [&](const CsvCell& cell) { return is_number(cell, delimiter != ','); });
 }
 
-/// True if the scanner's next line is a header. It is one if at least two of its cells are names of
-/// requested columns. It is also one if it has at least two cells and no number, and the row below
-/// it has as many cells and at least one number.
+/// True if the scanner's next line is a header: at least two of its cells are names of requested
+/// columns. Without such names, it must have at least two cells and no number, and the row below it
+/// must have as many cells and at least one number.
 bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   const std::vector<CsvCell> names = scanner.peek_cells(chosen.character);
   if (chosen.found >= 2) return true;

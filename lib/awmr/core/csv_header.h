@@ -12,7 +12,7 @@ namespace awmr {
 
 struct CsvHeader {
   std::vector<CsvCell> cells = {};        ///< the cells of the header, as in the text
-  std::vector<std::string> names = {};    ///< column names, with doubled quotes reduced to one
+  std::vector<std::string> names = {};    ///< column names; "" in a quoted name is one "
   std::vector<std::string> samples = {};  ///< the cells of the first row
   int line = 1;
   char delimiter = ',';

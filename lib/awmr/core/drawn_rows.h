@@ -18,7 +18,8 @@ std::vector<std::size_t> drawn_rows(std::span<const double> t,
                                     std::size_t most);
 
 /// Tolerance for drawn_rows(), as a fraction of a signal's range. In a chart 220 px high, it is a
-/// tenth of a pixel, so that even at tenfold zoom the error is one pixel.
+/// tenth of a pixel: even at tenfold zoom, the error is only one pixel. A larger value would give
+/// smaller files.
 inline constexpr double kDrawnTolerance = 1.0 / 2000.0;
 
 /// Rounds a finite number to this many significant digits, 1 to 17.

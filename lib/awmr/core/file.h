@@ -22,16 +22,16 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::size_t max_bytes = kMaxFileBytes);
 
-/// Function that checks an output before it is written. It parses the bytes in the same way as the
-/// commands that later read the file. `file`: name of the file in errors.
+/// Function that checks the bytes of an output before they are written. It parses them in the same
+/// way as the commands that later read the file. `file`: name of the file in errors.
 using ReadBack = std::function<Status(std::string_view bytes, const std::string& file)>;
 
-/// Writes a file. Writes a temporary file next to `path`, flushes it and renames it to `path`, so
-/// that another program reads either the whole old file or the whole new one. Pipes and terminals
-/// are written directly. A symbolic link is kept, and its target is written, even if the target is
-/// missing. The directory must exist. Also removes temporary files (`.awmr-PID-XXXXXX`) that killed
-/// programs left in this directory. Errors: those of check_output(); the disk is full; `read_back`
-/// rejects the bytes, which is an internal error and leaves the old file unchanged.
+/// Writes a file. Writes a temporary file next to `path`, flushes it and renames it to `path`. So
+/// another program reads either the whole old file or the whole new one. Pipes and terminals are
+/// written directly. A symbolic link stays, and its target is written, even if the target does not
+/// exist yet. The directory must exist. Also removes temporary files (`.awmr-PID-XXXXXX`) that
+/// killed programs left in this directory. Errors: those of check_output(); the disk is full;
+/// `read_back` rejects the bytes, which is an internal error and leaves the old file unchanged.
 Status write_file(const std::filesystem::path& path, std::string_view bytes,
                   const ReadBack& read_back = {});
 
@@ -41,16 +41,16 @@ struct OutputFile {
   ReadBack read_back = {};  ///< empty: no check, for files that no command reads
 };
 
-/// Writes a set of files: all under temporary names, which are then renamed one after the other. If
-/// a temporary file cannot be written, or a path is a pipe or a device, no file is changed. A
-/// program that is killed between two renames (some microseconds) leaves a mixture of new and old
-/// files. To detect this, the last file should contain the hashes of the others.
+/// Writes a set of files. All are first written under temporary names, and then renamed one after
+/// the other. If a temporary file cannot be written, or a path is a pipe or a device, no file is
+/// changed. A program that is killed between two renames (some microseconds) leaves a mixture of
+/// new and old files. To make this detectable, let the last file contain the hashes of the others.
 Status write_files(std::span<const OutputFile> files);
 
 /// Checks that the output `path` can be written and is none of the inputs. Call it before a long
-/// computation. Errors: `path` is one of `inputs`, by this or another name; it is a directory, a
-/// read-only file, or a file with a second hard link, under which the old bytes would remain; its
-/// directory is missing or read-only; its symbolic links form a loop.
+/// computation. Errors: `path` is one of `inputs`, by this or another name; it is a directory or a
+/// read-only file; it has a second hard link, under which the old bytes would remain; its directory
+/// is missing or read-only; its symbolic links form a loop.
 Status check_output(const std::filesystem::path& path,
                     std::span<const std::filesystem::path> inputs = {});
 

@@ -1,5 +1,5 @@
-/// Recognises files that are not CSV. One error then names the format of the file, instead of one
-/// fault for each row. Private to the library.
+/// Recognises files that are not CSV. The user then gets one error with the format of the file,
+/// instead of a fault for each row. Private to the library.
 #pragma once
 
 #include <set>

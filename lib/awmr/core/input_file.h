@@ -1,4 +1,4 @@
-/// Reads input files and records their hashes. Each file is read once, so that the hash in an
+/// Reads input files and records their hashes. Each file is read only once. So the hash in an
 /// output is that of the bytes that were used, even if the file changes later or is a pipe.
 #pragma once
 

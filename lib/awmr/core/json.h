@@ -30,21 +30,21 @@ class JsonShape;
 
 /// A strict view of one JSON object. Each function that reads a key marks the key as known. These
 /// are faults: a value of the wrong type or out of range, and a missing key (except in the
-/// optional_ functions). On a fault, the function adds it to the shared list of faults and returns
-/// a neutral value: NaN, `min` of an integer, the first of several choices, false or empty. So
-/// reading continues, and all faults are found. Call `reject_unknown_keys()` after all keys were
-/// read.
+/// optional_ functions). On a fault, the function adds it to the shared list and returns a neutral
+/// value: NaN, `min` of an integer, the first of several choices, false or empty. So reading
+/// continues, and all faults of the file are found. After all keys were read, call
+/// `reject_unknown_keys()`.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
-  /// A view without a document, with which json_schema_text() finds the keys that a reader
-  /// requests. Records the requested keys in `shape` and returns neutral values.
+  /// A view without a document. json_schema_text() uses it to find the keys that a reader requests.
+  /// Records the requested keys in `shape` and returns neutral values.
   JsonObject(JsonShape& shape, std::vector<Fault>& ignored) : faults_(&ignored), shape_(&shape) {}
 
   /// True if the object has the key, even with the value null. Marks the key as known.
   bool has(std::string_view key);
   /// Number of elements in the array or object under the key. Absent if the key is missing or has
-  /// another type. Elements with faults count, unlike in the result of numbers() or strings().
+  /// another type. Elements with faults are counted; numbers() and strings() leave them out.
   std::optional<std::size_t> size(std::string_view key) const;
   double number(std::string_view key, NumberRule rule = kAnyNumber);
   std::optional<double> optional_number(std::string_view key, NumberRule rule = kAnyNumber);
@@ -90,8 +90,8 @@ class JsonObject {
   std::vector<JsonObject> values();
   /// Marks a key as known without reading its value; the key may be missing.
   void ignore(std::string_view key);
-  /// Reads the optional key `schema`, before all others. Any other value than `expected` is a
-  /// fault; the view then reports no further faults, because the file is of another kind.
+  /// Reads the optional key `schema`, before all others. A value other than `expected` is a fault:
+  /// the file is of another kind, so the view then reports no further faults.
   void schema(std::string_view expected);
   /// All keys of the object, in the order of the file; for objects with arbitrary keys.
   std::vector<std::string> keys() const;
@@ -117,10 +117,10 @@ class JsonObject {
   std::set<std::string, std::less<>> known_;
 };
 
-/// Returns a JSON Schema (draft 2020-12) that accepts every document that `read` accepts. The
-/// schema is derived by running `read` for every value of every choice(), with and without optional
-/// keys. If the value of a choice decides which other keys are allowed, the schema has a rule for
-/// it. It has no rules for other relations between keys. `format`: value of the key `$id`.
+/// Returns a JSON Schema (draft 2020-12) that accepts every document that `read` accepts. To derive
+/// it, `read` is run for every value of every choice(), with and without optional keys. If the
+/// value of a choice decides which other keys are allowed, the schema has a rule for it, but it has
+/// no rules for other relations between keys. `format`: value of the key `$id`.
 std::string json_schema_text(std::string_view format, std::string_view title,
                              const std::function<void(JsonObject&)>& read);
 
@@ -134,8 +134,8 @@ Provenance read_provenance(JsonObject& json);
 /// lists no inputs, for example because it was written by hand.
 std::optional<bool> is_made_from(const Json& document, std::string_view sha256);
 
-/// JSON text with an indentation of two spaces and a newline at the end. Numbers read back to the
-/// same value. Throws std::logic_error with the pointer of a number that is not finite, because
+/// JSON text with an indentation of two spaces and a newline at the end. Reading the text gives the
+/// same numbers. Throws std::logic_error with the pointer of a number that is not finite, because
 /// JSON has no such numbers.
 std::string to_text(const Json& json);
 

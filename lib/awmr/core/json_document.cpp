@@ -59,7 +59,8 @@ std::optional<Fault> beyond_bounds(const std::string& file, std::string_view tex
 }
 
 /// Builds the document from the events of the parser, and reports duplicate keys. It replaces the
-/// builder of nlohmann/json, whose time grows with the square of the number of keys.
+/// builder of nlohmann/json, which is slow for many keys: its time grows with the square of their
+/// number.
 class DocumentBuilder final : public Json::json_sax_t {
  public:
   explicit DocumentBuilder(std::string file, std::string_view text)

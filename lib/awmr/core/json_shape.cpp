@@ -9,8 +9,8 @@ namespace {
 /// Key under which a JsonShape records an object whose keys are arbitrary.
 constexpr std::string_view kAnyKey = "*";
 
-/// True if, in the run `way` of the reader, each choice in `picks` had the name with the given
-/// index. A choice that is not in Way::picks had its first name.
+/// True if the choices in `picks` had the given names (indices) in the run `way` of the reader. A
+/// choice that is not in Way::picks had its first name.
 bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   return std::all_of(picks.begin(), picks.end(), [&](const auto& pick) {
     const auto taken = way.picks.find(pick.first);
@@ -83,8 +83,8 @@ void JsonShape::requested(std::string_view key, bool required) {
   property(key);
   RequestedKeys& requested = now();
   requested.keys.emplace(key);
-  // A key is optional if its first request was not `required`, for example if the reader asks has()
-  // before it reads the key.
+  // The first request of a key decides whether it is optional. For example, a reader asks has()
+  // before it reads an optional key.
   if (!required && !requested.required.contains(std::string(key))) requested.optional.emplace(key);
   if (required && !requested.optional.contains(std::string(key))) requested.required.emplace(key);
 }
@@ -133,8 +133,8 @@ Json JsonShape::property_schema(const Property& property) const {
   return kinds.size() == 1 ? kinds.front() : Json{{"anyOf", kinds}};
 }
 
-/// Collects the keys that the reader requested in the runs that differ only in the name of the
-/// choice `key`. All other choices have the same names in these runs.
+/// Collects the keys that the reader requested in all runs that differ only in the name of the
+/// choice `key`.
 JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   const std::string place = place_ + "/" + key;
   Keys keys;
@@ -165,8 +165,8 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
   for (const RequestedKeys& one : ways_) {
     if (!takes(one.way, at_least)) continue;
     if (!one.way.present && one.optional.contains(key)) {
-      // In this run, the optional keys are absent, and the choice is one of them. Keys that the
-      // reader requests only in such runs are allowed with every name of the choice.
+      // In this run, the optional keys are absent, also this choice. Keys that the reader requests
+      // only in such runs are allowed with every name of the choice.
       for (const std::string& other : one.keys) {
         if (!keys.present.contains(other)) allowed.insert(other);
       }
@@ -197,8 +197,8 @@ Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const 
 }
 
 /// Rule of the JSON Schema for documents without the optional choice `key`. The choice then has its
-/// default name: the rule requires the keys of this name, and forbids keys that occur only with
-/// other names. Empty if the choice is not optional.
+/// default name. The rule requires the keys that this name requires, and forbids keys that occur
+/// only with other names. Empty if the choice is not optional.
 Json JsonShape::variant_without(const std::string& key) const {
   const auto& on = exploration_->met.at(place_ + "/" + key).on;
   const RequestedKeys* absent = nullptr;

@@ -1,8 +1,8 @@
-/// Derives the JSON Schema of a file from its reader, for json_schema_text(). The reader is run
-/// several times with JsonObjects that have no document. They record in a JsonShape each key that
-/// the reader requests, with the permitted values. A choice is a key whose value is one of several
-/// names (JsonObject::choice()). The name can decide which other keys exist, so the runs of the
-/// reader try all names. Private to this folder.
+/// Derives the JSON Schema of a file from the function that reads it (the reader), for
+/// json_schema_text(). The reader runs several times on JsonObjects without a document. They record
+/// in a JsonShape each key that the reader requests, with the permitted values. A choice is a key
+/// whose value is one of several names (JsonObject::choice()). The name can decide which other keys
+/// exist, so the runs try all names. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ struct Way {
 /// A choice that the reader requested.
 struct MetChoice {
   std::size_t count = 0;  ///< number of its names
-  /// Names of the other choices, as in Way::picks, in the run in which the reader first requested
+  /// Names of the other choices (as in Way::picks) in the first run in which the reader requested
   /// this choice.
   std::map<std::string, std::size_t> on = {};
 };
@@ -62,8 +62,7 @@ class JsonShape {
     std::unique_ptr<JsonShape> object;
     std::unique_ptr<JsonShape> element;
   };
-  /// Keys requested in one run: all of them, those that must be present, and those that may be
-  /// absent.
+  /// Keys requested in one run: all, those that must be present, and those that may be absent.
   struct RequestedKeys {
     Way way;
     std::set<std::string> keys;

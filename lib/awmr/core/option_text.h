@@ -1,5 +1,6 @@
-/// Option names in messages. The command line and Python spell options differently, so the library
-/// marks option names in its messages, and the caller replaces the marks.
+/// Option names in messages. The command line and Python spell options differently. Therefore the
+/// library marks option names in its messages, and the command line or Python replaces the marks by
+/// its own spelling.
 ///
 ///     option_text("loss huber");                          // a marked name, for a message
 ///     spell_options("use " + option_text("loss huber"), "--");  // "use --loss huber"
@@ -27,9 +28,8 @@ std::string replace_options(std::string_view message,
                             const std::function<std::string(std::string_view option)>& spelling);
 
 /// The faults to show to a user. If more than three faults of a file have the same cause, only the
-/// first of them is kept, and its message gives the number of the others. Then only the first 20
-/// faults are returned; if there are more, a last fault (`more-faults`) gives the number of those
-/// left out.
+/// first is kept, and its message gives the number of the others. Of the rest, the first 20 are
+/// returned. If there are more, a last fault (`more-faults`) gives their number.
 std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 
 /// One printable line, `PLACE: MESSAGE [CODE]`. Option names are spelt as by spell_options().

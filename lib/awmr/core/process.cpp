@@ -50,7 +50,7 @@ struct Pipe {
 };
 
 /// Settings of a new process: working directory, stdin, stdout and stderr; no other open files; no
-/// signal blocked or ignored; a process group of its own, so that it can be killed together with
+/// signal blocked or ignored. It gets its own process group, so that it can be killed together with
 /// its children.
 class SpawnSettings {
  public:
@@ -122,7 +122,7 @@ bool read_on(int file, std::string& output) {
 }
 
 /// Reads the output until the process has ended or its time limit is reached. Then kills its
-/// process group, to which the processes belong that it started.
+/// process group, which includes the processes that it started.
 ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
   ProgramEnd end;
   const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);

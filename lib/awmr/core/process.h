@@ -41,7 +41,7 @@ std::vector<std::string> plain_environment(const std::filesystem::path& temporar
 Result<ProgramEnd> run_program(const ProgramCall& call);
 
 /// Kills all programs that run_program() waits for, and their children. Later calls of
-/// run_program() fail. Call it when this process has to end.
+/// run_program() fail. Call it before this process ends, so that no program is left running.
 void end_running_programs();
 
 }  // namespace awmr

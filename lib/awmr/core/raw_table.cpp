@@ -91,8 +91,8 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
 }
 
 /// Index, among the columns of a formula, of the column with the most values. In a table of signals
-/// with different rates, the formula is evaluated in the rows in which this column has a value. The
-/// other columns then contribute their latest values.
+/// with different rates, the formula is evaluated in the rows in which this column has a value. Of
+/// the other columns, it then uses the latest values.
 std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   std::size_t best = 0;
   std::size_t most = 0;
@@ -145,8 +145,9 @@ std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
   return uses;
 }
 
-/// Storage for the values of a requested column. To save memory, this is the storage of a file
-/// column from which the requested column is computed, if no other requested column still needs it.
+/// Storage for the values of a requested column. To save memory, it is that of a file column from
+/// which the requested column is computed, if no other requested column still needs this file
+/// column.
 std::vector<double> storage_for(const ColumnSource& source, const std::vector<int>& uses,
                                 RawTable& raw) {
   for (const std::size_t index : source.indices) {
@@ -159,7 +160,7 @@ std::vector<double> storage_for(const ColumnSource& source, const std::vector<in
 /// columns must still be computed from it. `sparse`: the column may have empty cells.
 CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
                            RawTable& raw, FaultList& faults) {
-  // In a table with one row per run (kOptional), a formula must not use cells of other runs.
+  // In a table with one row per run (kOptional), a formula must not use cells of other rows.
   const bool keeps_previous = sparse && source.column.empty != EmptyCells::kOptional;
   const std::size_t rows = raw.lines.size();
   CsvTable::Column column;
@@ -198,7 +199,7 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
 }
 
 /// Completes a time column that find_time() found, or that has dates. If the first time is a date
-/// or a clock time (kClockTime_s), subtracts it from all times. Adds the note `time-column`.
+/// or a clock time (kClockTime_s), subtracts this time from all. Adds the note `time-column`.
 void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
   if (!source.time) return;
   std::vector<double>& t_s = parts.columns.at(source.column.name).values;

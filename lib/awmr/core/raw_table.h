@@ -1,5 +1,5 @@
-/// The numbers of a file in the form that the readers of all file formats (CSV, ROS bags, ...)
-/// return. Also converts them to the table of requested columns. Private to the library.
+/// The numbers of a file, in the form that the readers of all file formats (CSV, ROS bags, ...)
+/// return, and their conversion to the table of requested columns. Private to the library.
 #pragma once
 
 #include <limits>

@@ -15,8 +15,8 @@ std::string rounding_of_functions() {
   const auto note = [&bits](double value) {
     bits += fmt::format("{:x} ", std::bit_cast<std::uint64_t>(value));
   };
-  // 4000 arguments suffice to detect a difference: two variants of a function in the C library
-  // differ in the last bit for about one argument in a thousand.
+  // Two variants of a function in the C library differ in the last bit for about one argument in a
+  // thousand. So 4000 arguments suffice to detect a difference.
   constexpr int kArguments = 4000;
   for (int i = 1; i <= kArguments; ++i) {
     const double x = 0.00271828 * i;

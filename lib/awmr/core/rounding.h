@@ -6,9 +6,9 @@
 namespace awmr {
 
 /// Hash (16 hexadecimal digits) of all bits of results of exp, log, pow and other functions on this
-/// machine. The C library has variants of these functions for different processors, and some
-/// variants round differently. Two machines give byte-identical results only if their hashes are
-/// equal.
+/// machine. Reason: the C library has variants of these functions for different processors, and
+/// some variants round differently. Two machines give byte-identical results only if their hashes
+/// are equal.
 std::string rounding_of_functions();
 
 }  // namespace awmr

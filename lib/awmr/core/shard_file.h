@@ -28,8 +28,8 @@ struct PartOrigin {
   std::string version = {};  ///< version of the program that wrote the part
 };
 
-/// Returns the texts of a part's files. `payload`: the keys of shard.json that only this kind of
-/// job has.
+/// Returns the texts of a part's files. `payload`: the keys that shard.json has only for this kind
+/// of job.
 PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::string table,
                    const Json& payload);
 
@@ -47,8 +47,8 @@ struct Part {
 Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories);
 
-/// Applies `read(JsonObject&)` to a shard.json that was already checked, and returns what `read`
-/// returns. Faults are ignored.
+/// Reads keys of a shard.json that was already checked: returns the result of `read(JsonObject&)`.
+/// Faults are ignored.
 template <class Read>
 auto payload_of(const Json& shard_json, const Read& read) {
   std::vector<Fault> faults;
@@ -60,11 +60,11 @@ auto payload_of(const Json& shard_json, const Read& read) {
 /// from the one in shard.json.
 Result<std::string> read_table(const ShardKind& kind, const Part& part);
 
-/// Checks that the rows of a part's table belong to this part. They must have all items of the part
-/// in order; the table may repeat this sequence. `items`: number of items of the whole job. `rows`:
-/// number of rows. `item_of(i)`: item of row i. `name`: what an item is, such as "run". Errors
-/// (input): the shard does not fit a job of `items` items; the table has no rows; a row belongs to
-/// another item; rows are missing or repeated.
+/// Checks that the rows of a part's table belong to this part. The table must have all items of the
+/// part in order, once or several times. `items`: number of items of the whole job. `rows`: number
+/// of rows. `item_of(i)`: item of row i. `name`: what an item is, such as "run". Errors (input):
+/// the shard does not fit a job of `items` items; the table has no rows; a row belongs to another
+/// item; rows are missing or repeated.
 Status check_items(const ShardKind& kind, const Part& part, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 

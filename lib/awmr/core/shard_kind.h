@@ -28,7 +28,7 @@ struct ShardKind {
   /// text of the part's shard.json.
   Status (*check)(std::string_view text, const std::string& file, const std::string& shard_json);
   /// Keys of shard.json that may differ between the parts of one job. All other keys that `read`
-  /// reads must agree.
+  /// reads must be equal.
   std::vector<const char*> own_keys;
   const char* arithmetic_advice;  ///< for messages: how to get parts with the same arithmetic
   /// Reads and checks the keys of shard.json that only this kind of job has.

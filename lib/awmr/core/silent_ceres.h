@@ -5,8 +5,8 @@
 
 namespace awmr {
 
-/// Stops Ceres from logging to stderr why a search ended. The reason is available in the result of
-/// the search.
+/// Stops Ceres from logging to stderr why a search ended. The result of the search also has this
+/// reason.
 inline void silence_ceres() {
   static const int level = FLAGS_minloglevel =
       google::GLOG_FATAL;  // once, in the first thread that gets here

@@ -56,8 +56,8 @@ extern "C" void remove_and_end(int signal) {
 }
 
 /// Adds a path to the files that the signal handler removes. Returns its index in `registered`, or
-/// -1 if all entries are in use. A file without an entry stays if a signal ends the program; a
-/// later remove_stale_temporaries() removes it.
+/// -1 if all entries are in use. Without an entry, a signal leaves the file behind; a later
+/// remove_stale_temporaries() removes it.
 int register_path(const fs::path& path) {
   char* text = ::strdup(path.c_str());
   for (int i = 0; text != nullptr && i < kSlots; ++i) {
@@ -106,8 +106,8 @@ std::optional<TemporaryFile> TemporaryFile::in(const fs::path& directory) {
   return std::nullopt;
 }
 
-// The path is registered before the file is made. A signal in between would otherwise leave the
-// file behind.
+// The path is registered before the file is made. Otherwise a signal between the two would leave
+// the file behind.
 TemporaryFile::TemporaryFile(fs::path path)
     : path_(std::move(path)),
       slot_(register_path(path_)),

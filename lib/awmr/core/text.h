@@ -28,8 +28,9 @@ std::string printable(std::string_view text);
 /// As printable(), but keeps line breaks.
 std::string printable_lines(std::string_view text);
 
-/// Breaks a text between words into lines of at most `width` bytes. Each line but the first is
-/// indented by `indent` spaces, for which the first line leaves room.
+/// Breaks a text between words into lines of at most `width` bytes. All lines but the first are
+/// indented by `indent` spaces. The first line is shorter by as much, for text that the caller puts
+/// there.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
 
 /// Default length limit of shortened(), bytes.

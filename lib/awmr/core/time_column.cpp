@@ -103,7 +103,7 @@ std::optional<TimeColumn> as_date(const std::string& name, std::string_view samp
 }
 
 /// Recognises a column such as `timestamp` with seconds since 1970, of the years 2001 to 2096. The
-/// number must have a fraction, because counts of milliseconds or smaller units have none.
+/// number must have a fraction: counts of milliseconds or smaller units have none.
 std::optional<TimeColumn> as_unix_seconds(const std::string& name, std::string_view sample) {
   if (!is_time_word(parts_of(name).back()) || sample.find('.') == std::string_view::npos) {
     return std::nullopt;

@@ -1,6 +1,7 @@
-/// Finds the time column of a file without a column `t_s`. Recognised are: a name with a unit
-/// (`time_ms`); whole seconds with nanoseconds (`stamp.sec`, `stamp.nanosec`); dates of ISO 8601;
-/// if there is none of these, seconds since 1970 with a fraction. Private to the library.
+/// Finds the time column of a file that has no column `t_s`. It recognises a name with a unit
+/// (`time_ms`), whole seconds with nanoseconds (`stamp.sec`, `stamp.nanosec`), and dates of ISO
+/// 8601. If there is none of these, it looks for seconds since 1970 with a fraction. Private to the
+/// library.
 #pragma once
 
 #include <optional>
@@ -14,8 +15,8 @@ namespace awmr {
 /// Name of the time column, s.
 inline constexpr std::string_view kTimeName = "t_s";
 
-/// Smallest magnitude, s, of a clock time, such as seconds since 1970. If the first time in a
-/// column that find_time() found is a clock time, all times are counted from the first row.
+/// Smallest magnitude, s, of a clock time, such as seconds since 1970. If a column that find_time()
+/// found begins with a clock time, all times are counted from the first row.
 inline constexpr double kClockTime_s = 1e6;
 
 /// A column or a pair of columns with the time.

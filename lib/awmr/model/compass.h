@@ -13,8 +13,8 @@ struct WithInterval {
 };
 
 /// While the vehicle turns, the measured field f (ahead and left, in any unit) describes an
-/// ellipse. Magnets on the vehicle shift the centre o of the ellipse (hard iron); iron deforms the
-/// ellipse (soft iron). The calibrated field c describes a circle:
+/// ellipse. Magnets on the vehicle shift its centre o (hard iron), and iron deforms it (soft iron).
+/// The calibrated field c describes a circle:
 ///     c = S (f - o),  S symmetric, det S = 1,  |c| = field
 ///     heading = atan2(-c_left, c_ahead) - declination, counter-clockwise from true north
 struct CompassCalibration {
@@ -25,8 +25,8 @@ struct CompassCalibration {
   WithInterval gain_left;     ///< S: gain from left to left
   WithInterval field;         ///< radius of the circle that c describes, in the unit of f, > 0
   double residual = 0.0;      ///< standard deviation of |c|, divided by `field`
-  /// 97.5 % bound of the heading error of this calibration, in the direction with the largest
-  /// error.
+  /// 97.5 % bound of the error of a heading that is computed with this calibration, for the
+  /// direction in which this bound is largest
   double heading_error_deg = 0;
   double turned_deg = 0.0;       ///< angle turned from the first row to the last, left positive
   double largest_gap_deg = 0.0;  ///< largest angle between neighbouring measured field directions

@@ -49,8 +49,8 @@ struct Plant {
   T yaw_scrub_m = T(0.0);
 };
 
-/// Upper bound of the yaw resistance: g3 plus the largest moment of tyre scrub. Integration steps
-/// are chosen short enough for it.
+/// Upper bound of the yaw resistance: g3 plus the largest moment of tyre scrub. It is used to
+/// choose integration steps that are short enough.
 template <class T>
 Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   Resistance<T> law = p.yaw;
@@ -58,11 +58,11 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   return law;
 }
 
-/// Yaw moment N_c of tyre scrub over F_max, m. It has the sign of the yaw rate r, which it resists.
-/// In a differential turn the straight wheels are dragged sideways; in a steered turn they roll. c
-/// = yaw_scrub_m is the moment measured in differential turns. In other turns it is scaled by q,
-/// the fraction of the yaw moment that comes from different left and right forces (tau_diff), not
-/// from the steering (tau_steering):
+/// Yaw moment N_c of tyre scrub over F_max, m. It has the sign of the yaw rate r, and resists the
+/// turn. In a differential turn the straight wheels are dragged sideways; in a steered turn they
+/// roll. c = yaw_scrub_m is the moment measured in differential turns. In other turns, c is
+/// multiplied by q, the fraction of the yaw moment that comes from different left and right forces
+/// (tau_diff), not from the steering (tau_steering):
 ///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
 /// For |r| below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
 template <class T>
@@ -144,8 +144,8 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   using math::sin;
   const T cos_psi = cos(s.psi_rad);
   const T sin_psi = sin(s.psi_rad);
-  // Divisions would take most of the time of a batch of simulations. The code therefore multiplies
-  // by reciprocals, which are constant.
+  // Divisions would take most of the time of a batch of simulations. Therefore the code multiplies
+  // by the reciprocals of mass and inertia, which are constant.
   const T per_mass = T(1.0) / p.mass_norm;
   const T per_inertia = T(1.0) / p.inertia_norm;
   State<T> d{};
@@ -357,9 +357,9 @@ T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) 
   return detail::scrub_of(p, s, tau) * s.r_radps;
 }
 
-/// Rates of the state if both motors of a side have the same command, `f`. Uses the equations for
-/// individual wheels if the vehicle has scrub, or if front and rear forces differ in spite of equal
-/// commands (back-EMF, undriven rear wheels).
+/// Rates of the state if both motors of a side have the same command, `f`. Front and rear forces
+/// can differ in spite of equal commands (back-EMF, undriven rear wheels). In this case, and if the
+/// vehicle has scrub, the equations for individual wheels are used.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {

@@ -18,8 +18,8 @@ void describe_findings(JsonObject& json);
 /// Reads the key `findings` of a document; empty if there is none.
 std::vector<Finding> read_findings(JsonObject& json);
 
-/// The document with `findings` as its last key; existing findings are replaced. Findings give the
-/// names of files without directories, so that the bytes do not depend on where the files are.
+/// The document with `findings` as its last key; existing findings are replaced. File names in
+/// findings have no directories, so that the bytes do not depend on where the files are.
 /// Precondition: `document` is a JSON object.
 std::string with_findings(const std::string& document, const std::vector<Finding>& findings);
 

@@ -8,8 +8,9 @@
 
 namespace awmr {
 
-/// A resistance law counts as extrapolated at speeds (or yaw rates) far outside the fitted ones:
-/// above the largest fitted speed times this factor, or below the smallest one divided by it.
+/// A resistance law counts as extrapolated far outside the fitted speeds (or yaw rates): above the
+/// largest fitted one times this factor, or below the smallest one divided by it. Chosen: a larger
+/// factor warns later.
 inline constexpr double kLittleFurther = 1.2;
 
 /// The model parameters that are the coefficients of a resistance law:
@@ -20,13 +21,13 @@ struct LawParameters {
 /// The coefficients of g3 for turning trials, those of g1 for the other kinds of trial.
 LawParameters law_parameters(TrialKind kind);
 
-/// The resistance law (g3 for turning trials, else g1) with the model's values, without the dead
-/// zone of the wheels; absent if alpha or beta has no value.
+/// The resistance law (g3 for turning trials, else g1) with the model's values. It does not include
+/// the dead zone of the wheels. Absent if alpha or beta has no value.
 std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind);
 
 /// Variance of the weighted sum of weight_i g(w_i) that follows from the covariance of the
-/// parameters. `rates` are the speeds or yaw rates w_i >= 0; g(w) is the force or moment that a
-/// steady run at w needs. Variance:
+/// parameters. `rates` are the speeds or yaw rates w_i >= 0. g(w) is the force or moment with which
+/// a run stays at the steady speed w. Variance:
 ///   h' C h,  h = sum_i weight_i (dg/dalpha, dg/dbeta, dg/dc, dg/dq, dg/dF'0)
 ///              = sum_i weight_i (w^beta, alpha w^beta ln w, 1, w^2, z)
 /// C is the model's covariance; parameters that it does not contain count as exact. A straight run

@@ -24,9 +24,9 @@
 /// functions without tight time limits.
 #ifdef __AVR__
 #define AWMR_CALLED __attribute__((noinline, optimize("Os")))
-/// As AWMR_CALLED, for member functions. The compiler must also not make a copy (clone) of the
-/// function for one object: it would use absolute addresses, and its code would be twice as long as
-/// with addresses relative to the object.
+/// As AWMR_CALLED, for member functions. The compiler must also not copy (clone) the function for a
+/// single object. The copy would use absolute addresses, which make the code twice as long as
+/// addresses relative to the object.
 #define AWMR_CALLED_MEMBER __attribute__((noinline, noclone, optimize("Os")))
 #else
 #define AWMR_CALLED
@@ -64,14 +64,14 @@ inline int32_t order_of(float x) {
 }
 inline bool is_nan(float x) { return magnitude_bits(x) > kInfinityBits; }
 
-/// The leading 16 bits of |x|: exponent and seven bits of mantissa. If the leading bits of two
-/// numbers differ, they have the order of the magnitudes; comparing them takes half the cycles of
+/// The leading 16 bits of |x|: exponent and seven bits of mantissa. If they differ for two numbers,
+/// they have the order of the magnitudes. Comparing them takes half the cycles of comparing
 /// magnitude_bits().
 inline uint16_t leading_bits(float x) {
   return static_cast<uint16_t>(bits_of(x) >> 16U) & static_cast<uint16_t>(0x7FFFU);
 }
-/// Leading 16 bits of x as a signed integer, which has the order of the numbers, as order_of() has.
-/// Numbers that differ only in the other bits are equal.
+/// Leading 16 bits of x as a signed integer. These integers have the order of the numbers; numbers
+/// that differ only in the other bits are equal.
 inline int16_t leading_order_of(float x) {
   const int16_t magnitude = static_cast<int16_t>(leading_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? static_cast<int16_t>(-magnitude) : magnitude;
@@ -198,7 +198,7 @@ inline float atan2(float y, float x) {
   return eighths == 4 && magnitude_bits(angle) == bits_of(kPi) ? angle : -angle;
 }
 
-/// atan2 that is not inlined on the chip, for callers to which the time of a call does not matter.
+/// atan2 that is not inlined on the chip, which saves flash; for callers that have time for a call
 AWMR_CALLED inline float called_atan2(float y, float x) { return atan2(y, x); }
 
 /// atan x. Worst error 9e-7 relative to the value.

@@ -17,9 +17,9 @@ struct HeadingGains {
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
   T epsilon;
-  /// w0, rad/s, >= 0.02: friction width in steering mode. Below this yaw rate, the yaw resistance
-  /// is fed forward smoothly, without its jump at rest (Gains::friction_width_at()). No effect
-  /// without Coulomb friction in yaw.
+  /// w0, rad/s, >= 0.02: friction width in steering mode. Below this yaw rate, the controller feeds
+  /// forward the yaw resistance as a smooth curve, because g3 itself jumps at rest
+  /// (Gains::friction_width_at()). No effect without Coulomb friction in yaw.
   T friction_width_radps = feed_forward_rest_speed<T>();
   /// Friction width in combined mode, rad/s, >= 0.02. If it is 0, the larger of w0/2 and 0.02 is
   /// used. No effect with an observer, which uses w0 in every mode.
@@ -67,10 +67,11 @@ struct Gains {
 
   /// Friction width w, rad/s, in a mode of yaw control. At yaw rates below w, the controller feeds
   /// forward the resistance g3(w) sat((psi_d_dot + lambda e)/w) instead of g3, which jumps at rest
-  /// (fed_forward()). `steering_share`: the share s of the yaw moment that the steering makes. With
-  /// an observer, w is w0 in every mode. Without, w is 0.02 for s = 0, the width of the combined
-  /// mode for s = 1/2, and w0 for s = 1. A larger w gives less noise in the steering command, but a
-  /// larger heading error at rest, which only an observer removes.
+  /// (fed_forward()). A larger w gives less noise in the steering command. But it also gives a
+  /// larger heading error at rest, which only an observer removes. With an observer, w is w0 in
+  /// every mode. Without one, it depends on `steering_share`, the share s of the yaw moment that
+  /// the steering makes: w is 0.02 for s = 0, the width of the combined mode for s = 1/2, and w0
+  /// for s = 1.
   T friction_width_at(const T& steering_share) const {
     const T w0 = heading.friction_width_radps;
     if (observer.is_on() || steering_share > T(0.5)) return w0;

@@ -15,25 +15,25 @@
 
 namespace awmr {
 
-/// Reads `/heading`, `/speed` and, if present, `/observer`: the gains of the modes without gains of
-/// their own. Errors: those of read_json_file(); unknown keys; gains that are missing or out of
-/// range (ranges.h), also in `/modes`.
+/// Reads `/heading`, `/speed` and, if present, `/observer`. These gains are for all modes without
+/// gains of their own. Errors: those of read_json_file(); unknown keys; gains that are missing or
+/// out of range (ranges.h), also in `/modes`.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
-/// Reads `/certificate`; absent in files without tuning results and in older files. Errors: as
-/// read_json_file; a certificate in another form.
+/// Reads `/certificate`, the worst cases of the closed loop. Absent in files without tuning results
+/// and in older files. Errors: as read_json_file(); a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
-/// As read_gains(), but also reads the gains of single modes (`/modes`), if there are any. A mode
-/// with gains of its own has an observer only if these contain one.
+/// As read_gains(), but also reads the gains of single modes (`/modes`), if there are any. Such a
+/// mode does not get the observer of `/observer`: its own gains must contain one.
 Result<ModeGains> read_mode_gains(const std::filesystem::path& path);
 
-/// JSON pointer of the gains of a mode in gains.json: "/modes/steering", or "" if it has none of its
-/// own.
+/// JSON pointer of the gains of a mode in gains.json: "/modes/steering", or "" if the mode has no
+/// gains of its own.
 std::string pointer_of(const ModeGains& gains, YawMode mode);
 
-/// Checks a text of gains.json before it is written, as ReadBack (core/file.h). Errors: those of
-/// read_gains().
+/// Checks that a text of gains.json can be read. Used before the file is written (ReadBack in
+/// core/file.h). Errors: those of read_gains().
 Status check_gains_text(std::string_view text, const std::string& file);
 
 /// As read_mode_gains(), but also checks that the gains suit a controller with this sample time.

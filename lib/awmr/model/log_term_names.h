@@ -19,10 +19,10 @@ inline constexpr std::string_view kForceImbalanceName = "motor.imbalance";
 inline constexpr std::string_view kForceExponentName = "motor.exponent";
 inline constexpr std::string_view kForceSaturationName = "motor.saturation";
 inline constexpr std::string_view kSaturationSharpnessName = "motor.saturation_sharpness";
-/// Further forces: Stribeck friction (larger friction at low speed) with its speed scale, in surge
-/// and in yaw; acceleration by a slope along x and y; additional surge resistance in turns, with
-/// its exponents. Three relative increases: of motor forces that brake, of backward motor forces,
-/// and of the surge resistance in backward motion. The last one is a yaw moment that pulls the
+/// Further forces. Stribeck friction (larger friction at low speed) with its speed scale, in surge
+/// and in yaw. Acceleration by a slope along x and y. Additional surge resistance in turns, with
+/// its exponents. Relative increases of three quantities: motor forces that brake, backward motor
+/// forces, and surge resistance in backward motion. The last name is a yaw moment that pulls the
 /// driving vehicle to one side.
 inline constexpr std::array<std::string_view, 13> kExtraForceNames = {
     "surge.stribeck",

@@ -41,7 +41,8 @@ class ModeGains {
     return in(YawMode::kDifferential).observer.is_on() || in(YawMode::kSteering).observer.is_on() ||
            in(YawMode::kCombined).observer.is_on();
   }
-  /// The modes that a file lists one by one: all if at least one has gains of its own, else none.
+  /// The modes that a file lists one by one: all modes if at least one has gains of its own, else
+  /// none.
   std::span<const YawMode> listed_modes() const {
     const bool has_any_own = has_own(YawMode::kDifferential) || has_own(YawMode::kSteering) ||
                              has_own(YawMode::kCombined);

@@ -49,15 +49,15 @@ using Quantiles = std::array<double, kQuantileCount>;
 struct Estimate {
   /// In the parameter's unit. Absent if the data do not determine it.
   std::optional<double> value;
-  /// In the parameter's unit, >= 0; 0: the value is known exactly. Absent for a given value, or if
-  /// there are too few data.
+  /// Standard error, in the parameter's unit, >= 0; 0: the value is known exactly. Absent for a
+  /// given value, or if there are too few data.
   std::optional<double> std_error;
   std::optional<Interval> ci95;  ///< 95 % confidence interval; absent if `std_error` is absent
   Source source = Source::kGiven;
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
-  /// Quantiles of the estimate if its error is not normal about `value`: the ends of the 95 %
-  /// interval, the quartiles and the median. Monte-Carlo simulations draw plants from them
-  /// (simulate/plant_sampler.h).
+  /// Quantiles of the estimate: the ends of the 95 % interval, the quartiles and the median.
+  /// Present only if the error is not normal about `value`. Monte-Carlo simulations draw plants
+  /// from them (simulate/plant_sampler.h).
   std::optional<Quantiles> quantiles = {};
 };
 
@@ -78,18 +78,18 @@ struct YawScrub {
   int rows = 0;              ///< turns from which it was estimated, >= 3
   Interval yaw_rate_radps;   ///< range of the yaw rates of these turns, > 0
   /// Range of the moment over the yaw rates of these turns, widened by its uncertainty. Absent if
-  /// the moment does not detectably change with the yaw rate.
+  /// no change of the moment with the yaw rate was detected.
   std::optional<Interval> changing_m = {};
 };
 
-/// False if the vehicle does not have this parameter. Only the time constant of the servo can be
-/// missing, in a vehicle without steering.
+/// False if the vehicle does not have this parameter. Only a vehicle without steering lacks one:
+/// the time constant of the servo.
 bool has(const Vehicle& vehicle, ParameterId id);
 /// Description, for messages, of the trial that identifies a parameter of this vehicle.
 std::string_view trial_of(const Vehicle& vehicle, ParameterId id);
 
-/// Types of motion. They differ in the parameters that their equations contain. The equations of
-/// all types contain dead zone and back-EMF.
+/// Types of motion, by the parameters in their equations. All equations contain dead zone and
+/// back-EMF.
 enum class Motion {
   kSteadySurge,  ///< straight ahead at constant speed: g1
   kSteadyTurn,   ///< turn at constant yaw rate: g3
@@ -112,14 +112,13 @@ struct Model {
   Family yaw_family = Family::kPower;
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
-  /// Smallest plausible m', s^2/m, > 0: g1(u)/(mu g). Here u is the highest initial speed of the
-  /// coast-downs, mu is kTyreFriction, and g the acceleration of gravity. With a smaller m', the
-  /// resistance g1(u) would brake the vehicle harder than its tyres permit. Absent if the
-  /// identified m' is plausible.
+  /// Smallest plausible m', s^2/m, > 0: g1(u)/(mu g). With a smaller m', the resistance g1(u) would
+  /// brake the vehicle harder than its tyres permit. u: highest initial speed of the coast-downs,
+  /// mu: kTyreFriction, g: acceleration of gravity. Absent if the identified m' is plausible.
   std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
-  /// The largest yaw moment over F_max, m, > 0, that the difference of left and right wheel forces
-  /// made without turning the vehicle. Absent: the vehicle turned in every trial.
+  /// Largest yaw moment over F_max, m, > 0, that the difference of left and right wheel forces made
+  /// while the vehicle did not turn. Absent: the vehicle turned in every trial.
   std::optional<double> yaw_held_m;
   /// True: g3 was fitted only to differential turns, although the vehicle also steers. It then
   /// includes the moment of tyre scrub.
@@ -137,7 +136,7 @@ struct Model {
   Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
 
   /// The plant for simulating only the motions that the trials in `record` measured, such as
-  /// straight driving. Only the parameters of these motions must have a value. Errors: as plant().
+  /// straight driving. Only the parameters of these motions need a value. Errors: as plant().
   Result<Plant<double>> plant_of_trials() const;
 
   /// The plant without checks. Parameters without a value are replaced: a resistance by 0, an
@@ -150,8 +149,8 @@ struct Model {
   Motion simulated_motion() const;
 };
 
-/// True for an optional term (ParameterInfo::term) that this model does not have. It was not
-/// fitted, its given value is 0 or missing, and model.json does not contain it.
+/// True for an optional term (ParameterInfo::term) that this model does not have: it was not
+/// fitted, and its given value is 0 or missing. model.json does not contain such a term.
 bool is_absent_term(const Model& model, ParameterId id);
 
 /// The largest force of one motor, N:

@@ -123,8 +123,8 @@ void put_estimates(Json& json, const Model& model) {
   if (model.yaw_family != Family::kPower) json["yaw"]["family"] = name_of(model.yaw_family);
 }
 
-/// Writes /si, the values in SI units. They are computed from the rest of the file for the user,
-/// and the reader ignores them.
+/// Writes /si, the values in SI units, for the user. They are computed from the rest of the file,
+/// so the reader ignores them.
 void put_si(Json& json, const Model& model) {
   for (const SiQuantity& quantity : si_quantities(model)) {
     json["si"][Json::json_pointer(quantity.pointer)] =
@@ -259,8 +259,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                     scrub.moment_m, ci.lo, ci.hi));
   check(scrub.yaw_rate_radps.lo > 0.0 && scrub.yaw_rate_radps.hi < 1e3, "yaw_rate_radps",
         "yaw rates must be above 0 and below 1000 rad/s");
-  // The wheel forces overcame the scrub moment in the trials, so it cannot exceed their largest yaw
-  // moment.
+  // In the trials, the wheel forces overcame the scrub moment. So it cannot exceed the largest yaw
+  // moment of these forces.
   const Interval force = model.vehicle.wheel_force;
   const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
   check(scrub.moment_m <= most_m, "moment_m",
@@ -302,8 +302,8 @@ bool accepts_implausible(const Model& model) {
   });
 }
 
-/// Finds contradictions, which a file can have after it was edited by hand: a value outside its
-/// interval, a scrub moment that does not fit its interval, a standard error that differs from the
+/// Finds contradictions, as a file that was edited by hand can have: a value outside its interval,
+/// a scrub moment that does not fit its interval, a standard error that differs from the
 /// covariance.
 std::vector<Fault> self_contradictions(const Model& model) {
   constexpr double kTolerance = 0.01;

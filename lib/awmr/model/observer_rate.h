@@ -8,8 +8,9 @@
 
 namespace awmr {
 
-/// Checks that L T_s < 1, where L is `bandwidth_radps` and T_s is `sample_time_s`. Otherwise the
-/// observer's estimate would oscillate. Errors (input), at `place`: L T_s >= 1.
+/// Checks that L T_s < 1, with the bandwidth L = `bandwidth_radps` and the sample time T_s =
+/// `sample_time_s`. Otherwise the observer's estimate would oscillate. Errors (input), at `place`:
+/// L T_s >= 1.
 Status check_observer_rate(double bandwidth_radps, double sample_time_s, const std::string& place);
 
 }  // namespace awmr

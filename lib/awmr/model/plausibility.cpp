@@ -32,8 +32,8 @@ constexpr std::array<Guess, 5> kInertia{{{1e-4, "looks like kg cm^2"},
                                          {1e-7, "looks like g cm^2"},
                                          {1e-9, "looks like g mm^2"}}};
 
-/// Of the guesses whose factor brings `ratio` into the plausible `range`, returns the one whose
-/// result is nearest to the `usual` ratio; none if no factor does.
+/// Returns the guess whose factor brings `ratio` into the plausible `range`; of several, the one
+/// whose result is nearest to the `usual` ratio. None if no factor does.
 std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interval range,
                             double usual) {
   std::optional<Guess> best;
@@ -45,8 +45,8 @@ std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interv
   return best;
 }
 
-/// End of a message: "; the value looks like mm: 0.32", with the converted value. Without a guess,
-/// it is the advice to measure again.
+/// End of a message with the probable unit and the converted value: "; the value looks like mm:
+/// 0.32". Without a guess, it advises to measure again.
 std::string remedy(double value, const std::optional<Guess>& guess) {
   if (!guess) return "; measure it again";
   return fmt::format("; the value {}: {:.4g}", guess->words, value * guess->factor);
@@ -58,9 +58,9 @@ struct Scale {
   double mass;
 };
 
-/// The scale that brings the mass per footprint area nearest to 50 kg/m^2, as of a typical robot.
-/// None if no scale brings it into 5 to 500 kg/m^2. Precondition: length and width have the same
-/// unit.
+/// The scale that brings the mass per footprint area nearest to 50 kg/m^2, which is typical of a
+/// robot. None if no scale brings it into 5 to 500 kg/m^2. Precondition: length and width have the
+/// same unit.
 std::optional<Scale> likely_scale(double mass_per_area) {
   static constexpr std::array<Scale, 5> kScales{
       {{1e-3, 1.0}, {1e-2, 1.0}, {1.0, 1e-3}, {1e-3, 1e-3}, {1e-2, 1e-3}}};
@@ -94,8 +94,8 @@ void check_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
   if (guess) larger *= guess->factor;
 }
 
-/// Checks the mass per footprint area. If it is implausible, converts the mass from g to kg, or
-/// length and width from mm or cm to m, or both, if the result is plausible.
+/// Checks the mass per footprint area. If it is implausible, tries to convert the mass from g to
+/// kg, or length and width from mm or cm to m, or both. Converts only if the result is plausible.
 void check_mass(Vehicle& vehicle, std::vector<Implausible>& found) {
   constexpr Interval kMassPerArea{1.0, 5000.0};
   const double per_area = vehicle.mass_kg / (vehicle.length_m * vehicle.width_m);

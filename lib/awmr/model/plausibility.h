@@ -28,10 +28,10 @@ inline constexpr Interval kInertiaOverBox{0.05, 3.0};
 /// Largest plausible time constant of a steering servo, s; a larger number is probably in ms.
 inline constexpr double kSlowestServo_s = 2.0;
 
-/// Ratio of the identified I'z/m' to Iz/m of the vehicle; 1 if they agree. Precondition: mass_norm
-/// > 0.
+/// Ratio of the identified I'z/m' to Iz/m of the vehicle data; 1 if they agree. Precondition:
+/// mass_norm > 0.
 double inertia_over_vehicle(const Vehicle& vehicle, double inertia_norm, double mass_norm);
-/// Range of the ratio above that follows from the 95 % intervals of I'z and m'. If one has no
+/// Range of the ratio above that follows from the 95 % intervals of I'z and m'. If I'z or m' has no
 /// interval: half to twice the ratio of the values. Precondition: both estimates have a value.
 Interval inertia_over_vehicle(const Vehicle& vehicle, const Estimate& inertia,
                               const Estimate& mass);
@@ -42,14 +42,14 @@ struct Implausible {
   std::string message;  ///< the comparison, the likely unit and the resulting value
 };
 
-/// Returns the implausible values, checked in this order: length over width, mass and sizes, track,
+/// Returns the implausible values. Checks in this order: length over width, mass and sizes, track,
 /// front axle, Iz, steering. If the length, the width or the mass is probably in another unit, the
 /// later checks use the converted value. Empty if all values are plausible.
 std::vector<Implausible> implausible_values(const Vehicle& vehicle);
 
-/// Checks that implausible_values() is empty. Errors (input): all implausible values, each at
-/// `place` followed by its pointer. `remedy`: a sentence that says what the user can do, for the
-/// end of each message.
+/// Checks that the vehicle has no implausible_values(). Errors (input): all of them, each at
+/// `place` followed by its pointer. `remedy`: a sentence for the end of each message that says what
+/// the user can do.
 Status check_plausible(const Vehicle& vehicle, const std::string& place, const std::string& remedy);
 
 /// Returns the implausible values as findings (`implausible-vehicle`) in `file`; if `file` is

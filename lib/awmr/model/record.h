@@ -70,8 +70,8 @@ struct EstimatorParameter {
   std::optional<double> std_error;  ///< > 0; absent if there are too few data
   std::optional<Interval> ci95;     ///< 95 % interval from the curvature of the cost at its minimum
   /// 95 % interval from the profile likelihood, that is, the cost minimised over the other
-  /// parameters. It can be asymmetric. If the data do not determine an end, this end is the
-  /// parameter's bound.
+  /// parameters. It can be asymmetric. If the data do not limit the parameter on one side, this end
+  /// of the interval is the parameter's bound.
   std::optional<Interval> profile95 = {};
 };
 
@@ -113,10 +113,10 @@ struct EstimatorReport {
   std::string stop_reason;        ///< reason why the solver stopped
   std::string family = {};        ///< family of resistance; empty: the paper's power law
   /// Weight, in (0, 1], of this report in the average over noise models: the probability that
-  /// `noise` names the quantity that is noisy. Absent: the estimates were not averaged.
+  /// `noise` is the noisy quantity. Absent: the estimates were not averaged.
   std::optional<double> weight = {};
-  /// Akaike information criterion, less is better: AICc of tables and coast-downs, AIC of logs
-  /// under the noise model of the chosen fit. Compare only reports of the same subject and `noise`.
+  /// Akaike information criterion, lower is better: AICc of tables and coast-downs; AIC of logs,
+  /// with the noise model of the chosen fit. Compare only reports of the same subject and `noise`.
   std::optional<double> aicc = {};
   std::vector<Diagnostic> diagnostics = {};
   std::vector<LeaveOneOut> leave_one_out = {};

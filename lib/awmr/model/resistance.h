@@ -21,10 +21,11 @@ struct Resistance {
   /// beta, dimensionless, >= 0: exponent of the speed. Surge: b1, in [0, 1] in the paper; yaw: b3.
   /// Below 1 the slope at rest is infinite.
   T beta;
-  /// Speed, m/s or rad/s, >= 0, below which the chord replaces g(w): the straight line from the
-  /// origin to the curve at this speed. 0 keeps the law exact, for fits and steady states. A
-  /// simulation needs a chord, because the curve jumps at rest for c > 0 and has an infinite slope
-  /// there for beta < 1. rest_speed() in steady.h computes this speed from the length of the steps.
+  /// Speed, m/s or rad/s, >= 0. Below this speed, a straight line through the origin (chord)
+  /// replaces g(w); it meets the curve at this speed. 0 keeps the law exact, for fits and steady
+  /// states. A simulation needs a chord, because the curve jumps at rest for c > 0 and has an
+  /// infinite slope there for beta < 1. rest_speed() in steady.h computes this speed from the
+  /// length of the steps.
   T rest_speed = T(0.0);
   /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);
@@ -59,22 +60,22 @@ struct Resistance {
   }
 };
 
-/// Default speed (m/s) or yaw rate (rad/s) below which a controller feeds forward a resistance with
-/// Coulomb friction c as a straight line through the origin (its chord). The curve itself jumps
-/// from -c to c at rest, so the command would chatter between these values.
+/// Default speed (m/s) or yaw rate (rad/s) below which a controller replaces a resistance with
+/// Coulomb friction c by a straight line through the origin (its chord). The curve itself jumps
+/// from -c to c at rest. Fed forward, it would make the command chatter between these values.
 template <class T>
 constexpr T feed_forward_rest_speed() {
   return T(0.02);
 }
-/// The law that a controller feeds forward: `law` itself, or if it has Coulomb friction, `law` with
-/// a chord below the speed `rest_speed`.
+/// The law that a controller feeds forward. It is `law` itself, or if this has Coulomb friction,
+/// `law` with a chord below the speed `rest_speed`.
 template <class T>
 Resistance<T> feed_forward(Resistance<T> law, const T& rest_speed = feed_forward_rest_speed<T>()) {
   if (law.coulomb > T(0.0)) law.rest_speed = rest_speed;
   return law;
 }
 
-/// The command for which a motor with a dead zone makes `force`; 0 for the force 0. Command and
+/// The command with which a motor with a dead zone makes `force`; 0 for the force 0. Command and
 /// force are over F_max; zone = F'0 >= 0. Inverse of beyond_dead_zone() for every force except 0.
 template <class T>
 T with_dead_zone(const T& force, const T& zone) {

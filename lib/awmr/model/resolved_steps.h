@@ -8,11 +8,12 @@
 
 namespace awmr {
 
-/// Largest permitted product of a rate of decay (1/s) and a Runge-Kutta step (s). Up to this
-/// product, deviations decay without a change of sign. The method is stable up to 2.78.
+/// Largest permitted product of a rate of decay (1/s) and a Runge-Kutta step (s). Up to 1,
+/// deviations decay without a change of sign. Above 2.78, the method is unstable.
 inline constexpr double kMaxRateTimesStep = 1.0;
 
 /// Maximum number of successive halvings of one step, and maximum number of halved steps in a run.
+/// They limit the time of a run; a run that exceeds them fails.
 inline constexpr int kMaxHalvings = 40;
 inline constexpr double kMaxHalves = 5e7;
 
@@ -72,15 +73,15 @@ struct Resolution {
   Mask<T> resolved = Mask<T>(true);  ///< false: no step is short enough, or a number is not finite
 };
 
-/// advance() is declared here because advance_by_halves() calls it. In these functions, `body` is a
-/// Plant or another type that has a fastest_rate(), such as FourWheels (tyres.h). `step(from, h)`
-/// returns the state after one integration step, without step control.
+/// advance() and advance_by_halves() call each other, so advance() is declared here. In these
+/// functions, `body` is a Plant or another type that has a fastest_rate(), such as FourWheels
+/// (tyres.h). `step(from, h)` returns the state after one integration step, without step control.
 template <class Body, class T, class Step>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);
 
-/// Replaces one step of h seconds by two steps of h/2 in the lanes of `requested`. A lane that
-/// exceeds kMaxHalvings or kMaxHalves keeps its state and is marked as unresolved.
+/// Replaces one step of h seconds by two steps of h/2, in the lanes of `requested`. A lane that
+/// would exceed kMaxHalvings or kMaxHalves keeps its state and is marked as unresolved.
 template <class Body, class T, class Step>
 AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Step step, Mask<T> requested,
                                      int halvings, Resolution<T>& resolution) {

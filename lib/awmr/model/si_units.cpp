@@ -8,9 +8,8 @@
 namespace awmr {
 namespace {
 
-/// If the variance of a quantity Q in SI units is below this fraction of its positive terms, it is
-/// only a rounding error and counts as 0. This happens if Q does not depend on m', because the
-/// terms then cancel.
+/// The variance of a quantity Q in SI units counts as 0 if it is below this fraction of its
+/// positive terms. It is then only a rounding error: Q does not depend on m', and the terms cancel.
 constexpr double kRounding = 1e-14;
 
 /// True for parameters that are divided by F_max in the equations of motion: all except exponents
@@ -31,9 +30,8 @@ std::optional<double> covariance_of(const Model& model, ParameterId a, Parameter
   return model.covariance.matrix[row][column];
 }
 
-/// Half width of the 95 % interval of a parameter, in standard errors; both refer to the
-/// parameter's coordinate (transform.h). 0 for a given value, which is exact; none without an
-/// interval.
+/// Half width of a parameter's 95 % interval divided by its standard error, both in the parameter's
+/// coordinate (transform.h). 0 for a given value, which is exact; none without an interval.
 std::optional<double> quantile_of(const Model& model, ParameterId id) {
   const Estimate& estimate = model[id];
   if (estimate.source == Source::kGiven) return 0.0;

@@ -1,14 +1,15 @@
 /// Integration with exact Coulomb friction: a vehicle can stop, be held at rest, and start again.
 /// Templates on the scalar.
 ///
-/// At rest, the surge resistance g1 jumps from -c to c, the Coulomb friction. During an integration
-/// step, the friction keeps the direction s of the motion, 1 or -1. With the surge force X of the
+/// The surge resistance g1 has a Coulomb friction c: it jumps from -c to c at rest. During an
+/// integration step, the friction keeps the direction s of the motion, 1 or -1. With the surge
+/// force X of the wheels,
 /// wheels,
 ///   u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
-/// An integration step in which the speed u passes 0 is cut at the time at which u is 0. Then
-/// friction holds the vehicle (u_dot = 0) as long as the driving force |X + m' r v| is at most c.
-/// Yaw is treated in the same way. If a chord (rest.h) replaced the jump, a vehicle that friction
-/// should hold would creep.
+/// If the speed u passes 0 in an integration step, the step is cut at the time at which u is 0.
+/// Then friction holds the vehicle (u_dot = 0) as long as the driving force |X + m' r v| is at most
+/// c. Yaw is treated in the same way. With a chord (rest.h) instead of the jump, a vehicle that
+/// friction should hold would creep.
 #pragma once
 
 #include "awmr/model/rest.h"
@@ -44,8 +45,8 @@ Plant<T> without_friction(Plant<T> plant) {
   return plant;
 }
 
-/// As resolved_at_rest(), for integration with exact Coulomb friction c: the chords are computed
-/// from the resistances without c.
+/// As resolved_at_rest(), for integration with exact Coulomb friction c. The speeds below which
+/// chords apply are computed from the resistances without c.
 template <class T>
 Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   const Plant<T> resolved = resolved_at_rest(without_friction(plant), step_s);
@@ -113,8 +114,8 @@ T share_until_rest(const ValueOf<T>& way, const T& from, const T& to) {
   return select(passes, T(from / (from - to)), T(1.0));
 }
 
-/// Maximum number of stops at which a step is cut. After them, the rest of the step is not cut
-/// again.
+/// Maximum number of stops at which one step is cut. The rest of the step is then integrated
+/// without further cuts.
 inline constexpr int kMaxStopsInAStep = 4;
 
 /// One integration step with Coulomb friction: the state h seconds after s. `rates(state)`: the

@@ -11,7 +11,8 @@ namespace awmr {
 /// The steady speed w > 0, at which the resistance equals the driving force: g(w) = force. For g1,
 /// `force` is tau_speed and w is in m/s; for g3, it is tau_turn in m, and w is a yaw rate in rad/s.
 /// `viscous` >= 0 adds a term that is linear in w: g(w) + viscous w = force. Back-EMF is such a
-/// term: straight ahead with four motors, viscous = 4 k_e. None if the force does not exceed the
+/// `viscous` >= 0 adds a term that is linear in w: g(w) + viscous w = force. Back-EMF is such a
+/// term; straight ahead with four motors, viscous = 4 k_e. None if the force does not exceed the
 /// Coulomb friction c, or if no finite w exists, as for a power law with beta = 0.
 std::optional<double> steady_rate(const Resistance<double>& law, double force,
                                   double viscous = 0.0);
@@ -23,8 +24,8 @@ std::optional<double> steady_rate(const Resistance<double>& law, double force,
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,
                                   double speed_mps);
 
-/// Time constant with which a resistance slows the motion at the speed w > 0, s: inertia w/g(w).
-/// `inertia` is m' for surge and I'z for yaw.
+/// Time constant with which a resistance slows the motion at the speed w > 0, s: inertia w/g(w),
+/// where the inertia is m' for surge and I'z for yaw.
 inline double relaxation_time_s(const Resistance<double>& law, double inertia, double w) {
   return inertia * w / law.at(w);
 }

@@ -25,7 +25,8 @@ struct Tyres {
   T cornering_per_rad = T(kCorneringStiffness_per_rad);
   /// Rest speed v_0, m/s, > 0, without which the slip of a wheel at rest would be undefined. A
   /// wheel that rolls more slowly is treated as rolling at about this speed. Its tyre then resists
-  /// like a viscous fluid: a vehicle that is pushed sideways at rest creeps.
+  /// like a viscous fluid, so a vehicle that is pushed sideways at rest creeps; the larger v_0, the
+  /// faster.
   T rest_speed_mps = T(kTyreRestSpeed_mps);
 };
 
@@ -93,9 +94,9 @@ T side_force(const Tyres<T>& tyres, const T& load, const T& along, const T& roll
   return select(slides_mps > T(0.0), T(-force), force);
 }
 
-/// Force of the ground on a wheel along its rolling direction, over F_max: the force F' of its
-/// motor (motor_force()) minus a quarter of g1, limited by tyre friction. g1 is assumed to act in
-/// the drive, between motor and ground.
+/// Force of the ground on a wheel along its rolling direction, over F_max: the motor's force F'
+/// (motor_force()) minus a quarter of g1, limited by tyre friction. g1 is assumed to act in the
+/// drive, between motor and ground.
 ///   F'x = sat(F' - g1(w)/4, mu F'z)
 template <class T>
 T ground_force(const FourWheels<T>& p, const T& load, const T& command, const T& rolls_mps) {
@@ -183,8 +184,8 @@ State<T> state_rates(const FourWheels<T>& p, const State<T>& s, const Forces& f,
 }
 
 /// Smallest inertia m'_w, s^2/m, that opposes a force along the rolling direction of a wheel. The
-/// force accelerates the vehicle (m') or turns it (I'z); its lever is at most the distance of the
-/// wheel from the centre of gravity:
+/// force accelerates the vehicle (m') or turns it (I'z). The lever of the force is at most the
+/// distance of the wheel from the centre of gravity:
 ///   m'_w = min(m', I'z/(l_f^2 + d^2))
 template <class T>
 T rolling_inertia(const Plant<T>& p) {

@@ -80,8 +80,8 @@ struct Vehicle {
   /// rate of the turning trials and fitted logs.
   std::optional<double> yaw_rate_max_degps;
 
-  /// For columns of awmr, by name: the column or formula of this vehicle's files that gives the
-  /// column (core/column_mapping.h).
+  /// For columns of awmr, by name: the column or formula in this vehicle's log files that gives it
+  /// (core/column_mapping.h).
   std::map<std::string, std::string> columns = {};
 
   bool has_steering() const { return drive != Drive::kDifferential; }

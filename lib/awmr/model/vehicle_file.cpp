@@ -51,8 +51,8 @@ std::optional<double> known_number(JsonObject& json, std::string_view key, Numbe
   return json.has(key) ? json.nullable_number(key, rule) : std::nullopt;
 }
 
-/// Reads the column mappings and checks their form. They are stored as text. Whether a file has the
-/// columns that they name is checked when that file is read.
+/// Reads the column mappings and checks their form. They are stored as text. When a log is read,
+/// its reader checks whether it has the columns that they name.
 void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
@@ -156,7 +156,8 @@ void name_units(const Json& document, const std::string& place, std::vector<Faul
   }
 }
 
-/// Replaces the message of a fault about the drive `rear_wheel`, whose nearest name would mislead.
+/// Replaces the message of a fault about the drive `rear_wheel`: the nearest name that it suggests
+/// would mislead.
 void name_rear_wheel_drive(const Json& document, const std::string& place,
                            std::vector<Fault>& faults) {
   const Json::json_pointer pointer{"/drive"};

@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// Name of a drive that is not supported (VEHICLES.md), and the message that states why.
+/// Name of a drive that is not supported (VEHICLES.md), and the message with the reason.
 inline constexpr const char* kRearWheelDrive = "rear_wheel";
 inline constexpr const char* kNoRearWheelDrive =
     "rear_wheel is not supported: the model has no lateral tyre forces, so that steered front "

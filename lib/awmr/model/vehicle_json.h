@@ -13,14 +13,14 @@ namespace awmr {
 /// added to the faults of `json`.
 Vehicle vehicle_from_json(JsonObject& json);
 
-/// Completes the messages of faults of vehicle_from_json(): names the unit in which a number was
+/// Completes the messages of faults of vehicle_from_json(). Adds the unit in which a number was
 /// probably given, and the drive to use in place of `rear_wheel`. `vehicle`: the JSON object;
 /// `place`: its place in the faults, "FILE:" or "FILE:/vehicle".
 void explain_vehicle_faults(const Json& vehicle, const std::string& place,
                             std::vector<Fault>& faults);
 
-/// Writes the vehicle. Default values are written, too. An optional quantity that is not known gets
-/// no key.
+/// Writes the vehicle, including default values. An optional quantity that is not known gets no
+/// key.
 Json vehicle_to_json(const Vehicle& vehicle);
 
 /// Reads `{min, max}` of F' of one wheel over F_max: -1 <= min <= 0 < max <= 1.
