@@ -1,5 +1,6 @@
 // Injects failures of the line on which the operator sends commands. Generates the characters that
-// arrive at the vehicle, and reads them as the emitted sketches do (control/command_line.h).
+// arrive at the vehicle, and reads them with the code of the emitted sketches
+// (control/command_line.h).
 #pragma once
 
 #include <cstdint>
@@ -12,9 +13,9 @@
 
 namespace awmr::pil {
 
-/// Simulated operator of one run. The operator sends the command KEEP every 0.3 s. After a failure
-/// of the line begins, other characters or none arrive in place of KEEP. If the injection is STOP,
-/// it arrives once, and the KEEP commands continue.
+/// Simulated operator of one run, who sends the command KEEP every 0.3 s. From the beginning of the
+/// failure on, other characters or none arrive instead of KEEP. If the injection is STOP, it
+/// arrives once, and the KEEP commands continue.
 class CheckedCommands {
  public:
   explicit CheckedCommands(cli::Injection injection) : injection_(injection) {}

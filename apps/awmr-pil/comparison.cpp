@@ -54,8 +54,8 @@ Sample sample_of(const LoopRow& row) {
           .fault = static_cast<double>(out.fault)};
 }
 
-/// Like sample_of(), but with the forces and steering angle that the executor returned, not those
-/// rounded to the actuators' resolution. The rounding could hide a difference.
+/// Like sample_of(), but with the forces and steering angle that the executor returned. Rounding to
+/// the resolution of the actuators could hide a difference.
 Sample raw_sample_of(const LoopRow& row) {
   const Allocation<float>& command = row.step.output.command;
   Sample sample = sample_of(row);
@@ -75,8 +75,8 @@ Sample sample_of(const RunRow& row) {
           .fault = 0.0};
 }
 
-/// Absolute difference of two values of a signal. Reference angles of the same direction may differ
-/// by whole turns, so their difference is computed modulo one turn.
+/// Absolute difference of two values of a signal. Reference angles can differ by whole turns and
+/// still have the same direction, so their difference is computed modulo one turn.
 double apart(const Signal& signal, double a, double b) {
   if (std::isfinite(a) != std::isfinite(b)) return std::numeric_limits<double>::infinity();
   const double off = a - b;
@@ -111,8 +111,8 @@ std::vector<Sample> samples_of(const std::vector<Row>& rows, Of of) {
 double Difference::largest() const {
   double largest = 0.0;
   for (const auto& [name, value] : signals) {
-    // Skips heading_deg, which repeats psi_rad in degrees. The largest difference is compared with
-    // one bound, so all its signals must be in SI units.
+    // Skips heading_deg, which repeats psi_rad in degrees. All signals must be in SI units, because
+    // the largest difference is compared with one bound.
     if (name != "heading_deg") largest = std::max(largest, value);
   }
   return largest;

@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::uint32_t kRamOffset = 0x800000;  ///< offset of RAM addresses in an ELF file
 constexpr std::uint8_t kPaint = 0xC5;
-/// Maximum number of cycles that simavr executes per call. Without this setting simavr returns
-/// after every instruction, which is slower. Timers and interrupts stay exact, because simavr
-/// returns earlier if one is due.
+/// Maximum number of cycles that simavr executes per call. Without it, simavr would return after
+/// every instruction, which is slower. Timers and interrupts stay exact: simavr returns earlier if
+/// one is due.
 constexpr avr_cycle_count_t kRunCycles = 1000;
 
 /// Pointer to the only Emulator object. The callback sleep() needs it, because simavr 1.6 passes no
@@ -78,8 +78,9 @@ std::span<std::uint8_t> Emulator::flash(const std::string& symbol, std::size_t s
 
 std::uint64_t Emulator::cycles() const { return avr_->cycle; }
 
-/// Called by simavr when the chip goes to sleep, in place of simavr's own function, which waits in
-/// real time. Records the sleep, and the number of cycles since the interrupt that woke the chip.
+/// Called by simavr when the chip goes to sleep, instead of simavr's own function, which would wait
+/// in real time. Records the sleep, and the number of cycles since the interrupt that woke the
+/// chip.
 void Emulator::sleep(avr_t* avr, std::uint64_t) {
   Emulator& self = *the_emulator;
   if (self.entered_at_ != 0) {

@@ -1,4 +1,4 @@
-// Interface to whatever executes the control step: a build of its sources for the host, the
+// Interface to the executor of the control step. It is a build of the sources for the host, the
 // firmware on the emulated chip, or the firmware on a real board.
 #pragma once
 
@@ -27,7 +27,7 @@ class Executor {
   /// Starts the controller and returns the fault bits of its start-up check; 0 if the check found
   /// no fault. Errors: the link or the chip fails.
   virtual Result<std::uint8_t> start() = 0;
-  /// Resets the chip during the run. Its guidance then begins again at the first point of the path.
+  /// Resets the chip during the run. Its guidance then starts again at the first point of the path.
   /// Errors (input): the chip is on a real board, which this program cannot reset.
   virtual Status reset() = 0;
   /// From the next step on, the vehicle follows these points: as waypoints or as corners of a line,
@@ -65,7 +65,7 @@ Result<std::unique_ptr<Chip>> memory_link(const std::filesystem::path& elf, bool
 Result<std::unique_ptr<Chip>> uart_link(const std::filesystem::path& elf, bool damage_parameters,
                                         std::uint32_t parameters_crc, double noise);
 /// Returns a chip on a real board, which exchanges data through a serial port that start() opens.
-/// `elf`: the firmware with which the board was flashed; it is read only to report its use of flash
+/// `elf`: the firmware with which the board was flashed; it is read only to report the use of flash
 /// and RAM. `parameters_crc`: as for frame_link(). Errors: those of Emulator::load().
 Result<std::unique_ptr<Chip>> port_link(const std::filesystem::path& port, unsigned baud,
                                         const std::filesystem::path& elf,

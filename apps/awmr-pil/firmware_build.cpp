@@ -34,8 +34,8 @@ constexpr const char* kFlags[] = {"-mmcu=atmega2560",
                                   "-Isrc",
                                   "-Ipil",
                                   "src/awmr.cpp"};
-/// Compiler options for few cycles. The options after -O2 keep more values in registers. This saves
-/// 350 of the 9,700 cycles of a control step.
+/// Compiler options for few cycles. The options after -O2 keep more values in registers, which
+/// saves 350 of the 9,700 cycles of a control step.
 constexpr const char* kForSpeed[] = {"-O2", "-mstrict-X", "-fno-tree-pre",
                                      "-fno-move-loop-invariants"};
 constexpr const char* kForSize[] = {"-Os", "-mcall-prologues"};
@@ -45,12 +45,12 @@ std::span<const char* const> flags_for(cli::Optimize optimize) {
   return kForSpeed;
 }
 
-/// Time limit of the compiler, s: a hundred times its usual duration, because the machine may be
-/// busy.
+/// Time limit of the compiler, s. It is a hundred times the usual duration, because the machine may
+/// be busy.
 constexpr double kTimeLimit_s = 200.0;
 
-/// Writes a file of the temporary folder. Does not flush it to the disk, because it is needed only
-/// during this run.
+/// Writes a file of the temporary folder. It is needed only during this run, so it is not flushed
+/// to the disk.
 Status put_temporary(const fs::path& path, std::string_view bytes) {
   AWMR_RETURN_IF_ERROR(make_directory(path.parent_path()));
   std::ofstream file(path, std::ios::binary);

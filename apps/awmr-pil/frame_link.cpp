@@ -8,9 +8,9 @@
 namespace awmr::pil {
 namespace {
 
-/// Maximum number of times that a request is sent. If each bit is damaged with a probability of
-/// 0.001, an attempt succeeds with a probability of 0.4, and 40 attempts in a row fail with a
-/// probability of 1e-9.
+/// Maximum number of times that a request is sent. Even with a damage probability of 0.001 per bit,
+/// an attempt succeeds with a probability of 0.4, and all 40 attempts fail with a probability of
+/// 1e-9.
 constexpr int kAttempts = 40;
 /// Maximum number of times that the start request is sent. A start request is short and thus rarely
 /// damaged, so 10 attempts suffice. A missing board is then reported sooner.
@@ -54,9 +54,9 @@ class FrameLink : public Chip {
     return ask(::pil::kFollow, writer.bytes(), 0);
   }
 
-  /// Executes one step. If the chip does not answer, it may have been reset, and then answers
-  /// nothing but a start request. The chip is therefore started again, its points are sent again,
-  /// and the step is requested again.
+  /// Executes one step. A chip that does not answer may have been reset; it then answers nothing
+  /// but a start request. Therefore the chip is started again, its points are sent again, and the
+  /// step is requested again.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> request = pack(input);
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(::pil::kStep, request, kStepBytes));

@@ -30,8 +30,8 @@ class Line {
 };
 
 /// Returns a chip that executes the control step over the line. `parameters_crc`: the value that
-/// the firmware must report at its start, the CRC-32 of the parameters xor mission_crc(). If it
-/// reports another value, start() returns an error (input).
+/// the firmware must report at its start, the CRC-32 of the parameters xor mission_crc(). Otherwise
+/// start() returns an error (input), because the firmware was made for other inputs.
 std::unique_ptr<Chip> frame_link(std::unique_ptr<Line> line, std::uint32_t parameters_crc);
 
 }  // namespace awmr::pil

@@ -65,8 +65,8 @@ float hostile_value(Random& random, float largest) {
   }
 }
 
-/// Returns a random waypoint, usually so near to the vehicle that it counts as reached at once.
-/// Then the step is longer, because it also evaluates the next waypoint.
+/// Returns a random waypoint, usually so near to the vehicle that it counts as reached at once. The
+/// step then also evaluates the next waypoint, so it takes longer.
 Position<float> hostile_point(Random& random, const Position<float>& vehicle_m) {
   const float reach_m = random.bits() % 8 == 0 ? 1000.0F : kAcceptance_m;
   const auto off = [&] { return reach_m * static_cast<float>(2.0 * random.uniform() - 1.0); };
@@ -140,7 +140,7 @@ Result<Hostile> provoke(Executor& chip, Executor& host, const SafetyLimits& limi
                         const Mission& mission, const HostileSearch& search,
                         const Progress& progress) {
   Hostile found;
-  // A first step, which is not counted, clears the memory of the run before, on chip and host: its
+  // First, a step that is not counted clears the memory of the run before, on chip and host: its
   // invalid mode raises a fault. All steps of the search have the time 0.
   AutopilotInput first{};
   first.mode = 3;

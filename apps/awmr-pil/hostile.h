@@ -23,7 +23,7 @@ struct HostileSearch {
 };
 
 /// Searches for the input with the slowest control step, by repeatedly changing the slowest input
-/// so far. Inputs are values at and beyond `limits`, tiny, subnormal or not finite; headings can be
+/// so far. Inputs are values at and beyond `limits`, tiny, subnormal or not finite. Headings can be
 /// many turns. The points of the mission are replaced by random points, most of them near the
 /// vehicle. A GPS fix is new (up to 2 s old, or with a random time) or repeated. The sequence is
 /// deterministic. The host executes the same steps, and its outputs are compared with the chip's.

@@ -10,9 +10,9 @@ namespace {
 using cli::Injection;
 
 // Fault bits that the autopilot may raise after the checks of the sketches have rejected a heading
-// (or speed) sensor. The rejection has two effects. The autopilot gets no new readings, so the last
-// reading becomes too old. The sketches disarm the vehicle, so the last command becomes too old.
-// Either fault may come first.
+// (or speed) sensor. The rejection has two effects, whose faults may come in either order. The
+// autopilot gets no new readings, so the last reading becomes too old. The sketches disarm the
+// vehicle, so the last command becomes too old.
 constexpr std::uint8_t kHeading = kFaultHeadingStale | kFaultCommandTimeout;
 constexpr std::uint8_t kSpeed = kFaultSpeedStale | kFaultCommandTimeout;
 
@@ -30,8 +30,8 @@ constexpr InjectionEffect kEffects[] = {
     {Injection::kParameters, Duration::kWholeRun, kFaultParameters},
     // Failures of the sensors. The last number of each row is the longest permitted time to the
     // safe command, s: the time of detection plus the autopilot's timeout. During a turn, a frozen
-    // compass or gyroscope contradicts the other sensor (kHeadingOutOfStep) before the check for
-    // frozen values has seen enough equal readings.
+    // compass or gyroscope contradicts the other sensor (kHeadingOutOfStep). This is detected
+    // before the check for frozen values has seen enough equal readings.
     {Injection::kCompassSilent, Duration::kFromTheMiddle, kHeading, kCompassSilent, kSensorGood,
      1.5},
     {Injection::kCompassFrozen, Duration::kFromTheMiddle, kHeading, kCompassFrozen,

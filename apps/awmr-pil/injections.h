@@ -28,8 +28,7 @@ struct InjectionEffect {
   /// expected.
   SensorFault cause = kSensorGood;
   SensorFault other_cause = kSensorGood;  ///< another check that may detect the failure first
-  /// Longest permitted time to the safe command, s, for failures that disarm the vehicle. 0 for
-  /// failures that do not.
+  /// Longest permitted time to the safe command, s. 0 for failures that do not disarm the vehicle.
   double within_s = 0.0;
 };
 
@@ -45,7 +44,8 @@ bool is_command_failure(cli::Injection injection);
 /// operator's line have the cause kSensorGood, because no sensor fails.
 bool is_expected_cause(cli::Injection injection, SensorFault cause);
 
-/// Steps in which an injection acts: from `first` to before `last`; empty if it never acts.
+/// Steps in which an injection acts: from `first` to before `last`. Both are equal if it never
+/// acts.
 struct Window {
   std::size_t first = 0;
   std::size_t last = 0;

@@ -24,7 +24,7 @@ using cli::Injection;
 float single(double value) { return static_cast<float>(value); }
 
 /// Returns the chip's input at the time `t_s`. The chip itself applies obstacle avoidance and
-/// heading shaping, so it gets the reference heading before both. A chip that follows points or a
+/// heading shaping, so it gets the reference heading without them. A chip that follows points or a
 /// path ignores this heading. The reference speed is 0 at the end of the path, or if obstacles
 /// leave no passage.
 AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed,
@@ -46,8 +46,7 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
 }
 
 /// Age that is added to the last command while the vehicle is disarmed, ms. It exceeds every
-/// timeout. The control step then gives the safe command, as it does on the board of a disarmed
-/// vehicle.
+/// timeout, so the control step gives the safe command, as on the board of a disarmed vehicle.
 constexpr std::uint32_t kSilence_ms = 4'000'000;
 
 void inject(Injection injection, AutopilotInput& in) {
@@ -100,8 +99,8 @@ void command(const LoopSetup& setup, LoopRow& row) {
   }
 }
 
-/// Injects motors that are reversed and also exchanged: each side gets the negative force of the
-/// other side. The vehicle then turns as commanded, but drives in the opposite direction.
+/// Injects motors that are reversed and exchanged: each side gets the negative force of the other
+/// side. So the vehicle turns as commanded, but drives in the opposite direction.
 void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
 
 void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }

@@ -38,9 +38,8 @@ struct LoopRow {
   double steering_command_rad = 0.0;  ///< steering angle that the servo receives in this step
 };
 
-/// Copies noise and latency of the scenario's GPS to the model's vehicle. From these numbers the
-/// firmware's position filter is computed. It then equals the simulator's filter, which uses the
-/// scenario's GPS.
+/// Copies noise and latency of the scenario's GPS to the model's vehicle. The firmware's position
+/// filter is computed from these numbers, so that it equals the simulator's filter.
 void know_receiver(const Gps& gps, Model& model);
 
 /// True if the simulated speed sensor gives the magnitude of the speed only. The firmware then has

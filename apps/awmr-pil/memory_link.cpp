@@ -55,7 +55,7 @@ class MemoryLink : public Chip {
   }
 
   /// Executes one step. The host may write the input now: the chip sleeps since its last step, so
-  /// it does not read the input at the same time.
+  /// it cannot read a half-written input.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> bytes = pack(input);
     std::copy(bytes.begin(), bytes.end(), input_.begin());

@@ -63,8 +63,8 @@ std::set<FirmwarePart> parts_of(const Mission& mission);
 inline constexpr std::size_t kMaxPoints = 16;
 
 /// Generates the header mission.h of the firmware: the maximum number of points, and functions that
-/// set up the mission and follow points. All missions without optional parts and with the same
-/// `skip_passed` have the same header, so they can use the same firmware.
+/// set up the mission and follow points. Missions without optional parts and with the same
+/// `skip_passed` have the same header, so one firmware serves all of them.
 std::string mission_header(const Mission& mission);
 
 /// Returns a checksum of mission_header(), by which the host detects a board that was flashed for

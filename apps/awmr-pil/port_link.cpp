@@ -17,9 +17,9 @@
 namespace awmr::pil {
 namespace {
 
-/// Timeout of the start. The firmware's check of its parameters takes 50 ms.
+/// Timeout of the start. It is ten times the 50 ms that the firmware takes to check its parameters.
 constexpr int kStartTimeout_ms = 500;
-/// Timeout of an answer. The slowest case is 140 bytes at 9600 baud, which take 146 ms.
+/// Timeout of an answer. It is twice the slowest case, 140 bytes at 9600 baud, which take 146 ms.
 constexpr int kAnswerTimeout_ms = 300;
 /// Waiting time after the port is opened. Opening the port resets a Mega 2560, and its boot loader
 /// waits before it starts the firmware.

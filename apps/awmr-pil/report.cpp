@@ -79,8 +79,8 @@ bool is_safe(const Allocation<float>& command) {
                    std::abs(command.steering_rad)}) <= 0.0F;
 }
 
-/// Evaluates a failure that must disarm the vehicle. The first fault of the autopilot must come in
-/// time and with the right cause. From then to the end, the command must be safe.
+/// Evaluates a failure that must disarm the vehicle. The autopilot's first fault must come in time
+/// and with the right cause. From this fault to the end, the command must be safe.
 Injected disarming_of(const LoopSetup& setup, const std::vector<LoopRow>& rows) {
   Injected result;
   result.expected = effect_of(setup.injection).fault;

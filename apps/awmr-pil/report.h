@@ -25,8 +25,8 @@ struct ChipRun {
   /// injection, or the board is real.
   std::optional<Hostile> hostile;
   std::uint8_t start_fault = 0;  ///< fault of the firmware's check at its start; 0: none
-  /// Simulated time over the processor time of the emulation; for a real board, over the elapsed
-  /// time.
+  /// Simulated time divided by the time that it took: processor time of the emulation, or elapsed
+  /// time for a real board.
   double real_time_factor = 0.0;
 };
 
@@ -39,8 +39,8 @@ struct Check {
   std::string unit;
 };
 
-/// Results of a run with an injected failure. They refer to a window of steps: that of
-/// injection_window() or, if the failure disarms the vehicle, the steps from the autopilot's first
+/// Results of a run with an injected failure. They are evaluated in a window of steps: that of
+/// injection_window(). If the failure disarms the vehicle, the window is from the autopilot's first
 /// fault to the end of the run.
 struct Injected {
   std::uint8_t expected = 0;  ///< fault bits of which at least one must be raised
@@ -63,8 +63,8 @@ struct Report {
   Cycles cycles;
   /// Numbers of the steps before which the chip was restarted.
   std::vector<std::size_t> restarts;
-  /// Difference between the run with the chip and the host's run in float. Every bit should be
-  /// equal.
+  /// Difference between the run with the chip and the host's run in float, which should be equal in
+  /// every bit.
   Difference from_float;
   /// Difference between the run with the chip and the host's run in double; absent with an
   /// injection.

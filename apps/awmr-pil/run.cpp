@@ -56,7 +56,7 @@ Status check_sample_time(const Model& model) {
           65536.0 * 8.0 / kChipClock_Hz * 1000.0, model.vehicle.sample_time_s * 1000.0));
 }
 
-/// Adds to the options `given` for the firmware those that the scenario's guidance and its split of
+/// Adds options for the firmware to `given`: those that the scenario's guidance and its split of
 /// the yaw moment need.
 EmitOptions emit_options_for(EmitOptions given, const Scenario& scenario, const Mission& mission) {
   given.parts.merge(parts_of(mission));
@@ -121,7 +121,7 @@ Result<std::vector<LoopRow>> run_host(const Inputs& in, ResistanceForm form,
   return run_loop(setup, *host);
 }
 
-/// Sets the step at which the injection begins to the middle of the run. The number of steps comes
+/// Sets the step at which the injection begins: the middle of the run. The number of steps comes
 /// from a simulation of the same run without injection.
 Status place_injection(Inputs& in) {
   Inputs undisturbed = in;
@@ -255,8 +255,8 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
   report.heading_apart_deg = heading_apart_deg(report.chip.rows, exact);
-  // The effect of the tables can be measured only for power laws, because only these can also be
-  // computed by powf.
+  // The effect of the tables can be measured only for power laws: the other laws cannot be computed
+  // by powf.
   if (!is_power_law(plant)) return {};
   AWMR_ASSIGN_OR_RETURN(const std::vector<LoopRow> by_powf, run_host(in, ResistanceForm::kPowf));
   report.by_float32 = difference(by_powf, exact);

@@ -24,8 +24,8 @@ constexpr double kGyroDrift_radps = 0.15;
 constexpr std::uint32_t kGpsLate_ms = 2000;
 constexpr float kGpsJump_m = 20.0F;
 
-/// Returns what the sketches' parser finds in the sentence that a faulty GPS receiver sends.
-/// Returns kFix if the injected failure does not concern the sentence.
+/// Returns the result of the sketches' parser for the sentence that a faulty GPS receiver sends;
+/// kFix if the injected failure does not concern the sentence.
 GpsSentence sentence_of(Injection injection) {
   const char* text = "";
   switch (injection) {
@@ -70,8 +70,8 @@ SensorFault CheckedSensors::step(std::size_t k, bool fails, const Commanded& bef
     in.measured.r_radps = -in.measured.r_radps;
   }
   if (fails && injection_ == Injection::kCompassTurning) {
-    // Adds the drift also to the heading that the controller gets, because that heading is filtered
-    // from the compass.
+    // Adds the drift also to the heading that the controller gets, because that is the filtered
+    // heading of the compass.
     turned_rad_ += kCompassTurning_radps * sample_time_s_;
     in.measured.psi_rad =
         float_math::wrapped(in.measured.psi_rad + static_cast<float>(turned_rad_));

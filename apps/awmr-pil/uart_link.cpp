@@ -13,7 +13,7 @@ namespace {
 /// of this time.
 constexpr std::uint64_t kLineStartCycles = 16'000'000;
 /// Timeout of an answer, in clock cycles: 30 ms. A request, its control step and its answer take 3
-/// ms. The timeout must exceed the pause of 20 ms after which the chip discards an incomplete
+/// ms. But the timeout must also exceed 20 ms: after such a pause, the chip discards an incomplete
 /// frame.
 constexpr std::uint64_t kLineAnswerCycles = 480'000;
 

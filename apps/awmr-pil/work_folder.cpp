@@ -33,8 +33,8 @@ constexpr int kEndingSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM,
 /// Locked while the folder is created or removed. When a signal ends the program, the thread that
 /// handles it locks this mutex for ever. No folder can then be created after the clean-up.
 std::mutex folder_mutex;
-/// Path of this run's folder; empty if there is none. The object is never destroyed, because a
-/// signal may arrive while the program exits.
+/// Path of this run's folder; empty if there is none. A signal may arrive while the program exits,
+/// so the object is never destroyed.
 fs::path& folder = *new fs::path;
 
 /// True: the thread that handles signals was started.
@@ -61,8 +61,8 @@ int lock_folder(const fs::path& path) {
 }
 
 /// True for a folder that a killed run left: it belongs to this user, is no link, and no process
-/// has locked it. The process ID in its name proves nothing. It may belong to another process by
-/// now, also in another container with the same TMPDIR.
+/// has locked it. The process ID in its name proves nothing: it may belong to another process by
+/// now, for example in another container with the same TMPDIR.
 bool is_left_over(const fs::path& path) {
   if (!is_run_folder(path.filename().string())) return false;
   struct stat status {};
@@ -103,13 +103,13 @@ sigset_t handled_signals() {
   return signals;
 }
 
-/// Signal by which the main thread asks the signal thread whether the program is about to end. Of
-/// several pending signals the lowest number is delivered first. The thread therefore answers only
-/// if no signal that ends the program is pending.
+/// Signal by which the main thread asks the signal thread whether the program is about to end. The
+/// lowest of several pending signals is delivered first. So the thread answers only if no signal
+/// that ends the program is pending.
 int question() { return SIGRTMIN; }
 
-/// Discards all further output on stderr. From here on, errors such as a killed compiler or a
-/// missing file are consequences of the shutdown. The emulator's library writes to stderr, too.
+/// Discards all further output on stderr, also that of the emulator's library. From here on, errors
+/// such as a killed compiler or a missing file are consequences of the shutdown.
 void silence_errors() {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
@@ -159,7 +159,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::make() {
   std::unique_ptr<WorkFolder> made(new WorkFolder);
   made->path_ = name;
   made->lock_ = lock_folder(name);
-  // Gives the folder its final name only after locking it, because other runs remove unlocked
+  // The folder gets its final name only when it is locked, because other runs remove unlocked
   // folders with such names.
   const std::string suffix = name.substr(name.size() - 6);
   const fs::path locked = directory / fmt::format("{}{}-{}", kPrefix, ::getpid(), suffix);

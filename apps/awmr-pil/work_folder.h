@@ -10,7 +10,7 @@ namespace awmr::pil {
 
 /// Folder in TMPDIR that only this user can enter. The destructor removes the folder, and so does a
 /// signal that ends the program (clean_up_at_signals()). If the program is killed (SIGKILL), the
-/// lock on its folder ends with the process, and the next run removes the unlocked folder.
+/// folder remains, but its lock ends with the process. The next run removes such unlocked folders.
 class WorkFolder {
  public:
   /// Removes the folders that killed runs left, then creates this run's folder. A process may have
@@ -28,12 +28,12 @@ class WorkFolder {
 };
 
 /// After this call, a signal that ends the program (SIGINT, SIGTERM, SIGHUP, ...) first ends the
-/// compiler and removes the work folder; then the program ends by that signal. Call once, before
-/// any other thread exists. Signals that were ignored (nohup) stay ignored.
+/// compiler and removes the work folder. Then it ends the program. Call once, before any other
+/// thread exists. Signals that were ignored (nohup) stay ignored.
 void clean_up_at_signals();
 
-/// Returns at once if no signal is about to end the program. Otherwise never returns, so that
-/// errors caused by that signal are not reported.
+/// Returns at once if no signal is about to end the program. Otherwise never returns. So errors
+/// caused by that signal are not reported.
 void exit_if_interrupted();
 
 }  // namespace awmr::pil

@@ -125,8 +125,8 @@ struct PilOptions {
   std::optional<std::filesystem::path> port;  ///< serial port of a real board, with kUart
   unsigned baud = 500000;
   EmitOptions emit;
-  /// Goal of the compiler. Absent: small size if the scenario has a timed path, obstacles, or two
-  /// or more optional parts (the position estimate counts as one); else few cycles.
+  /// Goal of the compiler. Absent: small size if the scenario has a timed path, obstacles, or at
+  /// least two optional parts (the position estimate counts as one); else few cycles.
   std::optional<Optimize> optimize;
   /// Largest permitted number of clock cycles of a control step. Absent: 75 % of the sample time
   /// with optional parts or the position estimate; otherwise 13,000 with resistance tables, 24,000

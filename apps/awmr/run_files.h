@@ -1,5 +1,5 @@
 /// Output files of `run`: lists their names, checks that no file of another program would be
-/// overwritten, and writes the simulated runs for the report.
+/// overwritten, and writes the simulated runs that the report shows.
 #pragma once
 
 #include <filesystem>

@@ -11,7 +11,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Raises InputError if the value is outside [least, most], the range of the corresponding
+/// Raises InputError if the value is outside [least, most]. This is the range of the corresponding
 /// command-line option.
 void check_within(const char* name, double value, double least, double most) {
   if (value >= least && value <= most) return;

@@ -10,8 +10,8 @@
 namespace awmr::python {
 namespace {
 
-/// Types of the arguments of load_trials(): a path or nothing. For kinds of trials that may have
-/// several files, also a list of paths.
+/// Types of the arguments of load_trials(): a path or nothing; also a list of paths for kinds of
+/// trials that may have several files.
 using Path = std::optional<std::filesystem::path>;
 using Paths =
     std::variant<std::monostate, std::filesystem::path, std::vector<std::filesystem::path>>;

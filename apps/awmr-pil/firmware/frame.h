@@ -2,9 +2,9 @@
 //   start, type, sequence, length, payload of `length` bytes, CRC-16 of all bytes between the start
 //   and the CRC (low byte first)
 // The chip answers each request of the host once, with the same type and sequence number. If the
-// host repeats a request because the answer was lost, the chip repeats the answer but does not
-// execute the request again, except kHello. Damaged frames are not answered: the host repeats the
-// request after a silence.
+// answer is lost, the host repeats the request. The chip then repeats the answer without executing
+// the request again, except kHello. Damaged frames get no answer, so the host repeats its request
+// after a silence.
 #pragma once
 
 #include <stdint.h>

@@ -1,6 +1,6 @@
 // Firmware for `awmr pil --link memory`. The control step runs in a timer interrupt, and the chip
-// sleeps in between. The host finds the inputs and outputs in RAM by the names of the variables
-// below.
+// sleeps in between. The host reads and writes inputs and outputs in RAM, where it finds them by
+// the names of the variables below.
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>

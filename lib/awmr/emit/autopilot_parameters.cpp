@@ -62,8 +62,8 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const ModeGains& ga
   return rest;
 }
 
-/// Returns the controller in float. awmr.cpp in the firmware computes derived values in float. They
-/// are computed in float here as well, because the check sum covers their bits.
+/// Returns the controller in float. Derived values are computed in float, as awmr.cpp in the
+/// firmware does, because the check sum covers their bits.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
                                    const Gains<double>& gains) {
   Controller<float> controller{};
@@ -83,8 +83,8 @@ Controller<float> float_controller(const Plant<double>& plant, const Model& mode
   return controller;
 }
 
-/// Returns the parameter block without the shapes of the resistance tables and without the largest
-/// speeds, which depend on the tables. add_tables() adds both.
+/// Returns the parameter block. The shapes of the resistance tables and the largest speeds, which
+/// depend on the tables, are still missing: add_tables() adds them.
 ParameterBlock block_of(const Plant<double>& plant, const Model& model, const ModeGains& gains,
                         const EmitOptions& options) {
   const auto estimate = [&](ParameterId id) { return single(*model[id].value); };
@@ -149,12 +149,12 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
   return chip;
 }
 
-/// Returns the largest float below `top`, the end of the table's last cell. The cell does not
-/// contain its end, so `top` itself is outside of the table.
+/// Returns the largest float below `top`, the end of the table's last cell. `top` itself is outside
+/// of the table, because a cell does not contain its end.
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
-/// Adds the tables of g1 and g3 to the parameters. Errors (refused): `table_error` is given, and no
-/// table of at most 1024 lines has an error within it.
+/// Adds the tables of g1 and g3 to the parameters. Errors (refused): the user gave `table_error`,
+/// and no table of at most 1024 lines has an error within it.
 Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double> table_error,
                   AutopilotParameters& parameters) {
   const auto table = [&](const ChipLaw& chip) {

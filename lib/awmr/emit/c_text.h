@@ -10,8 +10,8 @@ namespace awmr {
 /// suffix `f`. A compiler reads the literal as the same float.
 std::string float_literal(double value);
 
-/// Returns the text as one line of printable ASCII, with '?' for each other character. The line
-/// contains no start or end of a C comment, and no line break that would end a line comment.
+/// Returns the text as one line of printable ASCII; each other character becomes '?'. The line
+/// cannot begin or end a C comment, and has no line break, which would end a line comment.
 std::string comment_safe(std::string_view text);
 
 }  // namespace awmr

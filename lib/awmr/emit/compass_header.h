@@ -11,7 +11,7 @@
 namespace awmr {
 
 /// Text of awmr_compass.h, which the sketches include from src/ of the library. `record`: the file
-/// with the recorded magnetic field, which the text names with its hash. Errors (input): a constant
+/// with the recorded magnetic field; the text gives its name and hash. Errors (input): a constant
 /// is neither 0 nor a normal float32.
 Result<std::string> compass_header(const CompassCalibration& calibration, const InputFile& record);
 

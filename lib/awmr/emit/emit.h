@@ -30,8 +30,9 @@ struct EmitInputs {
   std::optional<CertifiedGains> certificate = {};  ///< robustness certificate of the gains, if any
 };
 
-/// Returns the value of AWMR_PARAMS_SHA256: the SHA-256 of a text of 128 characters. The text is
-/// the hexadecimal SHA-256 of the model file followed by that of the gains file.
+/// Returns the value of AWMR_PARAMS_SHA256, which identifies both input files. It is the SHA-256 of
+/// a text of 128 characters: the hexadecimal SHA-256 of the model file, then that of the gains
+/// file.
 std::string params_sha256(const EmitInputs& inputs);
 
 /// Text of awmr_params.h in ASCII, valid in C89, C++98 and later. Each value is rounded to float32
@@ -73,25 +74,25 @@ std::set<FirmwarePart> parts_with(std::set<FirmwarePart> parts, const ModeGains&
 
 /// Largest number of clock cycles that a control step with these parts takes on the ATmega2560: the
 /// slowest guidance, plus the parts that are computed in addition. Source: the largest
-/// `cycles_bound` of `awmr pil` over configs/ (apps/awmr-pil/README.md), rounded up; it comes from a
-/// search for slow steps and is not a proven bound.
+/// `cycles_bound` of `awmr pil` over configs/ (apps/awmr-pil/README.md), rounded up. It was
+/// measured in a search for slow steps, and is not a proven bound.
 std::uint32_t longest_step_cycles(const std::set<FirmwarePart>& parts, ResistanceForm resistance);
 
 /// Clock frequency of the ATmega2560 on the supported boards, Hz.
 inline constexpr double kChipClock_Hz = 16e6;
 
-/// Default of EmitOptions::table_error. This error is far below the usual uncertainty of an
-/// identified law.
+/// Default of EmitOptions::table_error, chosen far below the usual uncertainty of an identified
+/// law. A smaller bound needs larger tables.
 inline constexpr double kTableError = 5e-4;
 
 /// Options of the firmware.
 struct EmitOptions {
   /// kPowf saves flash but lengthens the control step, and supports only the power law.
   ResistanceForm resistance = ResistanceForm::kTable;
-  /// Bound on the relative error of a resistance table, > 0. The error is relative to the
-  /// resistance or, where the resistance is small, to a tenth of the largest force (surge: 4 F'max)
-  /// or moment (yaw: 4 d F'max). A larger bound gives a smaller table. Absent: kTableError or, if
-  /// no table meets this bound, the smallest error possible.
+  /// Bound on the relative error of a resistance table, > 0. The error is divided by the resistance
+  /// or, where the resistance is small, by a tenth of the largest force (surge: 4 F'max) or moment
+  /// (yaw: 4 d F'max). A larger bound gives a smaller table. Absent: kTableError or, if no table
+  /// meets this bound, the smallest error possible.
   std::optional<double> table_error = {};
   /// Optional features to compile in. Each needs flash, RAM and, while in use, time in every step.
   std::set<FirmwarePart> parts = {};
@@ -129,8 +130,8 @@ struct EmittedTable {
   ResistanceTable view() const;
 };
 
-/// Values that replace a missing noise or latency of the GPS in vehicle.json: standard deviation of
-/// a fix per axis, m, and latency, s.
+/// Values that are used if vehicle.json does not give noise or latency of the GPS: standard
+/// deviation of a fix per axis, m, and latency, s.
 inline constexpr double kUsualFixNoise_m = 1.5;
 inline constexpr double kUsualFixLatency_s = 0.2;
 
@@ -144,8 +145,8 @@ struct AutopilotParameters {
   /// Coulomb friction, dead zone and back-EMF that the firmware compensates; absent if the model
   /// has none of them.
   std::optional<RestBlock> rest;
-  /// The observer that the gains were tuned with. Absent: there is no observer, unless the sketch
-  /// enables one.
+  /// The observer that the gains were tuned with. Absent: no observer, unless the sketch enables
+  /// one.
   std::optional<ObserverBlock> observer;
   /// Gains of each mode; absent if all modes have the same.
   std::optional<ModeGainsBlock> mode_gains;

@@ -12,8 +12,8 @@ namespace awmr {
 namespace {
 
 /// Returns the shortest decimal that reads back to the same value, always with a point: 1.0,
-/// 1.5e-07, 1.0e-07. Without the point some languages would read 1 as an integer, and YAML 1.1
-/// 1e-07 as a string.
+/// 1.5e-07, 1.0e-07. Without the point, some languages would read 1 as an integer, and YAML 1.1
+/// would read 1e-07 as a string.
 std::string number(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find('.') != std::string::npos) return text;

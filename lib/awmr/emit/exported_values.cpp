@@ -80,8 +80,8 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
   add("sample_time_s", vehicle.sample_time_s, "s", "T_s: time between two steps of the controller");
 }
 
-/// Adds the friction widths that are above the least one: of `mode`, or of steering and combined
-/// mode. `add(name, value, unit, meaning)` adds a value.
+/// Adds the friction widths of `mode`, or of steering and combined mode if `mode` is absent. Those
+/// at the smallest possible width are left out. `add(name, value, unit, meaning)` adds a value.
 template <class Add>
 void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode, const Add& add) {
   const auto add_width = [&](const char* name, double width_radps, const char* meaning) {

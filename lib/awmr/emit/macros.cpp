@@ -42,8 +42,8 @@ void add_parameters(std::vector<Macro>& macros, const Model& model, const std::s
   add("AWMR_SWAY_ALPHA", ParameterId::kSwayAlpha, MacroRange::kPositive);
   add("AWMR_MASS_NORM", ParameterId::kMassNorm, MacroRange::kPositive);
   add("AWMR_INERTIA_NORM", ParameterId::kInertiaNorm, MacroRange::kPositive);
-  // Adds the terms of the other resistance families, but only those that are not 0, so that the
-  // header of a power law has none of them.
+  // Adds the terms of the other resistance families, but only those that are not 0. So the header
+  // of a power law has none of them.
   const std::pair<const char*, ParameterId> terms[] = {
       {"AWMR_SURGE_COULOMB", ParameterId::kSurgeCoulomb},
       {"AWMR_SURGE_QUADRATIC", ParameterId::kSurgeQuadratic},
@@ -134,8 +134,8 @@ void add_laws(std::vector<Macro>& macros, const ModeGains& gains, std::optional<
       "/speed/epsilon");
 }
 
-/// Adds the observer of one mode (`mode`; all values 0 if it has none), or that of the modes without
-/// gains of their own, if there is one.
+/// Adds the observer of one mode (`mode`; all values are 0 if this mode has none). Without `mode`,
+/// adds the observer of the modes without gains of their own, if there is one.
 void add_observer(std::vector<Macro>& macros, const ModeGains& gains, std::optional<YawMode> mode,
                   const std::string& file) {
   const ObserverGains<double>& observer = mode ? gains.in(*mode).observer : gains.common().observer;

@@ -14,8 +14,8 @@ namespace awmr {
 namespace {
 
 constexpr std::string_view kEmitSchema = "awmr.emit/1";
-/// First characters of the headers that emit writes. A file that begins with them may be replaced
-/// even without a manifest.
+/// First characters of the headers that emit writes. A file that begins with them may be replaced,
+/// even if no manifest lists it.
 constexpr std::string_view kMarks[] = {"/* awmr_params.h: ", "/* awmr_autopilot_params.h, "};
 
 /// SHA-256 of each file by its path relative to the emitted directory.

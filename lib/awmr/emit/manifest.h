@@ -1,6 +1,7 @@
-/// Manifest of an emitted directory: lists each file that `awmr emit` wrote, with its hash. A
-/// listed file that was edited later belongs to the user and is not replaced. A file that is not
-/// listed is replaced only if it begins like a file that emit writes.
+/// Manifest of an emitted directory: lists each file that `awmr emit` wrote, with its hash. So emit
+/// can tell its own files from those of the user. A listed file that was edited later belongs to
+/// the user and is not replaced. A file that is not listed is replaced only if it begins like a
+/// file that emit writes.
 #pragma once
 
 #include <filesystem>
@@ -25,15 +26,15 @@ std::string manifest_text(const std::filesystem::path& directory,
                           const std::vector<EmittedFile>& files, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
-/// Checks that the files may be written to `directory`. An existing file may be replaced if it has
-/// the new content, or if its hash is that in the manifest. A file that the manifest does not list
-/// may be replaced if it begins like a header that emit wrote. Errors (input): an invalid manifest;
-/// each existing file that may not be replaced, or is not a regular file.
+/// Checks that the files may be written to `directory`. An existing file may be replaced if it
+/// already has the new content, or if its hash is that in the manifest. A file that the manifest
+/// does not list may be replaced if it begins like a header that emit writes. Errors (input): an
+/// invalid manifest; each existing file that may not be replaced, or is not a regular file.
 Status check_replaceable(const std::filesystem::path& directory,
                          const std::vector<EmittedFile>& files);
 
-/// Returns the files of firmware_library(), with empty content where it depends on the model. With
-/// these files, check_replaceable() can check a directory before a model exists.
+/// Returns the files of firmware_library(), but with empty content if the content depends on the
+/// model. With these files, check_replaceable() can check a directory before a model exists.
 std::vector<EmittedFile> library_outline();
 
 /// The JSON Schema of the manifest.

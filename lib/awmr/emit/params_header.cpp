@@ -32,7 +32,7 @@ constexpr std::string_view kCheckMacro = R"(
 )";
 
 /// The constraint T2 < T1 of tune/: the sliding surface is reached faster than the heading error
-/// decays on it. The form without a division can be checked by a compiler:
+/// decays on it. A compiler can check it in the form without a division:
 ///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
 constexpr std::string_view kReaching =
     R"(AWMR_PARAMS_CHECK(AWMR_T2_IS_BELOW_T1{0},
@@ -115,11 +115,11 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
              params_sha256(inputs));
 }
 
-/// Checks T2 < T1 (heading law). The values are compared after rounding to float32, because rounding
-/// can make the two equal. `place`: of the gains, for the error.
+/// Checks T2 < T1 (heading law). The values are compared after rounding to float32, because
+/// rounding can make them equal. `place`: place of the gains, for the error.
 Status check_reaching(const HeadingGains<double>& gains, const std::string& place) {
-  // The user's compiler may evaluate the product epsilon lambda in float or exactly. T2 < T1 must
-  // hold in both cases.
+  // The user's compiler may evaluate the product epsilon lambda in float or exactly, so T2 < T1
+  // must hold in both cases.
   const float epsilon = static_cast<float>(gains.epsilon);
   const float lambda = static_cast<float>(gains.lambda);
   const float mu = static_cast<float>(gains.mu);

@@ -20,7 +20,7 @@ constexpr int kMaxLines = 1024;  ///< per table: 8 KiB of flash
 constexpr int kSamplesPerCell = 64;
 
 /// Returns the straight line through the points of the law at the speeds `from` and `to`. If `from`
-/// is 0, the line begins at the origin, even if the law has Coulomb friction.
+/// is 0, the line begins at the origin, although a law with Coulomb friction does not.
 ResistanceLine chord(const ResistanceLaw& law, double from, double to) {
   const double start = from > 0.0 ? law(from) : 0.0;
   const double slope = (law(to) - start) / (to - from);
@@ -72,8 +72,8 @@ void measure(const ResistanceLaw& law, double lo, double hi, int samples, double
   }
 }
 
-/// Returns the errors below the table's first cell. Takes the same number of samples in each octave
-/// (factor of 2 in speed), because the law can be steepest at rest.
+/// Returns the errors below the table's first cell. Each octave (factor of 2 in speed) gets the
+/// same number of samples, because the law can be steepest at rest.
 TableErrors measure_below(const ResistanceLaw& law, double rest_speed, const EmittedTable& table) {
   TableErrors errors;
   for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {
@@ -104,8 +104,8 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
   const int top_exponent = std::ilogb(top);
   EmittedTable best;     // the smallest table within the bound
   EmittedTable closest;  // the table with the smallest error
-  // Errors below the first cell, by the exponent of the speed at which it begins. They do not
-  // depend on the number of mantissa bits.
+  // Errors below the first cell, by the exponent of the speed at which this cell begins. They are
+  // the same for every number of mantissa bits.
   std::map<int, TableErrors> below;
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
     // Errors from the first cell on. Each pass of the inner loop adds the next lower octave.

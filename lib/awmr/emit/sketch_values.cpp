@@ -43,9 +43,9 @@ double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
 }
 
 /// Fastest steady yaw rate r that the heading law reaches at a speed, rad/s, under unfavourable
-/// conditions: the yaw resistance is 1.4 g3(r), 1.4 times that of the model, and the forces of the
-/// motors differ by 16 %, which takes the moment 0.08 d tau_speed. Outside of the boundary layer of
-/// the law (sat = 1), r is the solution of
+/// conditions. They are assumed as: the yaw resistance is 1.4 times that of the model, and the
+/// forces of the motors differ by 16 %, which takes the moment 0.08 d tau_speed. Outside of the
+/// boundary layer of the law (sat = 1), r is the solution of
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
 std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
                                   double speed_mps) {
@@ -55,8 +55,8 @@ std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains
                      plant.inertia_norm * gains.lambda / kMore);
 }
 
-/// Heading error e, rad, that remains if the forces of the motors differ by 16 %. The heading law
-/// (heading_law.h) inside its boundary layer, at yaw rate 0, balances the moment of these motors:
+/// Heading error e, rad, that remains if the forces of the motors differ by 16 %. At yaw rate 0 and
+/// inside its boundary layer, the heading law (heading_law.h) balances the moment of these motors:
 ///   0.08 d tau_speed = I'z lambda (mu/epsilon) e
 double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
                         double route_mps) {
@@ -71,8 +71,8 @@ double on_course_rad(double error_rad) {
 
 /// Returns AWMR_OFF_COURSE_MRAD, m rad, the limit of fault 17. The detector
 /// (control/motion_check.h) integrates (heading error - e0) over the distance, with e0 =
-/// `on_course_rad`. A turn by 180 deg with the radius R adds R (pi - e0)^2/2 to this integral
-/// without any failure. The limit is that amount plus 10 m rad for the distance until the turn
+/// `on_course_rad`. Even without any failure, a turn by 180 deg with the radius R adds R (pi -
+/// e0)^2/2 to this integral. The limit is that amount plus 10 m rad for the distance until the turn
 /// begins, but at most 90 m rad. R is the largest turning radius at 1/4, 1/2, 3/4 and all of the
 /// route's speed, because friction at rest can make slow turns wide.
 double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,

@@ -36,16 +36,16 @@ struct DrawnFit {
   bool has_band = false;               ///< true: the curve has a confidence band
   /// Residuals of the runs; empty if the model predicts fewer than three of them.
   std::vector<LeftOver> left_over = {};
-  double bound_percent = 0.0;  ///< 99 % of normally distributed residuals are within +- this
+  double bound_percent = 0.0;  ///< 99 % of normally distributed residuals are within +- this, %
 };
 
 /// Returns the runs of `kind` (kSurge or kTurning) with curve and residuals; empty if the model has
 /// no such run.
 std::optional<DrawnFit> drawn_fit(const Model& model, TrialKind kind);
 
-/// A modelled coast-down, m' du/dt = -g1(u) (u: speed, g1: surge resistance, m': normalised mass),
-/// from its initial speed. It ends at 1.1 times the measured or the predicted stop time, whichever
-/// is longer.
+/// A modelled coast-down, m' du/dt = -g1(u) (u: speed, g1: surge resistance, m': normalised mass).
+/// It begins at the measured initial speed, and ends at 1.1 times the measured or the predicted
+/// stop time, whichever is longer.
 struct CoastdownCurve {
   double initial_speed_mps = 0.0;
   std::vector<double> t_s = {};

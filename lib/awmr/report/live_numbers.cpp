@@ -17,8 +17,8 @@ namespace awmr {
 namespace {
 
 /// Reads which form of the constraint T2 < T1 = 1/lambda was required: the strict form, T2 <
-/// margin/lambda, or the paper's form. gains.json has the limit of the strict form in both cases;
-/// the margin is computed from this limit.
+/// margin/lambda, or the paper's form. gains.json has the limit of the strict form in both cases,
+/// and the margin is computed from this limit.
 void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
   for (JsonObject& constraint : gains.optional_objects("constraints")) {
     const bool strict = constraint.string("name") == "T2 < T1 (strict)";
@@ -38,7 +38,7 @@ struct Draws {
 };
 
 /// Reads into `context` the noise, latency and motor lag for which robust gains were tuned. Returns
-/// the settings of the vehicles drawn for the tuning.
+/// how the vehicles for the tuning were drawn.
 Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   JsonObject latency = robust.object("latency");
   const double latest_s = std::max(latency.number("heading_s", kNonNegative),

@@ -59,8 +59,8 @@ void round_numbers(Json& json) {
   for (Json& value : json) round_numbers(value);
 }
 
-/// Rounds the numbers that the page only displays. The gains are not rounded, because the page uses
-/// them for simulations and for the copy button.
+/// Rounds the numbers that the page only displays. The gains are not rounded: the page simulates
+/// with them, and its button copies them.
 void round_shown(Json& data) {
   for (const char* name : {"model", "validation", "comparison", "pil", "suggest"}) {
     if (data.contains(name)) round_numbers(data[name]);
@@ -72,7 +72,7 @@ void round_shown(Json& data) {
 }
 
 /// Makes the page: replaces each `@name@` in page.html by the part of that name (style, scripts,
-/// data). The replacement is not repeated inside of the parts, whose text can contain `@`.
+/// data). Parts are not searched again, because their text can contain `@`.
 std::string assembled(const Json& data) {
   const std::string json = script_safe(data);
   const std::array<std::pair<std::string_view, std::string_view>, 5> parts{

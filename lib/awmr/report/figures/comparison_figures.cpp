@@ -16,9 +16,9 @@ std::optional<double> number_in(const Json& json, const char* key) {
   return json.at(key).get<double>();
 }
 
-/// Returns the name that a scenario has in file names, so that figures of runs and of comparisons
-/// have the same name: SCENARIO, if a file scenario_SCENARIO.json has this `name` in its key
-/// `name`. Without such a file, `name` itself.
+/// Returns the name of a scenario in file names, so that figures of runs and of comparisons have
+/// the same name. It is SCENARIO if a file scenario_SCENARIO.json has this `name` in its key
+/// `name`. Without such a file, it is `name` itself.
 std::string stem_of(const Json& data, const std::string& name) {
   for (const auto& [stem, scenario] : data.at("scenarios").items()) {
     if (scenario.value("name", "") == name) return stem;
@@ -27,7 +27,7 @@ std::string stem_of(const Json& data, const std::string& name) {
 }
 
 /// One row of the figure of differences: the difference of a metric between two modes with its 95 %
-/// interval, in percent of the larger of the two means. A metric whose means are both 0 has no row.
+/// interval, in percent of the larger of the two means. If both means are 0, the metric has no row.
 struct DifferenceRow {
   std::string metric;
   double mean = 0.0;
@@ -99,9 +99,9 @@ void add_differences(const Json& scenario, const std::string& stem, FiguresOfRes
   }
 }
 
-/// Figure of the distribution of a metric: one row per mode, with the value in each sample
-/// (simulated vehicle), the median and the range from the 5 to the 95 % quantile. If there are no
-/// samples, a row has the value of the nominal run.
+/// Figure of the distribution of a metric. Each mode has a row, with the value in each sample
+/// (simulated vehicle), the median and the range from the 5 to the 95 % quantile. Without samples,
+/// a row has the value of the nominal run.
 Figure spread_figure(const std::string& stem, const std::string& metric, const Json& scenario,
                      const Json& samples) {
   const MetricWords words = metric_words(metric);

@@ -37,8 +37,8 @@ Series channel_series(const Json& series, const char* key, Role role, double per
   return one;
 }
 
-/// Figure of a log with one panel per channel. An older version of awmr wrote validation.json
-/// without time series; the figure then has no panels.
+/// Figure of a log with one panel per channel. It has no panels if an older version of awmr wrote
+/// validation.json, because that version wrote no time series.
 Figure log_figure(const Json& log) {
   const std::string file = log.at("file");
   Figure figure{.name = figure_name("log", std::filesystem::path(file).stem().string()),

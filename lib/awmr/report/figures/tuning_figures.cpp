@@ -38,8 +38,8 @@ std::vector<Series> searches_of(const Json& gains) {
   return all;
 }
 
-/// Name of the baseline: the gains relative to which objectives are computed, so that theirs is 1.
-/// In older files without `source`, the baseline is the paper's gains.
+/// Name of the baseline, the gains whose objective is defined as 1. In older files without
+/// `source`, the baseline is the paper's gains.
 std::string baseline_name(const Json& gains) {
   const bool is_named = gains.contains("baseline") && gains.at("baseline").contains("source");
   return is_named && gains.at("baseline").at("source") != "paper" ? "baseline"

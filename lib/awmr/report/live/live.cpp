@@ -1,10 +1,10 @@
-/// Interactive part of the report page, compiled to WebAssembly: simulates one run and computes the
-/// constraints for the gains of the sliders. The command line uses the same simulation and tuning
-/// sources.
+/// Interactive part of the report page, compiled to WebAssembly. It simulates one run and computes
+/// the constraints for the gains of the sliders, with the same simulation and tuning sources as the
+/// command line.
 ///
 /// The page writes the numbers of the setup to the array of live_setup() and calls live_begin().
-/// For each position of the sliders it calls live_run(), then reads live_rows() rows of kColumns
-/// doubles at live_table() and live_size() bytes of JSON at live_text().
+/// For each position of the sliders, it calls live_run(). Then it reads live_rows() rows of
+/// kColumns doubles at live_table(), and live_size() bytes of JSON at live_text().
 #include <fmt/format.h>
 
 #include <optional>
@@ -116,10 +116,10 @@ AWMR_EXPORT(live_begin) void live_begin() {
 }
 
 /// Simulates one run and computes constraints and metrics. The arguments are the positions of the
-/// sliders: gains; observer_radps, the bandwidth of the observer, rad/s, 0: no observer; mode, a
-/// YawMode as a number; mass, a factor on m' and I'z of the simulated vehicle; friction, a factor
-/// on its resistance coefficients a1 and a3. The controller keeps the model's values. Returns false
-/// if the run diverges.
+/// sliders. They are the gains; observer_radps, the bandwidth of the observer, rad/s, 0: no
+/// observer; mode, a YawMode as a number; mass, a factor on m' and I'z of the simulated vehicle;
+/// friction, a factor on its resistance coefficients a1 and a3. The controller keeps the model's
+/// values. Returns false if the run diverges.
 AWMR_EXPORT(live_run)
 bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
               double observer_radps, int mode, double sample_time_s, double mass, double friction,
