@@ -93,7 +93,7 @@ void Emulator::sleep(avr_t* avr, std::uint64_t) {
 
 /// Corrects a deviation of simavr 1.6 from the chip. If an interrupt is raised between `sei` and
 /// `sleep`, the chip serves it before the instruction after `sleep` [ATmega2560 data sheet, 7.7].
-/// simavr executes that instruction first; if it is `cli`, the interrupt is never served.
+/// simavr executes that instruction first. If this is `cli`, simavr never serves the interrupt.
 void Emulator::serve_interrupt_after_sleep() {
   constexpr unsigned kSleep = 0x9588;  // opcode of sleep
   if (avr_->state != cpu_Running || avr_->sreg[S_I] == 0 || avr_->pc < 2) return;

@@ -12,8 +12,8 @@ namespace {
 /// an attempt succeeds with a probability of 0.4, and all 40 attempts fail with a probability of
 /// 1e-9.
 constexpr int kAttempts = 40;
-/// Maximum number of times that the start request is sent. A start request is short and thus rarely
-/// damaged, so 10 attempts suffice. A missing board is then reported sooner.
+/// Maximum number of times that the start request is sent. It is short and thus rarely damaged, so
+/// 10 attempts suffice. More would delay the report that a board is missing.
 constexpr int kStartAttempts = 10;
 
 /// Encodes a request as a frame.

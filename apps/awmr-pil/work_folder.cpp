@@ -31,7 +31,8 @@ constexpr int kEndingSignals[] = {SIGINT,  SIGTERM, SIGHUP,    SIGQUIT, SIGALRM,
                                   SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ};
 
 /// Locked while the folder is created or removed. When a signal ends the program, the thread that
-/// handles it locks this mutex for ever. No folder can then be created after the clean-up.
+/// handles the signal locks this mutex for ever, so that no folder can be created after the
+/// clean-up.
 std::mutex folder_mutex;
 /// Path of this run's folder; empty if there is none. A signal may arrive while the program exits,
 /// so the object is never destroyed.

@@ -119,8 +119,8 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
   return files;
 }
 
-/// Adds the error `missing-trial` for each parameter that no trial of the project identifies (a
-/// driving log identifies all of them). Adds the note `assumed-sway` if nothing gives the sway
+/// Adds the error `missing-trial` for each parameter that no trial of the project identifies. (A
+/// driving log identifies all parameters.) Adds the note `assumed-sway` if nothing gives the sway
 /// resistance.
 void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Check& check) {
   if (!project.logs.empty()) return;

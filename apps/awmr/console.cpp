@@ -60,9 +60,9 @@ std::string styled(const std::string& summary, const Style& style) {
   return text;
 }
 
-/// Prints the findings on stderr. With `--verbose` all of them; with `--quiet` only the errors that
-/// explain why a request was refused; otherwise the text of findings_text(), which shortens long
-/// lists.
+/// Prints the findings on stderr: with `--verbose` all of them, with `--quiet` only the errors that
+/// explain why a request was refused. Otherwise prints the text of findings_text(), which shortens
+/// long lists.
 void print_findings(const Outcome& outcome, Manner manner) {
   const Style style(stderr);
   std::string text;

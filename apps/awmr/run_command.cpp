@@ -109,8 +109,8 @@ Result<Trials> read_trials(const Project& project) {
 }
 
 /// Checks inputs and outputs before anything is written, and returns the paths of all input files.
-/// Errors: an invalid file; an implausible vehicle; two scenario files of the same name; an output
-/// file that is also an input, or that exists and was not written by awmr.
+/// Errors: an invalid file; an implausible vehicle; two scenario files of the same name. Also an
+/// output file that is also an input, or that exists and was not written by awmr.
 Result<std::vector<fs::path>> checked_inputs(const RunCommand& command, const Project& project) {
   TuneConfig tune;
   std::vector<Fault> faults;

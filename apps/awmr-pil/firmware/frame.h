@@ -22,9 +22,9 @@ constexpr uint8_t kMaxFrame = kHeadBytes + kMaxPayload + 2;  // bytes after the 
 // Types of the requests, with the payloads of request and answer. An answer has the type of its
 // request.
 // Hello: starts the controller anew. Request: empty. Answer: the fault bits of awmr_init() (8 bit),
-// then AWMR_PARAMETERS_CRC32 xor kPilMission (32 bit). The second number lets the host detect
-// firmware that was made for other inputs. kPilMission is the checksum of the generated mission.h;
-// it is 0 if that header has the defaults only.
+// then AWMR_PARAMETERS_CRC32 xor kPilMission (32 bit). By the second number, the host detects
+// firmware that was made for other inputs. kPilMission is the checksum of the generated mission.h,
+// or 0 if that header has only the defaults.
 constexpr uint8_t kHello = 'H';
 // Follow points. Request: the acceptance radius in m, then x_m and y_m of each point. Answer:
 // empty.

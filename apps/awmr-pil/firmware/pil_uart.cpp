@@ -23,8 +23,8 @@ volatile uint8_t ring_head;
 uint8_t ring_tail;
 
 // Pause on the line after which an incomplete frame is discarded, in counts of timer 3 (F_CPU/64):
-// 20 ms plus the time of 20 bytes. The pauses that USB makes within a frame are shorter. The host
-// waits longer before it repeats a request.
+// 20 ms plus the time of 20 bytes. It is longer than the pauses that USB makes within a frame, and
+// shorter than the time after which the host repeats a request.
 const uint16_t kPause =
     static_cast<uint16_t>(F_CPU / 64UL / 50UL + 20UL * 10UL * (F_CPU / 64UL) / PIL_BAUD);
 

@@ -187,9 +187,9 @@ void answer(Question& question) {
       });
 }
 
-/// Adds to `entry` the scrub that was measured in differential turns. If the result is undecided
-/// and further turns could decide it, also adds the total number of turns that this needs.
-/// Precondition: all other fields of `entry` are set.
+/// Adds to `entry` the scrub that was measured in differential turns. If further turns could decide
+/// an undecided result, also adds the total number of turns that this needs. Precondition: all
+/// other fields of `entry` are set.
 void add_measured(const Model& model, BreakEven& entry) {
   const auto& scrub = model.yaw_scrub;
   if (scrub) {
@@ -219,8 +219,8 @@ void add_measured(const Model& model, BreakEven& entry) {
 }
 
 /// Returns the pairs of modes to examine, in all scenarios. `without`: the runs of the nominal
-/// model (sample 0) without scrub. `entry`: a BreakEven with most_m and sliding_m, which are the
-/// same for all pairs.
+/// model (sample 0) without scrub. `entry`: start value of each pair's result, with most_m and
+/// sliding_m set, which are the same for all pairs.
 Result<std::vector<Question>> all_questions(const Model& model, const ModeGains& gains,
                                             const std::vector<Scenario>& scenarios,
                                             const std::vector<ComparisonRow>& without,

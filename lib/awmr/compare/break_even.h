@@ -1,6 +1,6 @@
-/// Break-even analysis: computes the tyre scrub at which a mode is no longer better than another.
-/// Scrub is the yaw moment, independent of the yaw rate, with which the tyres resist a turn by
-/// wheel-force differences. Private to compare/.
+/// Break-even analysis: how much tyre scrub makes a mode lose its advantage over another? Scrub is
+/// a yaw moment, independent of the yaw rate, with which the tyres resist a turn by wheel-force
+/// differences. Private to compare/.
 #pragma once
 
 #include <string>

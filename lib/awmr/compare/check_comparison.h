@@ -9,8 +9,8 @@
 namespace awmr {
 
 /// Checks the input of compare(). Errors (input): an option is out of range; no scenario or gains;
-/// two with the same name; break-even combined with options that exclude it; more than kMaxRuns
-/// runs; the errors of controller_for().
+/// two scenarios or two sets of gains with the same name; break-even combined with options that
+/// exclude it; more than kMaxRuns runs; the errors of controller_for().
 Status check_comparison(const Model& model, const std::vector<NamedGains>& gains,
                         const std::vector<Scenario>& scenarios, const CompareOptions& options);
 

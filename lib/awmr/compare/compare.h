@@ -91,8 +91,8 @@ struct CompareOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Break-even scrub of two modes: the scrub of the tyres (Plant::yaw_scrub_m) at which the first
-/// mode is no longer ahead of the second, on the nominal model. Scrub acts in every mode. The
+/// Break-even scrub of two modes on the nominal model: the scrub of the tyres (Plant::yaw_scrub_m)
+/// at which the first mode is no longer ahead of the second. Scrub acts in every mode, and the
 /// controller does not compensate it.
 struct BreakEven {
   std::string scenario;

@@ -1,6 +1,6 @@
-/// Tests whether the best modes of a scenario stay the best if one assumption is changed: on the
-/// other plant (3-DOF model or four wheels), with other weights and with other gains. Private to
-/// compare/.
+/// Tests how robust a ranking is: do the best modes of a scenario stay the best if one assumption
+/// is changed? The changes are the other plant (3-DOF model or four wheels), other weights and
+/// other gains. Private to compare/.
 #pragma once
 
 #include <cstdint>
@@ -66,10 +66,10 @@ struct Decision {
 inline constexpr std::string_view kDifferentialTurns = "differential-turns";
 inline constexpr std::string_view kSteerWhileCoasting = "steer-while-coasting";
 
-/// Repeats the ranking on the other plant and, for a single set of gains, with slower and faster
-/// gains. Uses the first kBatchRuns samples of the comparison, or all if there are fewer. If a
-/// scenario cannot be run with a change, the Change has the reason (Change::not_run). Open-loop
-/// scenarios have no Change, because their modes are not ranked.
+/// Repeats the ranking on the other plant. For a single set of gains, also repeats it with slower
+/// and faster gains. Uses the first kBatchRuns samples of the comparison, or all if there are
+/// fewer. If a scenario cannot be run with a change, the Change has the reason (Change::not_run).
+/// Open-loop scenarios have no Change, because their modes are not ranked.
 std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedGains>& gains,
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);

@@ -161,8 +161,8 @@ RankedMode unranked_mode(const RankingEntry& own, const RankingEntry& best, doub
   return mode;
 }
 
-/// Replaces first_by_weights of the modes that are tied for rank 1 by its mean over these modes,
-/// because none of them has rank 1 alone. Does the same with first_by_samples if the modes are
+/// If several modes are tied for rank 1, replaces their first_by_weights by the mean over these
+/// modes, because none of them is best alone. Does the same with first_by_samples if the modes are
 /// equivalent.
 void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
   const auto end = std::find_if(ranking.begin(), ranking.end(),

@@ -16,8 +16,8 @@ struct RankedMode {
   int rank = 0;  ///< 1 is best; tied modes have the same rank
   Contender contender;
   /// Score of this mode divided by that of the first mode in the list; lower is better. A score is
-  /// the weighted geometric mean of the metrics, each with an offset added (scoring.h). The ratio
-  /// is below 1 if this mode has a better score than the first one but completes less often.
+  /// the weighted geometric mean of the metrics, each with an offset added (scoring.h). The
+  /// quotient can be below 1: the first mode may have a worse score, but complete more often.
   double score = 1.0;
   double completed_share = 0.0;  ///< share of completed runs, in [0, 1]
   /// 95 % interval of `score`; absent for the first mode, and below 2 samples.

@@ -85,8 +85,8 @@ std::vector<double> holm(std::span<const double> p);
 inline constexpr int kResamples = 1000;  ///< number of bootstrap resamples
 
 /// Statistics of one scenario. All intervals are from one bootstrap: samples are drawn with
-/// replacement, each with all its metrics and contenders. Every metric, pair and scenario uses the
-/// same resamples, so no interval depends on the order of the scenarios.
+/// replacement, each with all its metrics and contenders. Every scenario uses the same resamples,
+/// so its intervals do not depend on the other scenarios.
 struct ScenarioStatistics {
   /// Differences of every metric between every pair of contenders with the same gains or the same
   /// mode.

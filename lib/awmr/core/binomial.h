@@ -21,11 +21,11 @@ double mcnemar_p(std::size_t only_first, std::size_t only_second);
 /// >= 2. If the deviation is 0, returns 1 for a mean of 0, else 0.
 double paired_t_p(double mean, double deviation, std::size_t count);
 
-/// p value of an equivalence test of paired differences (TOST, two one-sided t tests): the larger
-/// of the two p values. The null hypotheses are that the true mean is above `margin`, and that it
-/// is below -`margin`. If p < 0.05, the true mean is significantly within +-`margin`. `margin` >=
-/// 0; `mean`, `deviation` and `count`: as in paired_t_p(). If the deviation is 0, returns 0 for a
-/// mean within the margin, else 1.
+/// p value of an equivalence test of paired differences (TOST, two one-sided t tests). If p < 0.05,
+/// the true mean is significantly within +-`margin`, >= 0. The null hypotheses are that the true
+/// mean is above `margin`, and that it is below -`margin`; p is the larger of the two p values.
+/// `mean`, `deviation` and `count`: as in paired_t_p(). If the deviation is 0, returns 0 for a mean
+/// within the margin, else 1.
 double equivalence_p(double mean, double deviation, std::size_t count, double margin);
 
 }  // namespace awmr

@@ -17,8 +17,8 @@ constexpr std::array<double, 20> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,
                                               1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
 
 /// Parses a number such as `-12.5` at the beginning of `text` and returns its length. The value is
-/// computed as an integer divided by a power of ten, 125/10. If both are exact as double, the
-/// quotient is correctly rounded, and several times faster than std::from_chars. Otherwise `value`
+/// computed as an integer divided by a power of ten, here 125/10. This is several times faster than
+/// std::from_chars. It is correctly rounded if both numbers are exact as double; otherwise `value`
 /// remains empty. [Clinger, How to Read Floating Point Numbers Accurately, 1990]
 std::size_t parse_plain_number(std::string_view text, std::optional<double>& value) {
   constexpr std::uint64_t kMaxExact = std::uint64_t{1} << 53U;

@@ -35,8 +35,8 @@ std::optional<std::filesystem::path> find_program(std::string_view name);
 /// Variables that would change the compiler's behaviour, such as CPATH, are left out.
 std::vector<std::string> plain_environment(const std::filesystem::path& temporary);
 
-/// Runs a program until it ends or reaches its time limit, and then kills the processes that it has
-/// started and left running. Its stdin is empty, and it inherits no open files of this process.
+/// Runs a program until it ends or reaches its time limit. Then kills the processes that this
+/// program has left running. Its stdin is empty, and it inherits no open files of this process.
 /// Errors (input): the program cannot be started.
 Result<ProgramEnd> run_program(const ProgramCall& call);
 

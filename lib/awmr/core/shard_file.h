@@ -69,9 +69,9 @@ Status check_items(const ShardKind& kind, const Part& part, std::string_view nam
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 
 /// Merges the rows of all parts into the order that a job without shards has. `parts`: the rows of
-/// each part, by shard index. The rows of a part consist of one or more blocks. Each block has one
-/// row for each item of the part, in order. `items`: number of items of the whole job. Errors
-/// (input): the parts have different numbers of blocks.
+/// each part, by shard index. A part has one or more blocks of rows; a block has one row for each
+/// item of the part, in order. `items`: number of items of the whole job. Errors (input): the parts
+/// have different numbers of blocks.
 template <class Row>
 Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items) {
   std::size_t rows = 0;

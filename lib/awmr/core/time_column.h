@@ -34,8 +34,8 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
     std::span<const std::string> header, std::span<const std::string> samples);
 
 /// Converts a date such as `2026-01-31T12:34:56.789Z` to seconds since 1970; empty for other text.
-/// A space may replace the T, `+hh:mm` the Z. Seconds and their fraction are optional. Without a
-/// zone, UTC is assumed; this is harmless, because only differences of times matter.
+/// A space may replace the T, and `+hh:mm` the Z. Seconds and their fraction are optional. Without
+/// a zone, UTC is assumed. A wrong zone would do no harm, because only differences of times matter.
 std::optional<double> seconds_of_date(std::string_view text);
 
 }  // namespace awmr

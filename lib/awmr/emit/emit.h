@@ -192,8 +192,8 @@ struct EmittedFile {
 };
 
 /// Creates an Arduino library: awmr_params.h, library.properties, src/ with the C interface and the
-/// unchanged control sources, examples/. It also works with PlatformIO and with plain avr-gcc and
-/// -I src. The same inputs give the same bytes. Errors: those of autopilot_parameters().
+/// unchanged control sources, and examples/. PlatformIO and plain avr-gcc (with -I src) can use it,
+/// too. The same inputs give the same bytes. Errors: those of autopilot_parameters().
 Result<std::vector<EmittedFile>> firmware_library(const Model& model, const ModeGains& gains,
                                                   const EmitInputs& inputs,
                                                   const EmitOptions& options);

@@ -101,8 +101,9 @@ void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode
             "w0 of the combined mode");
 }
 
-/// Adds the set of gains of one mode (`mode`, part of the names), or that of the modes without gains
-/// of their own. `has_observer`: the observer is added, with zeros if the set has none.
+/// Adds the gains of one mode (`mode`, which becomes part of the names), or those of all modes
+/// without gains of their own. `has_observer`: the observer is added, with zeros if these gains
+/// have none.
 void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool has_observer,
                   std::vector<ExportedValue>& values) {
   const auto add = [&](const char* name, double value, const char* unit, const char* meaning) {

@@ -19,9 +19,9 @@ namespace awmr {
 inline constexpr const char* kManifest = "awmr_emit.json";
 
 /// Returns the text of the manifest: the inputs from which the files were made, `figures`, the
-/// findings, and every file with its SHA-256. Entries of the existing manifest in `directory` for
-/// other files are kept. `figures`: empty, or the text of a JSON object whose keys are added to the
-/// manifest.
+/// findings, and every file with its SHA-256. It keeps the entries for other files that the
+/// existing manifest in `directory` has. `figures`: empty, or the text of a JSON object whose keys
+/// are added to the manifest.
 std::string manifest_text(const std::filesystem::path& directory,
                           const std::vector<EmittedFile>& files, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);

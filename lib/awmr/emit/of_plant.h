@@ -12,7 +12,8 @@ namespace awmr {
 /// never reaches.
 using OfPlant = std::function<double(const Plant<double>&)>;
 
-/// Returns the standard error of the number f, to first order in the fitted parameters p:
+/// Returns the standard error of the number f, to first order in the errors of the fitted
+/// parameters p:
 ///   Var f = g^T C g,   C: covariance of p,   g = df/dp
 /// Given parameters count as exact. Absent if f does not depend on any fitted parameter, if f
 /// depends on a parameter that is neither given nor in C, or if the result is not finite.

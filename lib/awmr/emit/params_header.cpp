@@ -168,9 +168,9 @@ std::string comment_safe(std::string_view text) {
   return safe;
 }
 
-/// The float as %.9g and `f`: nine significant digits read back to the same float. A point is added
-/// to a text without point or exponent, because `3f` is not a C literal. A negative value is in
-/// parentheses, because an operator can precede a macro.
+/// The float as %.9g and `f`. Nine significant digits read back to the same float. `3f` is not a C
+/// literal, so a text without point or exponent gets a point. A negative value is in parentheses,
+/// because an operator can stand before a macro.
 std::string float_literal(double value) {
   const float rounded = static_cast<float>(value) + 0.0F;  // adding 0 turns -0 into 0
   std::string text = fmt::format("{:.9g}", static_cast<double>(rounded));

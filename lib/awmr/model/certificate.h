@@ -8,9 +8,9 @@
 
 namespace awmr {
 
-/// Values of `/certificate/set` in gains.json: the plants over which the worst case was computed.
-/// kCertifiedSet: the 95 % confidence region of the parameters, if the model has a covariance.
-/// kUncertifiedSet: the identified plant only.
+/// Values of `/certificate/set` in gains.json: the plants over which the worst case was searched.
+/// kCertifiedSet: the 95 % confidence region of the parameters; used if the model has a covariance.
+/// kUncertifiedSet: only the identified plant.
 inline constexpr const char* kCertifiedSet = "95 %";
 inline constexpr const char* kUncertifiedSet = "the model's own values";
 

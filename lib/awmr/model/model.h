@@ -139,9 +139,9 @@ struct Model {
   /// straight driving. Only the parameters of these motions need a value. Errors: as plant().
   Result<Plant<double>> plant_of_trials() const;
 
-  /// The plant without checks. Parameters without a value are replaced: a resistance by 0, an
-  /// inertia, an exponent or a time constant by 1. Use it only for motions whose equations do not
-  /// contain these parameters.
+  /// The plant without checks, for motions whose equations do not contain the parameters that have
+  /// no value. Such a parameter is replaced: a resistance by 0; an inertia, an exponent or a time
+  /// constant by 1.
   Plant<double> plant_as_known() const;
 
   /// The most general motion for which the model can be simulated: kPlanar, or kStraight if a

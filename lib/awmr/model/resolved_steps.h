@@ -17,7 +17,7 @@ inline constexpr double kMaxRateTimesStep = 1.0;
 inline constexpr int kMaxHalvings = 40;
 inline constexpr double kMaxHalves = 5e7;
 
-/// Rate at which a deviation from the speed w decays, 1/s: g'(w)/inertia with
+/// Rate at which a small deviation from the speed w decays, 1/s: g'(w)/inertia with
 ///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
 /// Returns 0 where the rate needs no check: below law.rest_speed, where the chord replaces g, and
 /// for beta < 1 with q = 0. There the rate is at most 1/h for steps of h, because rest_speed() in
@@ -99,9 +99,9 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Step step, M
   return blend(halved, end, from);
 }
 
-/// Makes one step of h seconds if fastest_rate() times h is at most kMaxRateTimesStep at both ends
-/// of the step; else two steps of half the length. The result is undefined in lanes outside of
-/// `requested`.
+/// Makes one step of h seconds if the motion is slow enough: at both ends of the step,
+/// fastest_rate() times h is at most kMaxRateTimesStep. Otherwise makes two steps of half the
+/// length. The result is undefined in lanes outside of `requested`.
 template <class Body, class T, class Step>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution) {

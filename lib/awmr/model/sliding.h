@@ -4,7 +4,6 @@
 /// The surge resistance g1 has a Coulomb friction c: it jumps from -c to c at rest. During an
 /// integration step, the friction keeps the direction s of the motion, 1 or -1. With the surge
 /// force X of the wheels,
-/// wheels,
 ///   u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
 /// If the speed u passes 0 in an integration step, the step is cut at the time at which u is 0.
 /// Then friction holds the vehicle (u_dot = 0) as long as the driving force |X + m' r v| is at most

@@ -66,9 +66,9 @@ struct Vehicle {
   /// Errors of the sensors, for which gains are tuned and with which runs are simulated
   /// (simulate/conditions.h).
   SensorQuality sensors = {};
-  /// Time constant of the first-order lag from the motors' command to their force, s, >= 0. Gains
-  /// are tuned for it, runs are simulated with it, and log fits filter the logged commands with it.
-  /// Absent: no lag, unless a log identifies one.
+  /// Time constant of the first-order lag from the motors' command to their force, s, >= 0. It is
+  /// used to tune gains, to simulate runs, and to filter the logged commands before a fit. Absent:
+  /// no lag, unless a log identifies one.
   std::optional<double> motor_time_constant_s;
   /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel, from its data
   /// sheet. Absent: no back-EMF, unless a log identifies it.

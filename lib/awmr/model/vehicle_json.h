@@ -1,6 +1,6 @@
-/// Converts the vehicle, and the range of a motor's force, to and from JSON: for vehicle.json, for
-/// `/vehicle` of model.json, and for the unmodelled variation (`open`) of a search for gains. Not
-/// installed; include from .cpp files only.
+/// Converts the vehicle and the range of a motor's force to and from JSON. Used for vehicle.json,
+/// for `/vehicle` of model.json, and for the unmodelled variation (key `open`) in a search for
+/// gains. Not installed; include from .cpp files only.
 #pragma once
 
 #include "awmr/core/interval.h"

@@ -93,8 +93,8 @@ std::string assembled(const Json& data) {
 }
 
 /// Adds the initial data of the interactive part (the sliders). The sliders simulate the first
-/// scenario for which is_plain_heading() is true or, if there is none, headings of 30, then -30
-/// deg. Adds nothing without gains, or if the model cannot simulate turns.
+/// scenario for which is_plain_heading() is true. If there is none, they simulate headings of 30,
+/// then -30 deg. Adds nothing without gains, or if the model cannot simulate turns.
 Status add_live(const fs::path& directory, const Model& model, Json& data) {
   if (kLiveWasm.empty() || !data.contains("gains")) return {};
   Scenario scenario = heading_steps({30.0, -30.0}, {.name = "headings 30 then -30 deg"});

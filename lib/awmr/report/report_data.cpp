@@ -61,9 +61,9 @@ void add_findings_of(const Json& json, std::vector<Finding>& findings) {
   if (faults.empty()) findings.insert(findings.end(), more.begin(), more.end());
 }
 
-/// Returns a finding if a run must be omitted: its side file is missing, has the hash of another
-/// run, or names another model or other gains. Otherwise empty, and the findings of the run are
-/// added to the list.
+/// Returns a finding if a run must be left out of the report: its side file is missing, has the
+/// hash of another run, or names another model or other gains. Otherwise returns empty, and adds
+/// the findings of the run to the list.
 Result<std::optional<Finding>> foreign_run(const std::filesystem::path& directory,
                                            const std::string& name, const Origin& origin,
                                            std::vector<Finding>& findings) {

@@ -88,9 +88,9 @@ Json columns_of(const CsvTable& table, std::size_t most_rows) {
   return columns;
 }
 
-/// Returns the files in a directory whose names match the pattern, sorted by name. Each entry has
-/// the name of the file, then the text of each group of the pattern. Errors (input): the directory
-/// cannot be read; a match is not a regular file.
+/// Returns the files in a directory whose names match the pattern, sorted by name. An entry is a
+/// list: the name of the file, then the text that each group of the pattern matched. Errors
+/// (input): the directory cannot be read; a match is not a regular file.
 Result<std::vector<std::vector<std::string>>> matching_files(const fs::path& directory,
                                                              const std::regex& pattern) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> entries, list_directory(directory));

@@ -53,8 +53,8 @@ struct BatchArithmetic {
 /// Number of runs in a block: the runs that are simulated at once.
 inline constexpr std::size_t kBatchRuns = 16;
 
-/// Returns the widest instruction set of this processor. For tests, the environment variable
-/// AWMR_INSTRUCTIONS can select another one. Errors (input): the selected instruction set is not
+/// Returns the widest instruction set of this processor. Tests can select another one by the
+/// environment variable AWMR_INSTRUCTIONS. Errors (input): the selected instruction set is not
 /// available.
 Result<BatchArithmetic> batch_arithmetic();
 

@@ -35,8 +35,8 @@ struct LoopRuns {
 };
 
 /// The functions that compute a sample, for one type of row. The closed loop calls them in the
-/// order control, vehicle.dissipate, measure, vehicle.actuate, vehicle.move. They do not change the
-/// motion and the metrics of an inactive run (Vehicles::active is 0).
+/// order control, vehicle.dissipate, measure, vehicle.actuate, vehicle.move. For an inactive run
+/// (Vehicles::active is 0), they change neither motion nor metrics.
 template <class Row>
 struct LoopSteps {
   const char* name;

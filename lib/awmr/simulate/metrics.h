@@ -11,10 +11,10 @@ namespace awmr {
 
 /// The metrics of one run.
 struct Metrics {
-  /// True if the vehicle completed its task without touching an obstacle. Heading steps: the
-  /// heading settled in every step. Waypoints: all were reached. Line: its end was reached. Timed
-  /// path: in the second half of the run, the distance from the path's point stayed within the
-  /// tolerance.
+  /// True if the vehicle completed its task without touching an obstacle. The task is, for heading
+  /// steps: the heading settled in every step; waypoints: all were reached; line: its end was
+  /// reached; timed path: in the second half of the run, the distance from the path's point stayed
+  /// within the tolerance.
   bool completed = true;
   /// Settling time, s: time from a heading step until the heading error |e| stays within 2 % of the
   /// size of the step (at least 0.5 deg). The longest of all steps counts. Absent if the heading

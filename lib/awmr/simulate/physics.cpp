@@ -12,9 +12,10 @@ namespace awmr {
 namespace {
 
 /// Number of RK4 steps per shortest time constant of the plant, of those that do not depend on
-/// speed. For an eigenmode with the time constant T, a step h = T/6 has the error (h/T)^5/120 =
-/// 1e-6, relative to the excursion. This error decays with T. In tests/peers, positions after a
-/// minute differ by 1e-5 m from those of an independent integrator.
+/// speed. A larger number is more exact and slower. For an eigenmode with the time constant T, a
+/// step h = T/6 has the error (h/T)^5/120 = 1e-6, relative to the excursion; this error decays with
+/// T. In tests/peers, positions after a minute differ by 1e-5 m from those of an independent
+/// integrator.
 constexpr double kStepsPerTimeConstant = 6.0;
 
 /// Up to this speed (m/s or rad/s), the simulation may replace a resistance by a chord (a straight

@@ -37,9 +37,9 @@ inline constexpr double kGripShare = 0.25;
 /// of the vehicle do not limit the draws: the true value can lie beyond an end of its range.
 class PlantSampler {
  public:
-  /// Makes a sampler for the model. If the model has a scrub moment, it is drawn independently of
-  /// the parameters, with YawScrub::std_error_m. Errors (input): a parameter has no value; the
-  /// covariance is missing, has the wrong size, or is not positive semi-definite.
+  /// Makes a sampler for the model. A scrub moment is drawn with its standard error
+  /// (YawScrub::std_error_m), independently of the parameters. Errors (input): a parameter has no
+  /// value; the covariance is missing, has the wrong size, or is not positive semi-definite.
   static Result<PlantSampler> make(const Model& model);
 
   /// Draws the plant with the number `sample` (>= 1). The result depends only on `seed` and
@@ -66,9 +66,9 @@ class PlantSampler {
   /// valid plant.
   std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
   /// Degrees of freedom k of the draws: number of independent directions of the normal numbers n
-  /// that change a parameter. With n' the part of n in these directions, P(|n'| <= r) is the
-  /// probability that a chi-squared variable with k degrees of freedom is at most r^2. Derived
-  /// parameters (m' from a1, b1) add no degree of freedom.
+  /// that change a parameter. Derived parameters (m' from a1, b1) add none. Let n' be the part of n
+  /// in these directions. Then P(|n'| <= r) is the probability that a chi-squared variable with k
+  /// degrees of freedom is at most r^2.
   int rank() const;
   /// Directions in the space of the normal numbers n that change the parameters `ids`. They are
   /// orthonormal. Parameters that are not in the covariance are ignored.

@@ -41,8 +41,8 @@ struct HeadingStep {
 struct HeadingSteps {
   std::vector<HeadingStep> steps;  ///< in the order of time, at different times, not empty
   /// Constant thrust tau_speed, dimensionless, forward positive, as in the paper's experiment. It
-  /// replaces the speed law; surge disturbances are not estimated. Absent: the speed law controls
-  /// the scenario's speed_mps.
+  /// replaces the speed law, so surge disturbances are not estimated. Absent: the speed law
+  /// controls the scenario's speed_mps.
   std::optional<double> tau_speed = {};
 };
 

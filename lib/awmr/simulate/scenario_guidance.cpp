@@ -92,9 +92,9 @@ GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
   return output;
 }
 
-/// True if the obstacles leave a way from `from` to `to`. `to` is the target of the leg with the
-/// index `leg`. The check is made once per leg, with the vehicle's position at the start of the
-/// leg; then the stored result is returned. Always true without avoidance.
+/// True if the obstacles leave a way from `from` to `to`, the target of the leg with the index
+/// `leg`. The check is made once per leg, at the vehicle's position at the start of the leg; later
+/// calls return the stored result. Always true without avoidance.
 bool ScenarioGuidance::way_is_free(const Position<double>& from, const Position<double>& to,
                                    int leg) {
   if (!scenario_->avoidance) return true;

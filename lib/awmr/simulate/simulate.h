@@ -127,9 +127,9 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
 /// Simulates the model with the controller of controller_for(), at the vehicle's sample time. A
-/// scenario without sensors or actuators gets those of the vehicle (equipped() in conditions.h). A
-/// corner of the scenario (parameters at an end of their interval) changes the plant, but not the
-/// controller. A model without turning parameters (Model::simulated_motion()) can only drive
+/// scenario without sensors or actuators gets those of the vehicle (equipped() in conditions.h).
+/// Scenario::corner sets plant parameters to an end of their interval; the controller keeps the
+/// estimates. A model without turning parameters (Model::simulated_motion()) can only drive
 /// straight. Errors (input): those of plant_for(), Model::plant(), check_mode() and failure_of();
 /// the run turns or moves sideways, but the model only has parameters for straight motion.
 Result<Run> simulate(const Model& model, const Gains<double>& gains, const Scenario& scenario,

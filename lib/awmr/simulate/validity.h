@@ -47,9 +47,9 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const 
                                               const ModeGains& gains, const std::string& file);
 
 /// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth
-/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). If the scenario already has a
-/// filter, its bandwidth is kept, and its rate limit is reduced to `limit_degps` if it is larger.
-/// No effect in open loop.
+/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). A filter that the scenario already
+/// has keeps its bandwidth; only a larger rate limit is reduced to `limit_degps`. No effect in open
+/// loop.
 void limit_heading_rate(double limit_degps, Scenario& scenario);
 inline constexpr double kShapingBandwidth_radps = 4.0;
 
@@ -101,9 +101,9 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         const TurnCommands& commands, std::vector<Finding>& findings);
 
-/// Calls note_extrapolation() for that element of `runs` with the highest yaw rate, and returns the
-/// findings. The elements have a member `metrics`. `where(run)` returns the name of a run,
-/// `commands(run)` the commands of its scenario.
+/// Finds the element of `runs` with the highest yaw rate, calls note_extrapolation() for it, and
+/// returns the findings. The elements have a member `metrics`. `where(run)` returns the name of a
+/// run, `commands(run)` the commands of its scenario.
 template <class Runs, class Where, class Commands>
 std::vector<Finding> extrapolation_in(const Model& model, const Runs& runs, const Where& where,
                                       const Commands& commands) {

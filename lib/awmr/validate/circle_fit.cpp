@@ -14,7 +14,8 @@ std::optional<Circle> fit_circle(std::span<const Point> points) {
     mean.y_m += p.y_m / n;
   }
   // Normal equations of the fit. x, y: coordinates relative to the mean of the n points; (cx, cy):
-  // centre of the circle, R its radius; z = x^2 + y^2; Sxy: sum of x y over the points, and so on.
+  // centre of the circle; R: its radius; z = x^2 + y^2. Sxy is the sum of x y over the points, and
+  // so on.
   //   [Sxx Sxy] [cx]   1 [Sxz]
   //   [Sxy Syy] [cy] = - [Syz]    and  R^2 = cx^2 + cy^2 + (Sxx + Syy)/n.
   //                    2

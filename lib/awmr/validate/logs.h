@@ -40,12 +40,12 @@ struct LogValidation {
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s = 0.0);
 
-/// Same as validate_log() above, but for a model that may lack parameters. If it has only the
-/// parameters of straight motion (Model::simulated_motion()), it predicts the speed of a log that
+/// Same as validate_log() above, but for a model that may lack parameters. A model with only the
+/// parameters of straight motion (Model::simulated_motion()) predicts the speed of a log that
 /// drives straight. Errors (input): g1 or m' is missing; a time constant of the model is too short
-/// for a simulation, or the simulation diverges; no channel can be predicted within the horizon;
-/// the model has only the parameters of straight motion, and the log turns (the message names the
-/// row and the missing parameters) or has no speed_mps.
+/// for a simulation, or the simulation diverges; no channel can be predicted within the horizon.
+/// For a model of straight motion also: the log turns (the message names the row and the missing
+/// parameters), or has no speed_mps.
 Result<LogValidation> validate_log(const DrivingLog& log, const Model& model, double horizon_s,
                                    double tolerance);
 

@@ -1,4 +1,4 @@
-/// Checks how the verdicts on the paper's claims depend on settings that the paper leaves open.
+/// Checks how the verdicts on the paper's claims depend on settings that the paper does not give.
 /// Private to validate/.
 ///
 /// The paper prints neither the limits of the wheel force F' nor how the combined mode divides the

@@ -81,9 +81,9 @@ ceres::Problem problem_of(const Windows& windows, const Plants& plants, const We
   return problem;
 }
 
-/// Returns the three best points of a coarse grid as starts of the search, best first; only every
-/// third window is evaluated. Several starts are needed because the cost can have several minima: a
-/// sliding vehicle can spin to either side.
+/// Returns the three best points of a coarse grid as starts of the search, best first. To save
+/// time, only every third window is evaluated. Several starts are needed because the cost can have
+/// several minima: a sliding vehicle can spin to either side.
 std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   constexpr std::array kFrictions{0.25, 0.5, 0.75, 1.1};
   constexpr std::array kStiffnesses{3.0, 6.0, 12.0, 24.0};
