@@ -19,6 +19,7 @@ namespace awmr::pil {
 namespace {
 
 constexpr std::uint32_t kRamOffset = 0x800000;  ///< offset of RAM addresses in an ELF file
+/// Pattern of paint_stack(). A byte that no longer has it was used by the stack.
 constexpr std::uint8_t kPaint = 0xC5;
 /// Maximum number of cycles that simavr executes per call. Without it, simavr would return after
 /// every instruction, which is slower. Timers and interrupts stay exact: simavr returns earlier if

@@ -50,6 +50,7 @@ AutopilotInput input_of(const LoopSetup& setup, double t_s, const Sensed& sensed
 constexpr std::uint32_t kSilence_ms = 4'000'000;
 
 void inject(Injection injection, AutopilotInput& in) {
+  // Age of an input, and length of a pause, that are injected, ms.
   constexpr std::uint32_t kLong_ms = 10'000;
   switch (injection) {
     case Injection::kNaN:

@@ -136,6 +136,7 @@ Status serve_terminal(const std::filesystem::path& elf) {
   (*emulator)->connect_uart();
   std::printf("%s\n", ::ptsname(terminal));
   std::fflush(stdout);
+  // Cycle limit that is never reached.
   constexpr std::uint64_t kLong = 1'000'000'000'000;
   bool was_open = false;
   for (;;) {

@@ -18,6 +18,7 @@ constexpr double kFieldSize = 250.0;
 /// Time constant of the complementary filter (gyroscope and compass), s.
 constexpr double kLean_s = 2.0;
 constexpr double kFixPeriod_s = 0.2;
+/// Sizes of the injected failures (Injection in apps/awmr/pil_options.h).
 constexpr double kCompassJump_rad = 1.0;
 constexpr double kCompassTurning_radps = 0.0436;
 constexpr double kGyroDrift_radps = 0.15;

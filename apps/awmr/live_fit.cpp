@@ -12,6 +12,7 @@
 namespace awmr::cli {
 namespace {
 
+/// With fewer rows, a recording is not fitted yet.
 constexpr std::size_t kMinRows = 10;
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// Break-even analysis: how much tyre scrub makes a mode lose its advantage over another? Scrub is
-/// a yaw moment, independent of the yaw rate, with which the tyres resist a turn by wheel-force
+/// Break-even analysis: computes how much tyre scrub makes a mode lose its advantage over another.
+/// Scrub is a yaw moment, independent of the yaw rate, with which the tyres resist a turn by wheel-force
 /// differences. Private to compare/.
 #pragma once
 

@@ -13,6 +13,7 @@
 
 namespace awmr {
 
+/// Largest weight that a user can give. Weights only have an effect relative to each other.
 inline constexpr double kMaximumWeight = 1000.0;
 /// Permitted range of Preferences::relevance. A smaller margin would make all scores nearly equal:
 /// the offset floor/relevance is added to each metric (scoring.h), and at 0.001 it is already above

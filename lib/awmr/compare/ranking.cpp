@@ -15,6 +15,7 @@ namespace {
 /// Random stream from which the weightings of the metrics are drawn. It differs from the streams of
 /// the samples, and from that of the bootstrap (statistics.cpp).
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
+/// Number of random weightings. A larger number makes the shares more exact.
 constexpr int kWeightings = 1000;
 
 /// Returns the difference of the mean log scores of two modes, `own` minus `leader`, in each

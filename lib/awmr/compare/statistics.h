@@ -77,6 +77,7 @@ struct PairedDifference {
   }
 };
 
+/// Significance level of all tests of a comparison.
 inline constexpr double kSignificance = 0.05;
 
 /// Holm's step-down correction of p-values. Returns them in the given order.

@@ -23,8 +23,8 @@ struct CsvHeader {
   bool is_positional = false;
 };
 
-/// Finds the header and moves `scanner` to the first row. The header is the line that has the names
-/// in `columns` and `mappings`; lines of titles above it are skipped. Precondition: `scanner` is at
+/// Finds the header and moves `scanner` to the first row. The header is recognised by the names in
+/// `columns` and `mappings`; lines of titles above it are skipped. Precondition: `scanner` is at
 /// the first byte of the text. `file` names the text in errors. Errors: no header; an unterminated
 /// quote, or text after a closing quote; numbers instead of names; JSON or HTML; cells separated by
 /// spaces; names that are not UTF-8.

@@ -13,6 +13,8 @@
 namespace awmr {
 namespace {
 
+/// Number of points of a curve, number of steps of a coast-down, and largest number of coast-downs
+/// in a chart.
 constexpr int kCurvePoints = 120;
 constexpr int kCoastSteps = 400;
 constexpr std::size_t kMaxCoastdowns = 8;

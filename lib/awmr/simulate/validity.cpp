@@ -132,6 +132,7 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
   const double moment_m = model.plant_as_known().yaw(radians(*measured_degps));
   const double plain_degps = turned_degps(model, moment_m, {});
   const double on_tyres_degps = turned_degps(model, moment_m, scenario.tyres);
+  // Factor between the two yaw rates above which the tyres do not match the vehicle.
   constexpr double kMuch = 1.5;
   if (on_tyres_degps <= kMuch * plain_degps && plain_degps <= kMuch * on_tyres_degps) {
     return std::nullopt;

@@ -30,6 +30,7 @@ std::optional<Finding> missing_intervals(const Model& model);
 /// these log-normal draws are wrong by more than a factor of exp(2 sigma). The message names the
 /// trial that would identify the parameter.
 std::vector<Finding> imprecise_parameters(const Model& model);
+/// Limit of the relative standard error; a larger limit warns later.
 inline constexpr double kImprecise = 0.5;
 
 /// Warnings about requests that cannot be met: a heading step after the end of the scenario
@@ -51,6 +52,8 @@ std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const 
 /// has keeps its bandwidth; only a larger rate limit is reduced to `limit_degps`. No effect in open
 /// loop.
 void limit_heading_rate(double limit_degps, Scenario& scenario);
+/// Bandwidth of this filter, rad/s. With a larger one, the reference follows a heading command
+/// faster.
 inline constexpr double kShapingBandwidth_radps = 4.0;
 
 /// Value of the option --heading-rate-limit. "measured": the highest measured yaw rate of the model

@@ -20,7 +20,10 @@
 namespace awmr {
 namespace {
 
+/// Fraction of the predicted drives that are within the limits. With a larger fraction, the limits
+/// are wider and detect fewer differences.
 constexpr double kLevel = 0.95;
+/// Shortest time that can be compared, s.
 constexpr double kShortest_s = 2.0;
 /// Number of the first random stream of the predicted drives. Drive i draws its latencies, its
 /// initial state and its added noise from the stream kReadingsStream + i. The number is large

@@ -17,6 +17,7 @@ namespace {
 ///   r = (moment/a3)^(1/b3)
 double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits<double>& limits,
                               YawMode mode, double speed_mps) {
+  // The allocation limits this request to the largest moment that the mode can make.
   constexpr double kMoreThanAnyMoment_m = 1e3;
   const Allocation<double> a =
       allocate(mode, plant.surge(speed_mps), kMoreThanAnyMoment_m, limits, speed_mps);

@@ -30,9 +30,13 @@ struct Change {
   bool is_factor() const { return unit == "times"; }
 };
 
+/// Range in which factors are searched. kGrid: number of grid points of a search. kBits: accuracy
+/// of the result, in bits.
 constexpr Interval kFactor{0.25, 4.0};
 constexpr int kGrid = 9;
 constexpr int kBits = 10;
+/// A hypothesis is reported if it removes at least this fraction of the squared distances. At most
+/// kMaxNamed hypotheses are reported.
 constexpr double kWorthNaming = 0.3;
 constexpr std::size_t kMaxNamed = 4;
 

@@ -161,6 +161,7 @@ std::array<std::optional<double>, 2> log_errors(const Windows& windows, const Pl
 }
 
 bool is_inside(Eigen::Index parameter, double log_value) {
+  // A parameter this near to an end of its range counts as being at the end (in the logarithm).
   constexpr double kNear = 1e-3;
   const Interval range = range_of(parameter);
   return log_value > range.lo + kNear && log_value < range.hi - kNear;

@@ -123,8 +123,11 @@ Windows evenly_chosen(const std::vector<ReplayedWindow>& all) {
 }
 
 Turns turns_in(const LogWindow& rows, const Plant<double>& plant) {
+  // RMS steering angle, and RMS difference of left and right force, up to which the vehicle counts
+  // as not turned by it.
   constexpr double kLittleAngle_rad = 0.02;
   constexpr double kLittleForce = 0.02;
+  // Least ratio of the squared moments of the two causes, if one is to count as the only cause.
   constexpr double kMuchMore = 3.0;
   const DrivingLog& log = *rows.log;
   double by_sides = 0.0;  // sum over the rows of the squared differential moment, m^2

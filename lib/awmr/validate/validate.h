@@ -93,7 +93,6 @@ struct ValidateOptions {
 ///   turning    the steady yaw rate r, rad/s, at tau_turn
 ///   coastdown  the time t_a, s, from motors off to rest
 /// steady_rate() and stop_time_s() of model/steady.h have the equations. Absent if the resistance
-/// steady_rate() and stop_time_s() of model/steady.h have the equations. Absent if the resistance
 /// law gives no finite value: no steady speed with an exponent b near 0, no stop time with b1 >= 1.
 /// Also absent for other kinds of trial.
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
