@@ -141,8 +141,8 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
   return rows;
 }
 
-/// One pair of modes whose break-even scrub is to be computed: the inputs, and the result
-/// (`entry`), which is completed later.
+/// One pair of modes whose break-even scrub is to be computed: the inputs, and the result `entry`,
+/// which is filled in step by step.
 struct Question {
   ModeSetting setting;
   std::vector<ScoredMetric> scoring;

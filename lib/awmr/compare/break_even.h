@@ -1,6 +1,6 @@
 /// Break-even analysis: computes how much tyre scrub makes a mode lose its advantage over another.
-/// Scrub is a yaw moment, independent of the yaw rate, with which the tyres resist a turn by wheel-force
-/// differences. Private to compare/.
+/// Scrub is a yaw moment, independent of the yaw rate, with which the tyres resist a turn by
+/// wheel-force differences. Private to compare/.
 #pragma once
 
 #include <string>

@@ -79,8 +79,8 @@ void check_gains(const std::vector<NamedGains>& gains, const CompareOptions& opt
   }
 }
 
-/// Checks the number of runs before memory is allocated for them. Error (input): more than kMaxRuns
-/// runs. `per_sample`: number of runs of each sample.
+/// Checks the number of runs before memory is allocated for their results. Error (input): more than
+/// kMaxRuns runs. `per_sample`: number of runs of each sample.
 Status check_runs(std::size_t per_sample, int samples) {
   const std::size_t most = kMaxRuns / per_sample;
   if (at(samples) + 1 <= most) return {};

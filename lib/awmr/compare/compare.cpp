@@ -38,7 +38,7 @@ struct Layout {
   }
 };
 
-/// Results of the runs, in the order of the output; empty until a run is finished.
+/// Results of the runs, in the order of the output. An entry is empty until its run is finished.
 using Slots = std::vector<std::optional<ComparisonRow>>;
 
 /// Longest run, in control steps, whose sensor noise is drawn in advance and shared by the modes.
@@ -53,8 +53,8 @@ class SharedNoise {
   /// Noise of each sample, by the number of the sample.
   using Drawn = std::map<std::size_t, DrawnNoise>;
 
-  /// Registers a block that will use the noise. Must be called for all blocks before the first of
-  /// them starts.
+  /// Registers a block that will use the noise. Call this for all blocks before the first of them
+  /// starts, so that no block frees the noise too early.
   void add_user() { ++users_; }
 
   /// Returns the noise. The first call obtains it from `draw()`.
@@ -116,8 +116,8 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
                               const Block& block, YawMode mode, std::uint64_t seed) {
   std::vector<BatchRun> runs;
   for (const std::size_t sample : block.samples) {
-    // Sample 0 has seed 0, so that its run equals that of `awmr simulate`, which uses only the seed
-    // of the scenario.
+    // Sample 0 has seed 0. So its run equals that of `awmr simulate`, which uses only the seed of
+    // the scenario.
     runs.push_back({plants.vehicle(block.scenario, sample), controller, mode,
                     sample == 0 ? 0 : seed, static_cast<std::uint64_t>(sample)});
   }
@@ -159,7 +159,7 @@ void run_block(const RunSetup& setup, const Block& block, Slots& slots,
   const Vehicle& vehicle = setup.model.vehicle;
   const Scenario& scenario = setup.scenarios[block.scenario];
   const NamedGains& set = setup.gains[block.gains];
-  // The controller uses the parameters of the nominal plant, not those of the drawn one.
+  // The controller's model is the nominal plant, also if the simulated plant is drawn.
   const YawMode mode = kYawModes[block.mode];
   const auto controller = make_controller(setup.plants.nominal, vehicle, set.gains.in(mode));
   std::vector<BatchRun> runs = runs_of(setup.plants, controller, block, mode, setup.options.seed);
@@ -193,7 +193,7 @@ Result<Slots> run_blocks(const RunSetup& setup) {
   LoopControl control;
   if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
   if (options.progress) control.progress = [&] { options.progress(done, count); };
-  // Each run has its own entry, so the result does not depend on the order of the threads.
+  // Each run has its own entry in the results, so these do not depend on the order of the threads.
   parallel_for(
       blocks.size(), options.threads,
       [&](std::size_t b) {

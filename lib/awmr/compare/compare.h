@@ -53,8 +53,8 @@ struct Contender {
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// 95 % intervals from fewer samples than this contain the true value in fewer than 95 % of the
-/// cases.
+/// With fewer samples than this, 95 % intervals are too narrow: they contain the true value in
+/// fewer than 95 % of the cases.
 inline constexpr int kFewSamples = 6;
 
 /// Maximum number of runs of a comparison: scenarios x sets of gains x modes x samples (including
@@ -98,8 +98,8 @@ struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< the mode with the better score without scrub
   YawMode against{};  ///< the other mode, which has smaller wheel-force differences
-  /// Smallest scrub at which `mode` is no longer ahead, m, > 0. The error is at most 1 % of the
-  /// value or 3e-8 most_m, whichever is larger. Absent if the mode stays ahead up to most_m.
+  /// Smallest scrub at which `mode` is no longer ahead, m, > 0. Its error is at most 1 % of the
+  /// value or 3e-8 times most_m, whichever is larger. Absent if the mode stays ahead up to most_m.
   std::optional<double> yaw_coulomb_m;
   /// Largest yaw moment that left and right wheel forces can make, m: 2 d (F'max - F'min).
   double most_m = 0.0;
@@ -141,7 +141,7 @@ inline constexpr NameTable<ChangeKind, 3> kChangeKindNames{{{"plant", ChangeKind
                                                             {"weights", ChangeKind::kWeights},
                                                             {"gains", ChangeKind::kGains}}};
 
-/// Number of completed runs of one mode (with its gains) when one assumption is changed.
+/// Number of completed runs of one mode (with its gains) under a changed assumption.
 struct Completion {
   Contender contender;
   std::size_t count = 0;  ///< number of completed runs
@@ -153,7 +153,7 @@ struct Change {
   std::string scenario;
   ChangeKind kind{};
   std::string setting;  ///< name of the change: the plant ("model"), gains ("slower") or weights
-  /// Modes of rank 1; for kWeights, modes of rank 1 with all these weights.
+  /// modes of rank 1; for kWeights, those that have rank 1 with all changed weights
   std::vector<Contender> first;
   std::string not_run = {};                ///< why there is no ranking; empty if there is one
   std::vector<Completion> completed = {};  ///< completed runs by contender; empty for kWeights

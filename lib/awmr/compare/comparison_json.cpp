@@ -90,8 +90,8 @@ Json labels_json(const std::vector<Contender>& contenders) {
   return labels;
 }
 
-/// Writes the decision on a scenario as JSON. `all`: the changes of all scenarios. From these,
-/// changes of this scenario that could not be run are added with their reason.
+/// Writes the decision on a scenario as JSON. `all`: the changes of all scenarios. Those of this
+/// scenario that could not be run are added with the reason.
 Json decision_json(const std::string& scenario, const Decision& decision,
                    const std::vector<Change>& all) {
   Json json = {{"kind", name_in(kDecisionKindNames, decision.kind())},
@@ -144,7 +144,7 @@ Json scenario_json(const EvaluatedScenario& scenario, const std::vector<Change>&
   return json;
 }
 
-/// Writes the scenarios that the summaries do not count, because an earlier scenario has identical
+/// Writes the scenarios that the summaries leave out, because an earlier scenario has identical
 /// runs.
 Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   const std::vector<std::size_t> first = first_with_same_runs(ranked);

@@ -34,8 +34,8 @@ std::string wrapped(const std::string& text) {
   return std::string(kIndent, ' ') + awmr::wrapped(text, kIndent, kWidth) + '\n';
 }
 
-/// Notes on the means of metrics that not every run has: "  settle: mean of some runs: steering 3
-/// of 8".
+/// Notes on metrics that some runs do not have, such as "  settle: mean of some runs: steering 3 of
+/// 8".
 std::string partial_means(const ScenarioRows& scenario) {
   std::string text;
   for (const MetricColumn& metric : kMetricColumns) {

@@ -189,7 +189,7 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
       change.not_run = message_of(other.error());
       changes.push_back(std::move(change));
     }
-    // If several sets of gains are compared, the gains are not varied.
+    // With several sets of gains, the gains are not varied: the sets are compared with each other.
     if (gains.size() > 1) continue;
     for (const auto& [setting, factor] :
          {std::pair("slower", 1.0 / kGainsFactor), std::pair("faster", kGainsFactor)}) {
@@ -254,8 +254,8 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
   if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to rank
   std::vector<ChangedScenario> changed =
       changed_scenarios(gains, scenarios, options.tyres, changes);
-  // The changes are distributed over the threads; the comparison of each change runs on one thread,
-  // as one batch.
+  // Each change is compared on one thread, as one batch; the changes are distributed over the
+  // threads.
   CompareOptions few;
   few.samples = std::min(options.samples, static_cast<int>(kBatchRuns) - 1);
   few.seed = options.seed;

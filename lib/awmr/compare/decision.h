@@ -17,11 +17,11 @@
 
 namespace awmr {
 
-/// To test the ranking with other weights, each weight is multiplied or divided by this factor,
-/// independently of the others.
+/// Factor by which each weight is multiplied or divided, independently of the others, to test the
+/// ranking with other weights. Chosen: with a larger factor, fewer rankings are decided.
 inline constexpr double kWeightFactor = 2.0;
-/// To test the ranking with other gains, the bandwidths of heading loop and speed loop are
-/// multiplied or divided by this factor, sqrt(2).
+/// Factor, sqrt(2), by which the bandwidths of heading loop and speed loop are multiplied or
+/// divided, to test the ranking with other gains.
 inline constexpr double kGainsFactor = 1.4142135623730951;
 
 enum class DecisionKind {

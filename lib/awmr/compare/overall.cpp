@@ -8,8 +8,9 @@
 namespace awmr {
 namespace {
 
-/// True if `other` is better than `own` in the metric: relevantly (Conclusion::kRelevant) lower, or
-/// only `other` has a value. A mode that completes no run is not better than one that does.
+/// True if `other` is better than `own` in the metric: its value is relevantly lower
+/// (Conclusion::kRelevant), or only `other` has a value. A mode that completes no run is never
+/// better than one that does.
 bool beats(const EvaluatedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
   const bool own_completes = own.completed_count() > 0;

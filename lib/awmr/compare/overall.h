@@ -1,5 +1,5 @@
-/// Summary over all scenarios. Counts for each metric the scenarios in which each mode is best, and
-/// the scenarios in which the ranking is decided. Private to compare/.
+/// Summary over all scenarios: for each metric, in how many scenarios each mode is best; and in how
+/// many scenarios the ranking is decided. Private to compare/.
 #pragma once
 
 #include <cstdint>

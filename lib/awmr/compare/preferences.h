@@ -21,7 +21,7 @@ inline constexpr double kMaximumWeight = 1000.0;
 inline constexpr NumberRule kRelevance{.min = 0.001, .max = 1.0};
 
 struct Preferences {
-  /// Weights by name of the metric, in [0, kMaximumWeight]. A metric that is not listed has its
+  /// Weights by name of the metric, in [0, kMaximumWeight]. A metric that is not in the map has its
   /// default weight (metric_columns.h).
   std::map<std::string, double, std::less<>> weights;
   /// Relevance margin, in kRelevance. Two values of a metric count as equal if their relative

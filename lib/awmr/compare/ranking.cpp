@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Random stream from which the weightings of the metrics are drawn. It differs from the streams of
-/// the samples, and from that of the bootstrap (statistics.cpp).
+/// Random stream for the weightings of the metrics. It must differ from the streams of the samples
+/// and of the bootstrap (statistics.cpp), so that they are independent.
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 /// Number of random weightings. A larger number makes the shares more exact.
 constexpr int kWeightings = 1000;

@@ -58,8 +58,9 @@ inline constexpr std::string_view kNotRanked =
     "not ranked: the scenario has no heading, line, path or waypoints to follow, or no metric with "
     "a weight above 0 applies to it";
 
-/// True if the scenario has a target (a heading, a path or an end): the nominal run of any mode has
-/// a heading error, a cross-track error or a finish time.
+/// True if the scenario has a target (a heading, a path or an end), so that lower metrics are
+/// better. Test: the nominal run of any mode has a heading error, a cross-track error or a finish
+/// time.
 bool has_a_goal(const ScenarioRows& scenario);
 
 /// Ranks the modes, best first. Empty if no metric with a weight applies. Also empty if the

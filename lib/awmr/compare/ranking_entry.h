@@ -17,8 +17,8 @@ struct RankingEntry {
   /// log_score() of each run in the statistics (ModeRows::counted).
   std::vector<double> log_scores;
   std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
-  /// False if the mode completes the scenario significantly less often than the mode that completes
-  /// it most often, or never although another mode does.
+  /// False if the mode completes the scenario significantly less often than the mode that does so
+  /// most often. Also false if it never completes although another mode does.
   bool completes = true;
 
   double log_score() const { return mean(log_scores); }
@@ -33,7 +33,7 @@ struct RankingEntry {
 /// With a single run, both or neither must complete it.
 bool complete_alike(const ModeRows& a, const ModeRows& b);
 
-/// Returns the modes of a scenario, best first: those that complete often enough
+/// Returns the modes of a scenario, best first. First come those that complete often enough
 /// (RankingEntry::completes), sorted by score; then the others, sorted by number of completed runs.
 std::vector<RankingEntry> sorted_entries(const ScenarioRows& scenario,
                                          const std::vector<ScoredMetric>& scoring);

@@ -8,8 +8,8 @@
 
 namespace awmr {
 
-/// Returns the weight of a metric, >= 0: that of the preferences or, if absent there, the metric's
-/// default. 0 for a metric that is never used to rank modes.
+/// Returns the weight of a metric, >= 0: that of the preferences or, if they have none, the
+/// metric's default. 0 for a metric that is never used to rank modes.
 double weight_of(const MetricColumn& metric, const Preferences& preferences);
 
 /// A metric in the score of one scenario.
@@ -17,8 +17,8 @@ struct ScoredMetric {
   const MetricColumn* metric = nullptr;
   double weight = 0.0;  ///< weight w, >= 0
   double offset = 0.0;  ///< offset f of log_loss(), in the metric's unit, > 0
-  /// Value for runs that do not have this metric: the largest of all counted runs
-  /// (ModeRows::counted).
+  /// Value that a run without this metric gets: the largest value of all counted runs
+  /// (ModeRows::counted)
   double missing = 0.0;
 };
 

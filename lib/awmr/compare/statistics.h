@@ -46,7 +46,7 @@ inline constexpr NameTable<Conclusion, 3> kConclusionNames{{{"relevant", Conclus
                                                             {"undecided", Conclusion::kUndecided}}};
 
 /// Difference of a metric between two contenders, first minus second. It is computed sample by
-/// sample, because both have the same drawn vehicle and noise in a sample.
+/// sample: in a sample, both have the same drawn vehicle and the same noise.
 struct PairedDifference {
   Contender first;
   Contender second;
@@ -64,8 +64,8 @@ struct PairedDifference {
   /// Largest difference that does not matter, in the metric's unit, >= 0: the larger of the
   /// metric's floor and the relevance times the smaller of the two means.
   double margin = 0.0;
-  /// p-value of two one-sided t tests (TOST), in [0, 1]. Below 0.05 the absolute difference is
-  /// significantly smaller than the margin. Absent below 2 samples.
+  /// p-value of two one-sided t tests (TOST), in [0, 1]. Below 0.05, the difference is
+  /// significantly smaller in magnitude than the margin. Absent below 2 samples.
   std::optional<double> p_equivalent;
   /// kRelevant if p_holm is below 0.05 and the whole interval ci95 is beyond the margin; else
   /// kEquivalent if p_equivalent is below 0.05, else kUndecided. For a single run: kRelevant if the

@@ -36,8 +36,8 @@ struct BatchRun {
   YawMode mode;
   std::uint64_t seed = 0;    ///< as in SimulateOptions
   std::uint64_t sample = 0;  ///< as in SimulateOptions
-  /// The result of draw_sensor_noise() for the run's scenario, seed and sample, or null. It only
-  /// saves computing time: with null, the run draws the same numbers itself.
+  /// The result of draw_sensor_noise() for the run's scenario, seed and sample, or null. With null,
+  /// the run draws the same numbers itself, which takes longer.
   const DrawnNoise* noise = nullptr;
 };
 
@@ -71,7 +71,7 @@ struct DrivenRun {
   Metrics metrics;
 };
 /// Same as simulate_batch(), but also returns the rows of each run. A run that fails in the batch
-/// is simulated again with simulate(). If that fails too, the run's Run::end is kFailed.
+/// is repeated with simulate(). If it fails again, its Run::end is kFailed.
 std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
                                    double sample_time_s, const BatchArithmetic& arithmetic);
 

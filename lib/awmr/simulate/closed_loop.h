@@ -52,8 +52,9 @@ class ClosedLoop {
   /// Simulates all runs until they end. Call it once.
   void drive();
 
-  /// Returns the result of a run after drive(). It moves the stored rows, so call it once per run.
-  /// The end is RunEnd::kFailed if a number was not finite or no integration step was short enough.
+  /// Returns the result of a run after drive(). Call it once per run, because it moves the stored
+  /// rows out. The end is RunEnd::kFailed if a number was not finite or no integration step was
+  /// short enough.
   Run take_run(std::size_t run);
   /// Returns the metrics of a run; empty if the run failed.
   std::optional<Metrics> metrics(std::size_t run) const;

@@ -39,10 +39,12 @@ inline constexpr LoopConditions kIdealConditions{.heading_noise_deg = 0.0,
                                                  .speed_latency_s = 0.0,
                                                  .motor_time_constant_s = 0.0};
 
-/// Returns the conditions that vehicle.json gives. A missing condition is that of `missing`.
+/// Returns the conditions that vehicle.json gives. Those that it does not give are taken from
+/// `missing`.
 LoopConditions conditions_of(const Vehicle& vehicle, const LoopConditions& missing = {});
 
-/// Returns the conditions of a scenario. Sensors or motors that it lacks are ideal.
+/// Returns the conditions of a scenario. Sensors or motors that the scenario does not describe are
+/// ideal.
 LoopConditions conditions_of(const Scenario& scenario);
 
 /// Adds sensors and actuators with these conditions to the scenario. Sensors or actuators that the
@@ -55,8 +57,8 @@ Scenario under(const LoopConditions& conditions, Scenario scenario);
 Scenario equipped(const Vehicle& vehicle, Scenario scenario);
 std::vector<Scenario> equipped(const Vehicle& vehicle, std::vector<Scenario> scenarios);
 
-/// Describes the sensors and motors that equipped() adds to at least one of the scenarios, for
-/// printing; empty if it adds none.
+/// Describes, for printing, the sensors and motors that equipped() adds to at least one of the
+/// scenarios. Empty if it adds none.
 std::string equipment_text(const Vehicle& vehicle, std::span<const Scenario> as_given);
 
 }  // namespace awmr

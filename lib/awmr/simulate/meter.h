@@ -111,9 +111,11 @@ struct MetricsAccumulator {
 
 namespace meter {
 
-/// The commanded speed counts as reached once the speed is below it by at most this fraction.
+/// Fraction of the commanded speed. The commanded speed counts as reached if at most this is
+/// missing.
 constexpr double kReachedShare = 0.001;
-/// half width of the settling band, divided by the size of the step
+/// Half width of the settling band, divided by the size of the step; with a narrower band, settling
+/// times are longer.
 constexpr double kSettledShare = 0.02;
 constexpr double kSettledLeastDeg = 0.5;  ///< smallest half width of the settling band, deg
 constexpr double kMovingMps = 0.05;       ///< the sideslip angle is evaluated above this speed, m/s
@@ -156,8 +158,7 @@ MotorWork<T> motor_work(const WheelForces<T>& f, const WheelSpeeds<T>& w,
   return work;
 }
 
-/// True if a motor command is at the limit of a force, or the steering command at the limit
-/// +-d_max.
+/// True if a motor command is at a limit of its force, or the steering command is at +-d_max.
 template <class T>
 Mask<T> at_a_limit(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle) {
   using math::abs;

@@ -1,5 +1,5 @@
-/// Metrics of one run: the columns of comparison.csv. Tuning computes its cost from them. A metric
-/// that has no meaning for the guidance of the run is absent, never 0.
+/// Metrics of one run, which are the columns of comparison.csv. Tuning computes its cost from them.
+/// A metric that has no meaning in the run's scenario is absent, never 0.
 #pragma once
 
 #include <optional>

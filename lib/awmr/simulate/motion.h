@@ -29,8 +29,9 @@ struct MotorLag {
   double mean_share = 0.0;  ///< (1 - exp(-T_s/tau)) tau/T_s; 0: no lag
 };
 
-/// Returns the mean forces over the sample. `motors` has the forces at the start of the sample, and
-/// is set to those at its end. Without lag, returns the command and leaves `motors` unchanged.
+/// Returns the mean forces over the sample, and advances the lag. `motors`: forces at the start of
+/// the sample; set to those at its end. Without lag, returns the command and leaves `motors`
+/// unchanged.
 template <class T>
 SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
                              SideForces<T>& motors) {

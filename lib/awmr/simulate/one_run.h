@@ -9,12 +9,12 @@
 
 namespace awmr {
 
-/// Speed |u|, m/s, below which a vehicle counts as stopped. If obstacles leave a stopped vehicle no
-/// passage, its run ends with RunEnd::kNoPassage.
+/// Speed |u|, m/s, below which a vehicle counts as stopped. The run of a stopped vehicle without a
+/// passage between obstacles ends with RunEnd::kNoPassage.
 inline constexpr double kStopped_mps = 1e-3;
 
-/// Returns the controller with the form of the allocation and the combined split that the scenario
-/// requests.
+/// Returns the controller with the settings that the scenario requests: form of the allocation, and
+/// split of the yaw moment in combined mode.
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
 
 /// Returns the controller properties that all runs of a scenario share. `controller`: that of any
@@ -36,8 +36,8 @@ double clearance_m(const Scenario& scenario, const State<double>& state);
 /// True if every number of the row is finite.
 bool is_finite(const RunRow& row);
 
-/// Index, from 0, of the last sample within the duration. Rounding errors of the duration do not
-/// matter.
+/// Index, from 0, of the last sample within the duration. Tolerates rounding errors of the
+/// duration.
 std::size_t samples_in(double duration_s, double sample_time_s);
 
 }  // namespace awmr

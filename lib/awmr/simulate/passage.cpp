@@ -7,8 +7,8 @@
 namespace awmr {
 namespace {
 
-/// A disc that contains the start or target point is shrunk. Its radius becomes this fraction of
-/// the distance from its centre to the point, so that the point is outside.
+/// A disc that contains the start or target point is shrunk so that the point is outside. Its new
+/// radius is this fraction of the distance from its centre to the point.
 constexpr double kShrunk = 1.0 - 1e-9;
 
 /// Twice the signed area of the triangle a, b, c. It is >= 0 if c is on the line from a to b or to

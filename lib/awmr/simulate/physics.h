@@ -56,8 +56,8 @@ WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>&
 /// absent.
 MotorLag motor_lag(const std::optional<Actuators>& actuators, double sample_time_s);
 
-/// Largest motor command at `t_s`, in [0, 1], divided by its value with a full battery. Voltage sag
-/// under load is not included.
+/// Largest motor command at `t_s` divided by its value with a full battery, in [0, 1]. The voltage
+/// drop under load (sag) is not included.
 double battery_share(const Battery& battery, double t_s);
 
 /// Rounds the steering command to the nearest step of the servo, and the motor commands `force` to
@@ -72,8 +72,8 @@ void quantise(const Actuators& actuators, double force_max, SideForces<double>& 
 /// friction (resolved_at_rest_on_tyres()).
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
-/// Longest RK4 step for the plant's time constants that do not depend on speed. `parameter` is the
-/// model parameter that limits the step.
+/// Longest RK4 step that resolves those time constants of the plant that do not depend on speed.
+/// `parameter` is the model parameter that limits the step.
 struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};

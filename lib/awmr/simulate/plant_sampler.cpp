@@ -37,8 +37,8 @@ bool is_admissible(ParameterId id, double value) {
   return !(is_exponent || info(id).term) || value >= 0.0;
 }
 
-/// A draw is placed in its stratum at a fraction from 0 to 1 of the width of the stratum. The
-/// fraction is at least this, because at 0 in the first stratum the normal quantile is infinite.
+/// A draw is placed within its stratum at a fraction from 0 to 1 of the stratum's width. The
+/// fraction is at least this: at 0, the normal quantile of the first stratum would be infinite.
 constexpr double kInsideStratum = 1e-6;
 
 /// Standard normal quantile: the z with P(Z <= z) = p, where Z is standard normal and 0 < p < 1.

@@ -70,13 +70,13 @@ class PlantSampler {
   /// in these directions. Then P(|n'| <= r) is the probability that a chi-squared variable with k
   /// degrees of freedom is at most r^2.
   int rank() const;
-  /// Directions in the space of the normal numbers n that change the parameters `ids`. They are
-  /// orthonormal. Parameters that are not in the covariance are ignored.
+  /// Orthonormal directions in the space of the normal numbers n that change the parameters `ids`.
+  /// Parameters that are not in the covariance are ignored.
   std::vector<std::vector<double>> directions_of(std::span<const ParameterId> ids) const;
 
  private:
-  /// Number of standard normal numbers per draw: one for each parameter of the covariance. With
-  /// mass_norm_by_grip, one more decides whether m' is raised.
+  /// Number of standard normal numbers per draw: one for each parameter of the covariance. If the
+  /// model has mass_norm_by_grip, one more number decides whether m' is raised.
   std::size_t normals_of_a_draw() const {
     return centre_.size() + (model_.mass_norm_by_grip ? 1 : 0);
   }

@@ -19,8 +19,7 @@ namespace awmr {
 
 struct DrawnNoise;
 
-/// Guidance columns of a row of run.csv, next to those of the vehicle's state. Not used in open
-/// loop.
+/// Guidance columns of a row of run.csv, in addition to the vehicle's state. Not used in open loop.
 struct PathRow {
   double psi_goal_rad = 0.0;   ///< desired heading of the guidance, before avoidance and shaping
   double cross_track_m = 0.0;  ///< distance from the current leg, line or path, left positive
@@ -53,7 +52,7 @@ struct RunRow {
   /// else a point. < 0 if they overlap; 0 without obstacles.
   double clearance_m = 0.0;
   /// Power divided by F_max, m/s, that the lateral tyre forces dissipate. In the 3-DOF model, it is
-  /// the power dissipated by tyre scrub; that of the yaw resistance g3 is not included.
+  /// the power of tyre scrub, without that of the yaw resistance g3.
   double tyre_power_mps = 0.0;
   /// Mean wheel forces divided by F_max, over the sample that ends at this row. They include motor
   /// lag, battery, faults and slippery ground. Dead zone and back-EMF are not subtracted. 0 in the
@@ -66,8 +65,9 @@ enum class RunEnd {
   kDuration,   ///< the scenario's duration is over
   kFinished,   ///< the vehicle reached the last waypoint or the end of the line
   kNoPassage,  ///< obstacles leave no way to the target, and the vehicle has stopped
-  /// The run failed and has no valid result (see failure_of()): a number was not finite, no
-  /// integration step was short enough for the motion, or the run exceeds kMaxRows or kMaxSteps.
+  /// The run failed and has no valid result (failure_of() has the message): a number was not
+  /// finite, no integration step was short enough for the motion, or the run exceeds kMaxRows or
+  /// kMaxSteps.
   kFailed,
 };
 

@@ -161,7 +161,8 @@ void limit_heading_rate(double limit_degps, Scenario& scenario) {
     scenario.shaping->rate_max_radps = std::min(scenario.shaping->rate_max_radps, limit_radps);
     return;
   }
-  // With this acceleration limit, the filter reaches its rate limit within its time constant.
+  // The acceleration limit is so large that the filter reaches its rate limit within its time
+  // constant.
   scenario.shaping =
       HeadingShaping<double>{.omega_radps = kShapingBandwidth_radps,
                              .rate_max_radps = limit_radps,

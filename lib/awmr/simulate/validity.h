@@ -21,8 +21,9 @@ namespace awmr {
 /// highest measured yaw rate. Absent without tyres or without a measured yaw rate.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
-/// Warning `no-interval`: some fitted parameters have neither standard error nor 95 % interval, so
-/// the plants drawn from the model do not vary them. Absent if there are no such parameters.
+/// Warning `no-interval`: some fitted parameters have neither standard error nor 95 % interval.
+/// Therefore the plants drawn from the model do not vary them. Absent if there are no such
+/// parameters.
 std::optional<Finding> missing_intervals(const Model& model);
 
 /// Warning `imprecise-parameter` for each positive parameter that random plants vary, if its

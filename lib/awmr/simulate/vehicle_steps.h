@@ -134,8 +134,8 @@ AWMR_WHOLE void actuate(const View& view, Vehicles<Row>& v) {
   view.store(force, v.arriving);
 }
 
-/// The integrator of the simulation: one Runge-Kutta step of order 4. tests/bench replaces it by
-/// another integrator, for comparison.
+/// The integrator of the simulation: one Runge-Kutta step of order 4. For comparison, tests/bench
+/// replaces it by another integrator.
 struct RungeKutta4 {
   template <class T, class Rates>
   State<T> operator()(const State<T>& from, const T& h, const Rates& rates) const {

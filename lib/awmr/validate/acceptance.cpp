@@ -72,8 +72,8 @@ struct LoggedDrive {
 
 /// A simulated drive, reduced to the means of each channel over windows of half a second.
 struct PredictedDrive {
-  /// Scenario time at the end of the run, s. Windows after this time have no simulated values and
-  /// must not be used.
+  /// Scenario time at the end of the run, s. Do not use windows after this time: they have no
+  /// simulated values.
   double end_s = 0.0;
   std::vector<WindowMeans> windows;  ///< window means by channel
 };

@@ -43,8 +43,8 @@ struct ChannelAcceptance {
   /// predicted drives are within them.
   double allowed = 0.0;
   bool inside = false;  ///< true: distance <= allowed
-  /// Scenario time, s, of the first window whose distance is larger than allowed. Absent if there
-  /// is no such window.
+  /// Scenario time, s, of the first window whose distance is larger than allowed; absent if there
+  /// is none
   std::optional<double> outside_since_s = {};
   double difference = 0.0;  ///< measured minus predicted mean in the window with the largest
                             ///< distance, in `unit`

@@ -93,15 +93,15 @@ std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetti
 /// which is within the settling band of 2 %.
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
                           double step_rad, double speed_mps);
-/// Number of reversals of a signal. A reversal is a return by more than `band` from the signal's
-/// last maximum or minimum.
+/// Number of reversals of a signal. A reversal is counted when the signal has moved back by more
+/// than `band` from its last maximum or minimum.
 int reversals(std::span<const double> signal, double band);
 
 /// Checks all claims, in the paper's order; without gains, only those that need no gains.
 std::vector<Claim> check_claims(const Model& model, const std::optional<ModeGains>& gains,
                                 const BatchArithmetic& arithmetic);
-/// Checks all claims for each model, with the given control, as check_claims() does for one.
-/// Precondition: each model has every parameter, and all have the same sample time.
+/// Checks all claims for each model, as check_claims() does for one, but with the given control
+/// options. Precondition: each model has every parameter, and all have the same sample time.
 std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
                                                 const std::optional<ModeGains>& gains,
                                                 const BatchArithmetic& arithmetic,

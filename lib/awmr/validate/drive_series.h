@@ -49,7 +49,7 @@ struct DriveStart {
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s);
 
 /// Sensor noise, sensor latency and motor lag of the vehicle. Noise that the vehicle file does not
-/// give is estimated from the log, if the log has the channel.
+/// give is estimated from the log. (If the log lacks the channel, the noise keeps its default.)
 LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle);
 
 /// Returns the measured channels of the log and its commands, over duration_s from row `first`,

@@ -1,5 +1,5 @@
-/// Validation of a model on driving logs: prediction errors of each channel. The logs should not be
-/// those that the model was fitted to.
+/// Validation of a model on driving logs: prediction errors of each channel. Use logs that the
+/// model was not fitted to.
 #pragma once
 
 #include <string>

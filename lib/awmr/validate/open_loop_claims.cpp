@@ -22,8 +22,8 @@ constexpr double kCircleTurn_m = 0.4;  ///< the paper's constant tau_turn [paper
 /// tau_speed. The error of the integrator is far smaller, and the transient has decayed at the end
 /// of the run.
 constexpr double kSteadyTolerance = 1e-3;
-/// Largest accepted relative difference from a measured speed: 5 %, because the paper's Table 2
-/// itself has an error of 5 % (it prints 1.03 m/s for 10 m in 9.26 s, which is 1.080 m/s).
+/// Largest accepted relative difference from a measured speed: 5 %, the error of the paper's Table
+/// 2 itself (it prints 1.03 m/s for 10 m in 9.26 s, which is 1.080 m/s).
 constexpr double kMeasuredTolerance = 0.05;
 /// Criterion for "a circle": largest distance of the last full turn from the circle fitted to it,
 /// divided by the radius.
@@ -62,8 +62,8 @@ struct Turn {
   double speed_mps = 0.0;  ///< speed at the end of the run
 };
 
-/// Points of the last full turn of the run. Empty if the run has fewer than two full turns, because
-/// the first is a transient.
+/// Points of the last full turn of the run. The first turn is a transient, so the result is empty
+/// if the run has fewer than two full turns.
 std::vector<Point> last_turn(const Run& run) {
   const double end_rad = run.rows.back().state.psi_rad;
   if (std::abs(end_rad) < 4.0 * std::numbers::pi) return {};
@@ -100,8 +100,8 @@ std::string figure_of(const Turn& turn) {
       100.0 * turn.circle->deviation_m / turn.circle->radius_m, turn.speed_mps);
 }
 
-/// Text of the yaw moment that each mode delivers when tau_turn is commanded. Different moments
-/// explain different diameters of the circles.
+/// Text of the yaw moment that each mode delivers for the commanded tau_turn. If the moments
+/// differ, they explain the different diameters of the circles.
 std::string delivered_moments(const Model& model, const Plant<double>& plant) {
   const AllocationLimits<double> limits = make_controller(plant, model.vehicle, kPaperGains).limits;
   std::string text;

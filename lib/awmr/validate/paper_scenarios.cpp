@@ -6,8 +6,8 @@ namespace awmr {
 namespace {
 
 constexpr double kPathSpeed_mps = 1.0;  ///< commanded speed [paper 5.1]
-/// Acceptance radius of the waypoints, and the largest angle of approach Delta of the
-/// line-following law. Both are chosen here, because the paper does not print them.
+/// Acceptance radius of the waypoints, and largest approach angle Delta of the line-following law.
+/// Both are chosen here, because the paper does not print them.
 constexpr double kAcceptance_m = 1.0;
 constexpr double kDelta_deg = 60.0;
 

@@ -59,7 +59,7 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
                  : "by wheel forces at several speeds"));
 }
 
-/// Sums of squared errors of both plants on windows that the tyres were not fitted to.
+/// Sums of squared errors of both plants, on windows that were not used to fit the tyres.
 struct HeldOutSums {
   ErrorSums model;
   ErrorSums four_wheel;

@@ -46,7 +46,8 @@
 
 namespace awmr {
 
-/// Prediction errors of both plants for one channel of windows that the tyres were not fitted to.
+/// Prediction errors of both plants for one channel, on windows that were not used to fit the
+/// tyres.
 struct HeldOutError {
   std::string channel;          ///< name: "yaw_rate_radps"
   double model_rms = 0.0;       ///< RMS error of the 3-DOF plant in SI units, >= 0

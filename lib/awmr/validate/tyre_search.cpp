@@ -15,8 +15,7 @@
 namespace awmr::tyre_fit {
 namespace {
 
-/// A parameter is not determined by the windows if the standard error of its logarithm exceeds
-/// this.
+/// The windows do not determine a parameter if the standard error of its logarithm exceeds this.
 constexpr double kLargestLogError = 0.5;
 
 Interval range_of(Eigen::Index parameter) {

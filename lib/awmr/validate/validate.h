@@ -65,7 +65,7 @@ struct Claim {
 struct Validation {
   std::vector<TrialResidual> trials;
   /// RMS of the relative errors of the surge, turning and coast-down trials. Absent if the model
-  /// has no trial of the kind, or gives no prediction for one of them.
+  /// has no trial of the kind, or cannot predict one of them.
   std::optional<double> surge_rms_relative_error;
   std::optional<double> turning_rms_relative_error;
   std::optional<double> coastdown_rms_relative_error;

@@ -23,8 +23,8 @@ Json error_json(const PredictionError& error) {
   return {{"nrmse", error.nrmse}, {"r2", error.r2}, {"rmse", error.rmse}};
 }
 
-/// The series as JSON for a chart. Values are rounded; times are not, because the times of a long
-/// log need more digits.
+/// The series as JSON for a chart. Values are rounded. Times are not: in a long log, they need more
+/// digits.
 Json series_json(const PredictedSeries& series) {
   const auto numbers = [](const std::vector<double>& values) {
     Json list = Json::array();

@@ -53,8 +53,8 @@ AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
   return fma(last, x, before);
 }
 
-/// Rounds to an integer: after this number, 1.5 times 2^52, is added to x, |x| < 2^51, the last
-/// bits of the sum are the integer nearest to x.
+/// Number that rounds x, |x| < 2^51, to an integer: 1.5 times 2^52. After it is added to x, the
+/// last bits of the sum are the integer nearest to x.
 constexpr double kRounder = 0x1.8p52;
 
 /// The parts m and k of a positive normal number x = m 2^k, with m in [sqrt(1/2), sqrt 2).

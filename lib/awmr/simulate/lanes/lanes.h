@@ -72,8 +72,8 @@ AWMR_LANE_INLINE LaneMask operator||(const LaneMask& a, const LaneMask& b) {
   return a.mask | b.mask;
 }
 
-/// Flips the sign bit. The negation of xsimd 8 for AVX-512 computes 0 - x, which gives 0 and not -0
-/// for x = 0.
+/// Flips the sign bit. (The negation of xsimd 8 for AVX-512 computes 0 - x, which gives 0 and not
+/// -0 for x = 0.)
 AWMR_LANE_INLINE Lanes operator-(const Lanes& a) { return a.value ^ Register(-0.0); }
 AWMR_LANE_INLINE Lanes& operator+=(Lanes& a, const Lanes& b) { return a = a + b; }
 AWMR_LANE_INLINE Lanes& operator-=(Lanes& a, const Lanes& b) { return a = a - b; }
