@@ -16,7 +16,7 @@ namespace awmr::pil {
 struct LoopSetup {
   Plant<double> plant;
   double sample_time_s = 0.01;
-  double force_max = 1.0;  ///< largest force of a wheel that may be commanded, over F_max
+  double force_max = 1.0;  ///< largest force of a wheel that may be commanded, divided by F_max
   Scenario scenario;
   Mission mission;  ///< mission_of() the scenario
   YawMode mode = YawMode::kCombined;

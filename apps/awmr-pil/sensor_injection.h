@@ -17,7 +17,7 @@ namespace awmr::pil {
 
 /// Commands of the autopilot in the previous step.
 struct Commanded {
-  float moment_m;     ///< commanded yaw moment over F_max, m; 0: the motors are off
+  float moment_m;     ///< commanded yaw moment divided by F_max, m; 0: the motors are off
   float psi_ref_rad;  ///< commanded heading
 };
 

@@ -144,7 +144,7 @@ std::string text_of(const ColumnMapping& mapping) {
   // column could have this name.) The constant is written as it was given.
   const bool scaled = !mapping.source.empty() && !number_from_text(mapping.expression);
   if (!scaled) return fmt::format("{}={}", name, mapping.expression);
-  // Quotes only where the parser needs them, so that plain names remain readable.
+  // The name is quoted only where the parser needs it, so that plain names remain readable.
   const bool is_plain = mapping.source.find_first_of("*+\"") == std::string::npos &&
                         trimmed(mapping.source).size() == mapping.source.size();
   return fmt::format("{}={}*{}+{}", name, is_plain ? mapping.source : in_quotes(mapping.source),

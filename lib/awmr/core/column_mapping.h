@@ -34,8 +34,8 @@ Result<ColumnMapping> parse_column(std::string_view text);
 /// them.
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);
 
-/// Writes a mapping as `[FILE:]NAME=EXPRESSION`, the form in which output files record it among the
-/// options of the command (Provenance::options). parse_column() reads it back.
+/// Writes a mapping as `[FILE:]NAME=EXPRESSION`. Output files record it in this form among the
+/// options of the command (Provenance::options), and parse_column() reads it back.
 std::string text_of(const ColumnMapping& mapping);
 
 /// Returns an EXPRESSION (see parse_column()) for the column that `mapping` defines, multiplied by

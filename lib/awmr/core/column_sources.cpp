@@ -66,8 +66,8 @@ Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, He
   return candidate;
 }
 
-/// Priority of a mapping; the lowest number wins. 0: the mapping is for this file only; 1: for
-/// every file; 2: for every file, and it comes from vehicle.json.
+/// Priority of a mapping; the lowest number wins. 0: for this file only; 1: for every file; 2: for
+/// every file, from vehicle.json.
 int distance(const ColumnMapping& mapping) {
   return !mapping.file.empty() ? 0 : mapping.standing ? 2 : 1;
 }
@@ -169,8 +169,8 @@ class Search {
     return true;
   }
 
-  /// Adds `source` to the result. `names` are the columns that it uses; `source` gets their indices
-  /// in the header. If the header has one of the names twice, adds a fault instead.
+  /// Adds `source` to the result. `names`: the columns that it uses, whose indices in the header
+  /// are stored in `source`. If the header has one of the names twice, adds a fault instead.
   void use(ColumnSource source, const std::vector<std::string>& names) {
     for (const std::string& name : names) {
       const auto first = std::find(header_.begin(), header_.end(), name);
@@ -184,8 +184,7 @@ class Search {
       }
       source.indices.push_back(static_cast<std::size_t>(first - header_.begin()));
     }
-    // A mapping of the time t_s can name a column of dates. Such a column is recognised by its
-    // first cell.
+    // A mapping of the time t_s can name a column of dates, which is recognised by its first cell.
     const bool is_one = source.indices.size() == 1 && !source.expression && source.scale == 1.0;
     if (column_.name == kTimeName && source.mapping != nullptr && is_one &&
         source.indices[0] < samples_.size() && seconds_of_date(samples_[source.indices[0]])) {

@@ -58,8 +58,8 @@ std::vector<std::string> missing_columns(const ColumnMapping& mapping,
 /// True if the mapping is for every file, or names this file by its path or name.
 bool is_for(const ColumnMapping& mapping, const std::string& file);
 
-/// Column names by which a header is recognised: the names of the requested columns, and all names
-/// in the mappings.
+/// Column names by which a line is recognised as the header: the names of the requested columns,
+/// and all names in the mappings.
 std::set<std::string> wanted_names(std::span<const CsvColumn> columns,
                                    std::span<const ColumnMapping> mappings);
 

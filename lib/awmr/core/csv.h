@@ -22,8 +22,9 @@ enum class EmptyCells {
   kFault,   ///< a fault: every row needs a value
   kHeld,    ///< a command in a log with signals of different rates: the previous value still holds
   kAbsent,  ///< a measurement in a log with signals of different rates: none was made in this row
-  /// In a table with one row per run: this run has no value. Nothing is carried over from the row
-  /// before, and no row is dropped. A column that is empty in all rows counts as absent.
+  /// In a table with one row per run: the run has no value for this column. The value of the row
+  /// before is not used, and no row is dropped. A column that is empty in all rows counts as
+  /// absent.
   kOptional,
 };
 

@@ -92,7 +92,8 @@ bool is_number(const CsvCell& cell, bool may_have_comma) {
 }
 
 /// For a file without a header: if columns are requested by position (`column_1`) and the first
-/// line has only numbers, takes that line as the first row. Else changes nothing and returns false.
+/// line has only numbers, takes this line as the first row. Otherwise changes nothing and returns
+/// false.
 bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   if (std::none_of(wanted.begin(), wanted.end(), is_position)) return false;
   for (const char delimiter : {';', '\t', '|', ','}) {

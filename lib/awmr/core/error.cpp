@@ -15,8 +15,8 @@ constexpr std::size_t kMaxFaultsShown = 20;
 /// Maximum number of faults with the same cause that are listed one by one.
 constexpr std::size_t kMaxAlike = 3;
 
-/// Place of a fault without numbers: without its line and column, or without the array indices in
-/// its JSON pointer.
+/// Place of a fault without its numbers: line and column, or array indices in the JSON pointer, are
+/// removed.
 std::string file_and_keys(const std::string& place) {
   std::string text = place;
   const std::size_t pointer = place.find(":/");
@@ -30,8 +30,8 @@ std::string file_and_keys(const std::string& place) {
   return text.substr(0, end == std::string::npos ? 0 : end + 1);
 }
 
-/// Text that is the same for all faults with one cause: the file, and the message without its
-/// numbers and quoted values.
+/// Text that is the same for all faults with one cause: the file and the message, without numbers
+/// and quoted values.
 std::string cause_of(const Fault& fault) {
   std::string cause = file_and_keys(fault.place) + '\n';
   bool is_quoted = false;

@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 /// Maximum number of bytes requested in one call of read().
 constexpr std::size_t kBlock = std::size_t{1} << 18U;
 
-/// Appends the rest of a file to `bytes`, and stops as soon as there are more than `max_bytes`.
-/// False if reading fails.
+/// Appends the rest of a file to `bytes`. Stops as soon as there are more than `max_bytes`, which
+/// the caller reports. False if reading fails.
 bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
   while (bytes.size() <= max_bytes) {
     const std::size_t before = bytes.size();

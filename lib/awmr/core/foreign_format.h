@@ -19,7 +19,7 @@ Result<std::string_view> text_of(std::string_view bytes, const std::string& file
 Status check_format(CsvScanner scanner, const std::string& file);
 
 /// Checks the scanner's next line, which should be a header. Errors: its cells are separated by
-/// spaces. `wanted`: names of the requested columns, by which the header is recognised.
+/// spaces. `wanted`: names of the requested columns, which show that the line is a header.
 Status check_spaces(CsvScanner scanner, const std::string& file,
                     const std::set<std::string>& wanted);
 

@@ -10,8 +10,8 @@
 namespace awmr {
 namespace {
 
-/// Hashes of the input files, by the path that the user gave. The hash of a file is that of the
-/// bytes that were last read from it.
+/// Hashes of the input files, by the path that the user gave. The hash is that of the bytes last
+/// read from the file.
 class Notes {
  public:
   void put(const std::string& path, std::string sha256) {

@@ -58,8 +58,8 @@ class JsonObject {
   std::optional<std::string> optional_string(std::string_view key);
   /// A whole number from 0 to 2^64 - 1; 0 on a fault.
   std::uint64_t seed(std::string_view key);
-  /// The value as text if it is a string, or a number in the range of `rule`. Empty if the key is
-  /// missing or on a fault.
+  /// The value as text: a string, or a number in the range of `rule`. Empty if the key is missing
+  /// or on a fault.
   std::optional<std::string> optional_number_or_string(std::string_view key, NumberRule rule);
   /// A string that is one of `choices`. Returns its index in `choices`. On a fault, returns 0, and
   /// the fault suggests the nearest choice.
@@ -76,8 +76,8 @@ class JsonObject {
   std::optional<Interval> nullable_interval(std::string_view key);
   std::vector<double> numbers(std::string_view key, NumberRule rule = kAnyNumber);
   std::vector<std::string> strings(std::string_view key);
-  /// The array under the key, which should contain arrays of numbers; the caller must check this.
-  /// Null if the key is missing, which is a fault.
+  /// The array under the key. Its elements should be arrays of numbers, which the caller must
+  /// check. Null if the key is missing, which is a fault.
   const Json* rows(std::string_view key);
   /// The object under the key. If it is missing or not an object (a fault), returns an empty view
   /// that reports no further faults.

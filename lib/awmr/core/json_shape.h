@@ -22,7 +22,7 @@ namespace awmr {
 struct Way {
   bool present = true;  ///< true: all optional keys are present; false: none is
   /// For each choice, by its JSON pointer: the index of the name that JsonObject::choice() returns
-  /// in this run. A choice without an entry gets its first name.
+  /// in this run. A choice that is not in the map gets its first name.
   std::map<std::string, std::size_t> picks = {};
 };
 

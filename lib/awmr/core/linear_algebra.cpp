@@ -30,7 +30,7 @@ Eigen::VectorXcd eigenvalues(const MatrixXd& a) {
 }
 
 // The singular values of A are those of R in the pivoted decomposition A Pi = Q R. They are
-// computed from R because Eigen's code for A itself takes 10 s longer to compile.
+// computed from R to save compile time: Eigen's code for A itself takes 10 s longer to compile.
 VectorXd singular_values(const MatrixXd& a) {
   if (a.rows() < a.cols()) return singular_values(a.transpose());
   return Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner>(PivotedQr(a).r()).singularValues();

@@ -49,8 +49,8 @@ class PivotedQr {
   Eigen::MatrixXd permutation() const;  ///< Pi: p x p
   /// The inverse of J^T J, computed as Pi R^-1 R^-T Pi^T. Precondition: rank() == p.
   Eigen::MatrixXd inverse_information() const;
-  /// The same matrix as inverse_information(), computed from the pseudo-inverse J^+ as J^+ J^+T.
-  /// Use it only for few rows n, because it needs an n x n matrix.
+  /// The same matrix as inverse_information(), computed from the pseudo-inverse J^+ as J^+ J^+T. It
+  /// needs an n x n matrix, so use it only for few rows n.
   Eigen::MatrixXd inverse_information_by_pseudo_inverse() const;
 
  private:

@@ -23,8 +23,8 @@ class OpenedFile {
   int descriptor() const { return descriptor_.number(); }
   /// Size of the file when it was opened, bytes; 0 if unknown, as for a pipe.
   std::size_t size() const;
-  /// Checks that the file was not modified since it was opened, by its size and modification time.
-  /// A file of unknown size is not checked. Errors: the file was modified.
+  /// Checks, by size and modification time, that the file was not modified since it was opened. A
+  /// file of unknown size is not checked. Errors: the file was modified.
   Status check_unchanged() const;
 
  private:

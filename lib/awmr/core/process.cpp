@@ -132,8 +132,8 @@ ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
     pollfd waiting{.fd = readable ? file : -1, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kPoll_ms) > 0) readable = read_on(file, end.output);
     if (waiting.revents != 0 && readable && Clock::now() < deadline) continue;
-    // WNOWAIT keeps the ended process in the process table. Its id therefore cannot be reused
-    // before its process group has been killed.
+    // WNOWAIT keeps the ended process in the process table. So its id cannot be used for another
+    // process before its process group has been killed.
     const int waited =
         ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
     if (waited == 0 && ended.si_pid == process) break;

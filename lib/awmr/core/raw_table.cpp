@@ -13,8 +13,8 @@
 namespace awmr {
 namespace {
 
-/// A table has signals of different rates if at least this fraction of the cells of a command
-/// (kHeld) or a measurement (kAbsent) is empty. In other tables, such an empty cell is a fault.
+/// Least fraction of empty cells in a command (kHeld) or a measurement (kAbsent) at which a table
+/// counts as one with signals of different rates. In other tables, such an empty cell is a fault.
 constexpr double kSparseShare = 0.25;
 
 bool is_empty(double value) { return std::isnan(value); }
@@ -262,8 +262,8 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     parts.columns.emplace(source.column.name,
                           column_of(source, uses, may_be_empty(source), raw, list));
   }
-  // Columns that are used unchanged are moved out of `raw` last: until then, other columns are
-  // computed from them.
+  // Columns that are used unchanged are moved out of `raw` last, because other columns are computed
+  // from them before.
   for (const ColumnSource& source : sources.found) {
     if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
     RawColumn& column = raw.columns[source.indices.front()];

@@ -1,5 +1,5 @@
 /// Errors as return values. Every failure that a user can cause is returned as an `Error`, with its
-/// place, its cause and the remedy. A broken invariant of the program asserts.
+/// place, its cause and the remedy. Errors in the program itself are found by assert().
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-/// Line number in the file of each row of a table. Rows on consecutive lines are stored as one
-/// entry.
+/// Line number in the file of each row of a table. To save memory, rows on consecutive lines are
+/// stored as one entry.
 #pragma once
 
 #include <algorithm>

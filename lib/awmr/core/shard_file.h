@@ -22,8 +22,8 @@ namespace awmr {
 struct PartOrigin {
   Provenance provenance;
   Shard shard;
-  /// How numbers were rounded; all parts of a job must agree. In files of earlier versions:
-  /// "scalar".
+  /// How numbers were rounded, "fused" or "scalar"; all parts of a job must agree. Files of earlier
+  /// versions lack it and count as "scalar".
   std::string arithmetic;
   std::string version = {};  ///< version of the program that wrote the part
 };

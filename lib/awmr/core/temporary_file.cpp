@@ -50,8 +50,8 @@ extern "C" void remove_and_end(int signal) {
   for (std::atomic<char*>& slot : registered) {
     if (const char* path = slot.load()) ::unlink(path);
   }
-  // SA_RESETHAND has restored the default action of the signal. raise() therefore ends the program
-  // when the handler returns.
+  // SA_RESETHAND has restored the default action of the signal. So raise() ends the program when
+  // the handler returns.
   ::raise(signal);
 }
 
@@ -117,7 +117,7 @@ TemporaryFile::TemporaryFile(fs::path path)
     return;
   }
   // Failure is ignored: on a file system without locks, the process id in the name still shows that
-  // the file is in use.
+  // the program is running.
   (void)::flock(file_.number(), LOCK_EX | LOCK_NB);
 }
 

@@ -36,8 +36,8 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
 /// Default length limit of shortened(), bytes.
 inline constexpr std::size_t kLongestShown = 1000;
 
-/// The text unchanged if it has at most `longest` bytes; else its beginning, " ... " and its end,
-/// so that the remedy at the end of a message is kept.
+/// The text, shortened if it has more than `longest` bytes: its beginning, " ... " and its end. The
+/// end is kept because a message has its remedy there.
 std::string shortened(std::string_view text, std::size_t longest = kLongestShown);
 
 }  // namespace awmr

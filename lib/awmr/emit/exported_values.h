@@ -22,7 +22,7 @@ struct ExportedValue {
   std::optional<Interval> ci95 = {};
 };
 
-/// Returns the identified quantities (forces over F_max, and in SI units), the dimensions and
+/// Returns the identified quantities (forces divided by F_max, and in SI units), the dimensions and
 /// limits of the vehicle, and the gains. Unknown values are left out.
 std::vector<ExportedValue> exported_values(const ExportSource& source);
 

@@ -1,5 +1,5 @@
-/// Calibration of a compass (magnetometer) in a level vehicle, with two horizontal axes: one ahead
-/// and one to the left.
+/// Calibration of a compass (magnetometer) in a vehicle on level ground. It has two horizontal
+/// axes: one ahead and one to the left.
 #pragma once
 
 #include "awmr/core/interval.h"

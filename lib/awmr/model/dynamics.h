@@ -15,12 +15,12 @@ namespace awmr {
 /// motor in N, so that forces are dimensionless and moments are in m.
 template <class T>
 struct Plant {
-  /// g1(u), dimensionless: resistance to surge over F_max. From surge trials or a driven log.
+  /// g1(u), dimensionless: resistance to surge divided by F_max. From surge trials or a driven log.
   Resistance<T> surge;
-  /// g3(r), m: resistance to yaw over F_max. From turning trials or a driven log.
+  /// g3(r), m: resistance to yaw divided by F_max. From turning trials or a driven log.
   Resistance<T> yaw;
-  /// a_s, s/m, > 0: resistance to sway over F_max, g2(v) = a_s v. From a log that measures sway, or
-  /// given: the paper prints it as alpha_3 = 3 and gives no trial for it.            [paper App. B]
+  /// a_s, s/m, > 0: resistance to sway divided by F_max, g2(v) = a_s v. From a log that measures
+  /// sway, or given: the paper prints alpha_3 = 3, without a trial for it.           [paper App. B]
   T sway_alpha;
   /// m' = m/F_max, s^2/m, > 0. From a coast-down or a driven log.                      [paper (66)]
   T mass_norm;
@@ -36,16 +36,17 @@ struct Plant {
   T steering_max_rate_radps;
   /// T, s, > 0: time constant of the servo's first-order lag. Data sheet, or a log of its angle.
   T steering_time_constant_s;
-  /// F'0, over F_max, >= 0: the part of each wheel's force command that has no effect. 0: none, as
-  /// in the paper; other values come from the dead-zone family of resistances.
+  /// F'0, >= 0: dead zone of the motors, the part of each wheel's force command (divided by F_max)
+  /// that has no effect. 0: none, as in the paper. Estimated only in the family `dead-zone`.
   T wheel_dead_zone = T(0.0);
-  /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel (back-EMF). 0: an
-  /// ideal force source, as in the paper. Data sheet, or a log with driven and coasting sections.
+  /// k_e, s/m, >= 0: back-EMF, the decrease of a motor's force, divided by F_max, per m/s at its
+  /// wheel. 0: an ideal force source, as in the paper. Data sheet, or a log with driven and coasting
+  /// sections.
   T back_emf_s_per_m = T(0.0);
   /// 1 if all four wheels are driven, as in the paper; 0 if only the front wheels are. Given.
   T rear_driven = T(1.0);
-  /// c, m, >= 0: Coulomb yaw moment over F_max that tyre scrub adds to g3 in a differential turn,
-  /// see scrub_moment_m(). 0: none, as in the paper. From trials with differential turns.
+  /// c, m, >= 0: Coulomb yaw moment divided by F_max that tyre scrub adds to g3 in a differential
+  /// turn, see scrub_moment_m(). 0: none, as in the paper. From trials with differential turns.
   T yaw_scrub_m = T(0.0);
 };
 
@@ -58,9 +59,9 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   return law;
 }
 
-/// Yaw moment N_c of tyre scrub over F_max, m. It has the sign of the yaw rate r, and resists the
-/// turn. In a differential turn the straight wheels are dragged sideways; in a steered turn they
-/// roll. c = yaw_scrub_m is the moment measured in differential turns. In other turns, c is
+/// Yaw moment N_c of tyre scrub divided by F_max, m. It has the sign of the yaw rate r, and resists
+/// the turn. In a differential turn the straight wheels are dragged sideways; in a steered turn
+/// they roll. c = yaw_scrub_m is the moment measured in differential turns. In other turns, c is
 /// multiplied by q, the fraction of the yaw moment that comes from different left and right forces
 /// (tau_diff), not from the steering (tau_steering):
 ///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
@@ -107,8 +108,8 @@ WheelSpeeds<T> wheel_speeds(const T& front_axle_m, const T& half_track_m, const 
   return {left_mps * cos_d + across_mps, right_mps * cos_d + across_mps, left_mps, right_mps};
 }
 
-/// Force F' of a motor whose wheel rolls at w m/s, over F_max. `drive` is e, the motor command
-/// beyond the dead zone: the voltage divided by the voltage for F_max at standstill.
+/// Force F' of a motor (divided by F_max) whose wheel rolls at w m/s. `drive` is e, the motor
+/// command beyond the dead zone: the voltage divided by the voltage for F_max at standstill.
 ///   F' = e - k_e w    for e != 0: reduced by the back-EMF of the turning motor
 ///   F' = 0            for e  = 0: the motor is off and its wheel rolls freely
 template <class T>
@@ -129,8 +130,9 @@ inline double back_emf_rate(const Plant<double>& p) {
 
 namespace detail {
 
-/// Rates of the state under the resultant of the wheel forces. X = surge_force (forward) and
-/// Y = sway_force (left) are forces over F_max; N = yaw_moment_m is the yaw moment over F_max, m.
+/// Rates of the state under the resultant of the wheel forces. X = surge_force (forward) and Y =
+/// sway_force (left) are forces divided by F_max; N = yaw_moment_m is the yaw moment divided by
+/// F_max, m.
 ///   x_dot   = u cos psi - v sin psi
 ///   y_dot   = u sin psi + v cos psi
 ///   psi_dot = r
@@ -159,7 +161,7 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   return d;
 }
 
-/// Force of each motor over F_max, reduced by the back-EMF at the rolling speed of its wheel.
+/// Force of each motor divided by F_max, reduced by the back-EMF at the rolling speed of its wheel.
 /// `drive`: the motor commands beyond the dead zone.
 template <class T>
 AWMR_COLD WheelForces<T> motor_forces(const Plant<T>& p, const State<T>& s,
@@ -253,7 +255,7 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>&
 }
 
 /// Generalised forces: the thrust and the yaw moments that the left and right wheel forces make at
-/// a steering angle. All are over F_max.
+/// a steering angle. All are divided by F_max.
 template <class T>
 struct GeneralisedForces {
   T tau_speed;       ///< dimensionless: thrust along the body's x axis, forward positive
@@ -293,8 +295,8 @@ GeneralisedForces<T> front_wheel_forces(const T& front_axle_m, const T& half_tra
           half_track_m * (f.right - f.left) * cos_d};
 }
 
-/// Yaw moment tau_turn over F_max, m, in a turning trial with steering: all wheels have the same
-/// force F' (`wheel_force`), and the steering angle is d_r, rad.
+/// Yaw moment tau_turn divided by F_max, m, in a turning trial with steering: all wheels have the
+/// same force F' (`wheel_force`), and the steering angle is d_r, rad.
 ///   tau_turn = 2 l_f F' sin d_r                                                       [paper (62)]
 template <class T>
 T steering_moment_m(const T& front_axle_m, const T& wheel_force, const T& steering_rad) {
@@ -302,7 +304,7 @@ T steering_moment_m(const T& front_axle_m, const T& wheel_force, const T& steeri
   return T(2.0) * front_axle_m * wheel_force * sin(steering_rad);
 }
 
-/// Yaw moment tau_turn over F_max, m, in a turning trial without steering. d: half track;
+/// Yaw moment tau_turn divided by F_max, m, in a turning trial without steering. d: half track;
 /// `right_less_left` = F'R - F'L.
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 template <class T>
@@ -346,7 +348,7 @@ const WheelForces<T>& by_wheel(const Plant<T>&, const WheelForces<T>& f) {
   return f;
 }
 
-/// Power that tyre scrub dissipates, N_c r, over F_max, m/s, >= 0.
+/// Power N_c r that tyre scrub dissipates, divided by F_max, m/s, >= 0.
 template <class T>
 T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) {
   using math::cos;

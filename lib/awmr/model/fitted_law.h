@@ -38,8 +38,8 @@ std::optional<Resistance<double>> fitted_law(const Model& model, TrialKind kind)
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates,
                        std::span<const double> weights);
 
-/// Variance of the mean of g(w_i) over the speeds or yaw rates w_i in `rates`: as variance_of_law()
-/// above, with equal weights.
+/// Variance of the mean of g(w_i) over the speeds or yaw rates w_i in `rates`: variance_of_law()
+/// above with equal weights.
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
 
 /// The largest yaw rate, deg/s, for which the yaw resistance was measured: the vehicle's

@@ -20,8 +20,8 @@
 #pragma GCC diagnostic ignored "-Wattributes"
 #endif
 
-/// Attribute of a function that an AVR compiler must not inline and must optimise for size: for
-/// functions without tight time limits.
+/// Attribute of a function without tight time limits: an AVR compiler must not inline it, and must
+/// optimise it for size.
 #ifdef __AVR__
 #define AWMR_CALLED __attribute__((noinline, optimize("Os")))
 /// As AWMR_CALLED, for member functions. The compiler must also not copy (clone) the function for a
@@ -76,8 +76,8 @@ inline int16_t leading_order_of(float x) {
   const int16_t magnitude = static_cast<int16_t>(leading_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? static_cast<int16_t>(-magnitude) : magnitude;
 }
-/// True if the leading 16 bits suffice to show that lo < x < hi. False at and near the ends, where
-/// the other bits would decide, and for NaN.
+/// True if the leading 16 bits alone show that lo < x < hi. False for NaN, and at and near the
+/// ends, where the other bits would decide.
 inline bool is_inside(float x, float lo, float hi) {
   const int16_t order = leading_order_of(x);
   return order > leading_order_of(lo) && order < leading_order_of(hi);

@@ -12,7 +12,7 @@ struct HeadingGains {
   /// lambda, 1/s, > 0: slope of the sliding surface. Larger: the heading error falls faster.
   T lambda;
   /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed |disturbance|/I'z, where
-  /// the disturbance is a yaw moment over F_max.
+  /// the disturbance is a yaw moment divided by F_max.
   T mu;
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. Larger: less chattering, a softer response.
@@ -21,8 +21,8 @@ struct HeadingGains {
   /// forward the yaw resistance as a smooth curve, because g3 itself jumps at rest
   /// (Gains::friction_width_at()). No effect without Coulomb friction in yaw.
   T friction_width_radps = feed_forward_rest_speed<T>();
-  /// Friction width in combined mode, rad/s, >= 0.02. If it is 0, the larger of w0/2 and 0.02 is
-  /// used. No effect with an observer, which uses w0 in every mode.
+  /// Friction width in combined mode, rad/s, >= 0.02, or 0 for its default: the larger of w0/2 and
+  /// 0.02. No effect with an observer, which uses w0 in every mode.
   T combined_friction_width_radps = T(0.0);
 
   /// Time constant T1 of sliding, s: on the surface S = 0, the heading error falls as exp(-t/T1).
@@ -52,8 +52,8 @@ struct ObserverGains {
   /// L, rad/s, >= 0: bandwidth; 0: no observer. L T_s < 1 with the controller's sample time T_s.
   /// Larger: disturbances are compensated sooner, and more measurement noise reaches the commands.
   T bandwidth_radps = T(0.0);
-  T yaw_max_m = T(0.0);  ///< m, > 0: largest moment over F_max that is compensated
-  T surge_max = T(0.0);  ///< dimensionless, > 0: largest force over F_max that is compensated
+  T yaw_max_m = T(0.0);  ///< m, > 0: largest moment divided by F_max that is compensated
+  T surge_max = T(0.0);  ///< dimensionless, > 0: largest force divided by F_max that is compensated
 
   bool is_on() const { return bandwidth_radps > T(0.0); }
 };

@@ -24,7 +24,8 @@ inline constexpr YawMode kYawModes[] = {YawMode::kDifferential, YawMode::kSteeri
 class ModeGains {
  public:
   ModeGains() = default;
-  /// One set for all modes. Not explicit, so that a function of the gains of all modes accepts it.
+  /// One set for all modes. The constructor is not explicit, so that a function that takes
+  /// ModeGains also accepts one set.
   ModeGains(const Gains<double>& gains) : common_(gains) {}  // NOLINT(google-explicit-constructor)
 
   /// The gains to use in a mode.

@@ -70,7 +70,7 @@ struct Covariance {
 /// Tyre scrub: the yaw moment that resists differential (skid) turns in addition to the resistance
 /// g3 of steered turns. It is modelled as a Coulomb friction, the same at every yaw rate. In a
 /// steady differential turn,
-///   2 d (F'R - F'L) = g3(r) + moment_m            (moments over F_max; d: half track)
+///   2 d (F'R - F'L) = g3(r) + moment_m            (moments divided by F_max; d: half track)
 struct YawScrub {
   double moment_m = 0.0;     ///< m; negative values are due to noise
   double std_error_m = 0.0;  ///< m, > 0: from the scatter of the turns and the uncertainty of g3
@@ -102,8 +102,8 @@ bool takes(Motion motion, ParameterId id);
 /// The identified vehicle: the data given before the trials (`vehicle`), the resistance families,
 /// and every identified quantity with its uncertainty.
 struct Model {
-  /// A model without any identified quantity. Only the optional terms (ParameterInfo::term) have a
-  /// value, 0.
+  /// A model without any identified quantity. Optional terms (ParameterInfo::term) have the value
+  /// 0, all others none.
   Model();
 
   std::string file = "model.json";  ///< name in errors: the path that it was read from
@@ -117,8 +117,8 @@ struct Model {
   /// mu: kTyreFriction, g: acceleration of gravity. Absent if the identified m' is plausible.
   std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
-  /// Largest yaw moment over F_max, m, > 0, that the difference of left and right wheel forces made
-  /// while the vehicle did not turn. Absent: the vehicle turned in every trial.
+  /// Largest yaw moment divided by F_max, m, > 0, that the difference of left and right wheel
+  /// forces made while the vehicle did not turn. Absent: the vehicle turned in every trial.
   std::optional<double> yaw_held_m;
   /// True: g3 was fitted only to differential turns, although the vehicle also steers. It then
   /// includes the moment of tyre scrub.
@@ -145,7 +145,7 @@ struct Model {
   Plant<double> plant_as_known() const;
 
   /// The most general motion for which the model can be simulated: kPlanar, or kStraight if a
-  /// parameter of the equations of kPlanar has no value.
+  /// parameter that kPlanar needs has no value.
   Motion simulated_motion() const;
 };
 

@@ -294,8 +294,8 @@ void add_vehicle_contradictions(const Model& model, std::vector<Fault>& faults) 
                                 zone, model.vehicle.wheel_force.hi)});
 }
 
-/// True if the user accepted the implausible values of the vehicle: identify adds this finding only
-/// with `--as-is`.
+/// True if the user accepted the implausible values of the vehicle. identify then has added a
+/// finding, which it does only with `--as-is`.
 bool accepts_implausible(const Model& model) {
   return std::ranges::any_of(model.record.findings, [](const Finding& finding) {
     return finding.code == "implausible-vehicle";

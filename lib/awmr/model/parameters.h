@@ -36,12 +36,12 @@ struct ParameterInfo {
   std::string_view unit;     ///< "1" if dimensionless
   std::string_view meaning;  ///< description for messages
   std::string_view trial;    ///< the trial that identifies it, as text for messages
-  /// True for an optional term. It is 0 and not in model.json unless it was fitted or given.
+  /// True for an optional term. Without a fitted or given value, it is 0 and not in model.json.
   bool term = false;
 };
 
-/// Names of quantities that a fit of logs can estimate in addition to the parameters. They are only
-/// in /estimates of model.json.
+/// Names of quantities that a fit of logs can estimate in addition to the parameters. In
+/// model.json, they are only in /estimates.
 inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";

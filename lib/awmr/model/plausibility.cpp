@@ -15,8 +15,8 @@
 namespace awmr {
 namespace {
 
-/// A probable unit error: the given value looks like another unit (`words`: "looks like mm"), so
-/// the intended value is the given one times `factor`.
+/// A probable unit error. The given value looks like another unit (`words`: "looks like mm"); the
+/// intended value is the given one times `factor`.
 struct Guess {
   double factor;
   std::string_view words;

@@ -22,8 +22,7 @@ inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
 /// Correlation time of a sensor's noise; 0: independent readings.
 inline constexpr NumberRule kCorrelation_s{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kStallPower_w{.min = 0.0, .max = 1e6, .min_excluded = true};
-/// The maximum of k_e corresponds to 1/k_e = 1 mm/s, where 1/k_e is the speed at which a motor
-/// under full voltage has no force left.
+/// At the maximum, a motor under full voltage has no force left at 1/k_e = 1 mm/s.
 inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, m' and I'z, each in its own unit.
@@ -45,8 +44,8 @@ inline constexpr NumberRule kFrictionWidth_radps{.min = feed_forward_rest_speed<
 inline constexpr NumberRule kObserverBandwidth{.min = 1e-6, .max = 1e4};
 inline constexpr NumberRule kObserverLimit{.min = 1e-9, .max = 1e6};
 
-/// The valid range of a parameter in model.json. The fields in dynamics.h and resistance.h state
-/// the narrower bounds of the equations.
+/// The valid range of a parameter in model.json. The equations have narrower bounds, which the
+/// comments of the fields in dynamics.h and resistance.h state.
 NumberRule rule_of(ParameterId id);
 
 }  // namespace awmr

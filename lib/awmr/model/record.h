@@ -44,8 +44,8 @@ inline constexpr NameTable<FitSubject, 4> kFitSubjectNames{{{"surge", FitSubject
                                                             {"mass", FitSubject::kMass},
                                                             {"log", FitSubject::kLog}}};
 
-/// Estimation methods. Several methods are applied to the same trials, so that their results can be
-/// compared.
+/// Estimation methods. Several methods are applied to the same trials, so that the user can compare
+/// their results.
 enum class Estimator {
   kLogLinear,   ///< tables: a line through log force over log speed, as in the paper
   kNonlinear,   ///< tables: nonlinear least squares
@@ -123,8 +123,8 @@ struct EstimatorReport {
   std::vector<SearchStart> starts = {};
 };
 
-/// One row of a trial table as the fit used it. The model stores it, so that `validate` and other
-/// later steps do not need the CSV file.
+/// One row of a trial table as the fit used it. It is stored in the model, so that `validate` and
+/// other later steps do not need the CSV file.
 struct TrialPoint {
   TrialKind kind = TrialKind::kSurge;  ///< not kLog
   std::string file;

@@ -11,8 +11,9 @@ namespace awmr {
 ///   g(w) = (c + alpha |w|^beta + q w^2) sgn w                                   [paper (47), (63)]
 /// The paper has c = q = 0 and only w > 0; its law is extended here to an odd curve.
 ///
-/// Surge: g1 of w = u in m/s, dimensionless (a force over F_max). Yaw: g3 of w = r in rad/s, in m
-/// (a moment over F_max). The family determines which of c, beta and q a fit estimates (family.h).
+/// Surge: g1 of w = u in m/s, dimensionless (a force divided by F_max). Yaw: g3 of w = r in rad/s,
+/// in m (a moment divided by F_max). The family determines which of c, beta and q a fit estimates
+/// (family.h).
 template <class T>
 struct Resistance {
   /// alpha, > 0: resistance at unit speed for c = q = 0. Surge: a1, (s/m)^b1; yaw: a3, m
@@ -46,8 +47,9 @@ struct Resistance {
     using math::select;
     const T magnitude = abs(speed);
     if (!MaskOf<T>::kOneLane) {
-      // A batch has one vehicle per lane, so this code has no branches. The quotient 1/chord is the
-      // same in every step, so the compiler can compute it once for several calls.
+      // A batch has one vehicle per lane, and lanes cannot branch differently, so this code has no
+      // branches. The quotient 1/chord is the same in every step, so the compiler can compute it
+      // once for several calls.
       const T chord = larger(rest_speed, T(1e-30));
       const T sign = select(speed < T(0.0), T(-1.0), T(1.0));
       const T share = select(magnitude < chord, T(speed * (T(1.0) / chord)), sign);
@@ -76,7 +78,8 @@ Resistance<T> feed_forward(Resistance<T> law, const T& rest_speed = feed_forward
 }
 
 /// The command with which a motor with a dead zone makes `force`; 0 for the force 0. Command and
-/// force are over F_max; zone = F'0 >= 0. Inverse of beyond_dead_zone() for every force except 0.
+/// force are divided by F_max; zone = F'0 >= 0. Inverse of beyond_dead_zone() for every force
+/// except 0.
 template <class T>
 T with_dead_zone(const T& force, const T& zone) {
   using math::select;
@@ -84,7 +87,7 @@ T with_dead_zone(const T& force, const T& zone) {
 }
 
 /// The force that a motor with a dead zone makes for `command`: 0 for |command| <= zone; otherwise
-/// the command with its magnitude reduced by the zone. Command and force are over F_max;
+/// the command with its magnitude reduced by the zone. Command and force are divided by F_max;
 /// zone = F'0 >= 0.
 template <class T>
 T beyond_dead_zone(const T& command, const T& zone) {

@@ -41,7 +41,8 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
 }
 
 /// The largest of three rates at the state `at`, 1/s: the decay of u by g1; the decay of r by g3;
-/// and |r|, at which the velocity rotates in the vehicle's frame (terms m' r v and m' r u).
+/// and |r|, the rate at which the velocity rotates in the vehicle's frame (terms m' r v and m' r
+/// u).
 template <class T>
 T fastest_rate(const Plant<T>& plant, const State<T>& at) {
   using math::abs;
@@ -129,8 +130,8 @@ Mask<T> is_finite(const State<T>& s) {
   return abs(none) <= T(0.0);
 }
 
-/// Returns 0 for a speed below 1e-150 in magnitude, because products of such speeds can be
-/// subnormal numbers, with which arithmetic is slow; else the speed.
+/// Returns the speed, but 0 if it is below 1e-150 in magnitude. Products of such speeds can be
+/// subnormal numbers, with which arithmetic is slow.
 template <class T>
 T settled(const T& speed) {
   using math::abs;

@@ -79,8 +79,8 @@ Estimate max_force(const Model& model) {
   return force;
 }
 
-/// Converts a parameter over F_max to SI units by multiplying it by F_max. For example, I'z in s^2
-/// m times N is kg m^2.
+/// Converts a parameter that is divided by F_max to SI units, by multiplication with F_max. For
+/// example, I'z in s^2 m times N is kg m^2.
 SiQuantity quantity_of(const Model& model, const ParameterInfo& parameter) {
   if (parameter.id == ParameterId::kInertiaNorm) {
     return {"/yaw_inertia", "Iz", "kg m^2", times_max_force(model, parameter.id)};

@@ -19,7 +19,7 @@ struct SiQuantity {
 /// Returns F_max, the mass, the yaw inertia, and each resistance, dead zone and back-EMF of the
 /// model in SI units; empty if m' has no value. The mass of the vehicle is assumed exact, so
 ///   F_max = m/m'                                                                      [paper (66)]
-///   Q     = p F_max = p m/m'      of each quantity p over F_max
+///   Q     = p F_max = p m/m'      of each quantity p divided by F_max
 /// The variance of Q follows from the covariances C of p and m', with the gradient (m/m', -p
 /// m/m'^2) of Q:
 ///   Var Q = (m/m')^2 (C_pp - 2 (p/m') C_pm' + (p/m')^2 C_m'm')

@@ -62,8 +62,9 @@ struct Sliding {
   Value yaw = Value(0.0);
 };
 
-/// Direction of sliding: the sign of `speed`. At rest, it is the sign of the acceleration `rate`
-/// without friction, or 0 if |rate| <= friction, the deceleration by friction.
+/// Direction of sliding: the sign of `speed`. At rest, it is the sign of `rate`, the acceleration
+/// without friction, or 0 if friction (the deceleration `friction`) holds the motion: |rate| <=
+/// friction.
 template <class Value>
 Value slides(const Value& speed, const Value& rate, const Value& friction) {
   using math::select;

@@ -20,14 +20,14 @@ struct State {
 };
 
 /// The wheel forces if both wheels of a side have the same force. Each field is the force of ONE
-/// wheel over F_max, dimensionless, in [-1, 1], forward positive.
+/// wheel divided by F_max (the largest force of one motor), in [-1, 1], forward positive.
 template <class T>
 struct SideForces {
   T left;   ///< F'L = F'FL = F'RL
   T right;  ///< F'R = F'FR = F'RR
 };
 
-/// The individual forces of the wheels: over F_max, dimensionless, in [-1, 1], along the wheel,
+/// The individual forces of the wheels, divided by F_max, in [-1, 1]. They act along the wheel,
 /// forward positive.
 template <class T>
 struct WheelForces {

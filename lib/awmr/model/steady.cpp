@@ -37,8 +37,8 @@ std::optional<double> rate_above_coulomb(const Resistance<double>& law, double e
     if (!(next < w)) return finite(next);
     w = next;
   }
-  // No solution: the speed would exceed that of any vehicle; or beta = 0, so that g jumps at rest
-  // by more than the force.
+  // There is no solution in two cases: the speed would exceed that of any vehicle; or beta = 0, and
+  // g jumps at rest by more than the force.
   return std::nullopt;
 }
 

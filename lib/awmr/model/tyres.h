@@ -18,7 +18,8 @@ namespace awmr {
 /// Tyre parameters, the same for all four.
 template <class T>
 struct Tyres {
-  /// mu, > 0: largest force on the ground in any direction, divided by the load on the wheel.
+  /// mu, > 0: largest force between tyre and ground in any direction, divided by the load on the
+  /// wheel
   T friction = T(kTyreFriction);
   /// c_a, 1/rad, > 0: cornering stiffness over the load on the wheel, the slope of the side force
   /// at a small slip angle.
@@ -38,7 +39,7 @@ struct FourWheels {
   Tyres<T> tyres;
 };
 
-/// Load on each wheel if all four carry the same, over F_max:
+/// Load on each wheel if all four carry the same, divided by F_max:
 ///   F'z = m' g/4
 template <class T>
 T wheel_load(const T& mass_norm) {
@@ -69,9 +70,9 @@ WheelSpeeds<T> side_speeds(const T& front_axle_m, const T& half_track_m, const S
           across_mps - (s.u_mps + half_track_m * s.r_radps) * sin_d, rear_mps, rear_mps};
 }
 
-/// The side force F'y of a tyre over F_max, positive to the left. The wheel carries the load F'z,
-/// rolls at w (`rolls_mps`), slides to its left at s (`slides_mps`) and has the longitudinal force
-/// F'x (`along`), |F'x| <= mu F'z:
+/// The side force F'y of a tyre divided by F_max, positive to the left. The wheel carries the load
+/// F'z, rolls at w (`rolls_mps`), slides to its left at s (`slides_mps`) and has the longitudinal
+/// force F'x (`along`), |F'x| <= mu F'z:
 ///   F'm = sqrt((mu F'z)^2 - F'x^2)                  remainder of the circle of friction
 ///   sigma = s/sqrt(w^2 + v_0^2)                     the tangent of the slip angle
 ///   z = min(c_a F'z |sigma|/(3 F'm), 1)             1: all of the contact slides
@@ -94,8 +95,8 @@ T side_force(const Tyres<T>& tyres, const T& load, const T& along, const T& roll
   return select(slides_mps > T(0.0), T(-force), force);
 }
 
-/// Force of the ground on a wheel along its rolling direction, over F_max: the motor's force F'
-/// (motor_force()) minus a quarter of g1, limited by tyre friction. g1 is assumed to act in the
+/// Force of the ground on a wheel along its rolling direction, divided by F_max: the motor's force
+/// F' (motor_force()) minus a quarter of g1, limited by tyre friction. g1 is assumed to act in the
 /// drive, between motor and ground.
 ///   F'x = sat(F' - g1(w)/4, mu F'z)
 template <class T>
@@ -108,8 +109,8 @@ T ground_force(const FourWheels<T>& p, const T& load, const T& command, const T&
 /// Forces of the ground on the four wheels, at one time.
 template <class T>
 struct TyreForces {
-  WheelForces<T> along;   ///< over F_max, along the wheel, forward positive
-  WheelForces<T> across;  ///< over F_max, perpendicular to the wheel, left positive
+  WheelForces<T> along;   ///< along the wheel, forward positive, divided by F_max
+  WheelForces<T> across;  ///< perpendicular to the wheel, left positive, divided by F_max
 };
 
 template <class T>
@@ -132,8 +133,8 @@ TyreForces<T> tyre_forces(const FourWheels<T>& p, const State<T>& s, const Wheel
   return made;
 }
 
-/// Power dissipated by tyres that slide sideways at the speeds s_i (side_speeds()), over F_max,
-/// m/s, >= 0:
+/// Power dissipated by tyres that slide sideways at the speeds s_i (side_speeds()), divided by
+/// F_max, m/s, >= 0:
 ///   P = -sum of F'y_i s_i
 template <class T, class Forces>
 T tyre_power_mps(const FourWheels<T>& p, const State<T>& s, const Forces& f) {
@@ -195,7 +196,7 @@ T rolling_inertia(const Plant<T>& p) {
   return select(turning < p.mass_norm, turning, p.mass_norm);
 }
 
-/// As resolved_at_rest() of rest.h, for a vehicle on tyres, where g1 acts at the wheels.
+/// As resolved_at_rest() of rest.h, but for a vehicle on tyres, where g1 acts at the wheels.
 inline Plant<double> resolved_at_rest_on_tyres(const Plant<double>& body, double step_s) {
   Plant<double> resolved = resolved_at_rest(body, step_s);
   resolved.surge.rest_speed = rest_speed(body.surge, rolling_inertia(body), step_s);

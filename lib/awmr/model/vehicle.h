@@ -61,7 +61,7 @@ struct Vehicle {
   Interval surge_beta_range{0.0, 2.5};     ///< range of b1 in fits, 0 <= lo < hi
   Interval yaw_beta_range{0.0, 4.0};       ///< range of b3 in fits, 0 <= lo < hi
 
-  /// Form of the simulated controller's allocation; the firmware's is always exact.
+  /// Form of the allocation of the simulated controller; that of the firmware is always exact.
   AllocationForm allocation = AllocationForm::kExact;
   /// Errors of the sensors, for which gains are tuned and with which runs are simulated
   /// (simulate/conditions.h).
@@ -70,8 +70,8 @@ struct Vehicle {
   /// used to tune gains, to simulate runs, and to filter the logged commands before a fit. Absent:
   /// no lag, unless a log identifies one.
   std::optional<double> motor_time_constant_s;
-  /// k_e, s/m, >= 0: decrease of a motor's force over F_max per m/s at its wheel, from its data
-  /// sheet. Absent: no back-EMF, unless a log identifies it.
+  /// k_e, s/m, >= 0: decrease of a motor's force, divided by F_max, per m/s at its wheel. From its
+  /// data sheet. Absent: no back-EMF, unless a log identifies it.
   std::optional<double> back_emf_s_per_m;
   /// P_s, W, > 0: power of one motor under full voltage at standstill, where all of it becomes
   /// heat; absent: electrical work is not reported in joules.
@@ -94,8 +94,8 @@ struct Vehicle {
   double inertia_kgm2() const;
 };
 
-/// Range of the force with which one wheel pushes, divided by F_max: the range of the commands,
-/// reduced at both ends by the motors' dead zone.
+/// Range of the force of one wheel, divided by F_max: the range of the commands, reduced at both
+/// ends by the motors' dead zone.
 inline Interval forces_beyond_dead_zone(const Interval& wheel_force, double dead_zone) {
   return {std::min(wheel_force.lo + dead_zone, 0.0), std::max(wheel_force.hi - dead_zone, 0.0)};
 }

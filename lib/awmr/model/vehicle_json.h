@@ -23,7 +23,7 @@ void explain_vehicle_faults(const Json& vehicle, const std::string& place,
 /// key.
 Json vehicle_to_json(const Vehicle& vehicle);
 
-/// Reads `{min, max}` of F' of one wheel over F_max: -1 <= min <= 0 < max <= 1.
+/// Reads `{min, max}` of F' of one wheel divided by F_max: -1 <= min <= 0 < max <= 1.
 Interval wheel_force_from_json(JsonObject json);
 Json wheel_force_to_json(const Interval& force);
 

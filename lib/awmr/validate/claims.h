@@ -23,7 +23,7 @@
 
 namespace awmr {
 
-/// tau_speed (surge force over F_max) at the paper's full thrust.              [paper 3.5]
+/// tau_speed (surge force divided by F_max) at the paper's full thrust.              [paper 3.5]
 inline constexpr double kFullThrust = 2.0;
 
 /// Run of a claim's scenario in one mode.

@@ -16,8 +16,8 @@ struct LiveSetup {
   /// Inputs of the tuning constraints; `plant` is the identified plant of the model.
   ConstraintContext context;
   double allocation_form = 0.0;  ///< the AllocationForm of the vehicle, as a number
-  /// Largest yaw moment, m, and surge force, both over F_max, that the tuned observer compensates;
-  /// 0 without an observer.
+  /// Largest yaw moment, m, and surge force, both divided by F_max, that the tuned observer
+  /// compensates; 0 without an observer.
   double observer_yaw_max_m = 0.0;
   double observer_surge_max = 0.0;
   double speed_mps = 0.0;  ///< u_d, commanded speed of the scenario, m/s
