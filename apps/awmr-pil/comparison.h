@@ -17,8 +17,8 @@ struct Difference {
   std::vector<std::pair<std::string, double>> signals;
   bool same_length = true;  ///< both runs have the same number of rows
 
-  /// Returns the largest of the differences of all signals in SI units. The signal heading_deg, in
-  /// degrees, is left out.
+  /// Returns the largest difference of all signals in SI units, that is, without heading_deg, which
+  /// is in degrees.
   double largest() const;
   double of(const std::string& signal) const;  ///< difference of one signal; infinite for an
                                                ///< unknown signal

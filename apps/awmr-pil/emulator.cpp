@@ -26,8 +26,8 @@ constexpr std::uint8_t kPaint = 0xC5;
 /// one is due.
 constexpr avr_cycle_count_t kRunCycles = 1000;
 
-/// Pointer to the only Emulator object. The callback sleep() needs it, because simavr 1.6 passes no
-/// user data to that callback.
+/// Pointer to the only Emulator object. simavr 1.6 passes no user data to the callback sleep(), so
+/// this callback needs the pointer.
 Emulator* the_emulator = nullptr;
 
 void no_log(avr_t*, int, const char*, va_list) {}
@@ -113,8 +113,8 @@ Status Emulator::run_once() {
   if (state == cpu_Done || state == cpu_Crashed) {
     return program_fault(fmt::format("the emulated chip stopped at address {:#x}", avr_->pc));
   }
-  // If an interrupt woke the chip, the program counter is at the vector of the interrupt: one of 57
-  // vectors of 4 bytes, except 0, the reset.
+  // If an interrupt woke the chip, the program counter is at the interrupt's vector. There are 57
+  // vectors of 4 bytes; the one at 0 is the reset.
   const bool at_vector = avr_->pc > 0 && avr_->pc < 57 * 4 && avr_->pc % 4 == 0;
   if (was_asleep && at_vector && state == cpu_Running && !asleep_) entered_at_ = avr_->cycle;
   if (asleep_ && at_vector && avr_->state == cpu_Running) entered_at_ = avr_->cycle;

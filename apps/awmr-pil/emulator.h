@@ -49,16 +49,16 @@ class Emulator {
   /// 1000 cycles long. Errors (fault): the program crashed or ended, or `done` is still false after
   /// `cycle_limit` cycles.
   Status run_until(const std::function<bool()>& done, std::uint64_t cycle_limit);
-  /// Returns the clock cycles between the entry of the last interrupt that woke the chip (included)
-  /// and the next sleep.
+  /// Returns the clock cycles from the entry of the last interrupt that woke the chip to the next
+  /// sleep. The entry itself is included.
   unsigned last_interrupt_cycles() const { return last_interrupt_cycles_; }
   std::uint64_t cycles() const;
 
   /// Fills the RAM between the variables and the stack with a pattern, to measure the stack.
   /// Precondition: the chip sleeps.
   void paint_stack();
-  /// Returns the largest use of the stack since paint_stack(), bytes: from the top of RAM down to
-  /// the lowest address that was overwritten.
+  /// Returns the largest use of the stack since paint_stack(), bytes. It is measured from the top
+  /// of RAM down to the lowest address that was overwritten.
   unsigned stack_bytes() const;
 
   /// Sets the callback for the bytes that USART0 sends.

@@ -30,8 +30,9 @@ class Executor {
   /// Resets the chip during the run. Its guidance then starts again at the first point of the path.
   /// Errors (input): the chip is on a real board, which this program cannot reset.
   virtual Status reset() = 0;
-  /// From the next step on, the vehicle follows these points: as waypoints or as corners of a line,
-  /// depending on the mission. Errors (input): more points than the firmware has room for.
+  /// From the next step on, the vehicle follows these points. The mission determines whether they
+  /// are waypoints or corners of a line. Errors (input): more points than the firmware has room
+  /// for.
   virtual Status follow(const Points& points) = 0;
   virtual Result<Step> step(const AutopilotInput& input) = 0;
 };

@@ -11,7 +11,7 @@
 
 namespace awmr::pil {
 
-/// Selects how long to wait for a byte: kStart (longer) while the chip starts and checks its
+/// Selects the longest wait for a byte: kStart (longer) while the chip starts and checks its
 /// parameters, kAnswer otherwise. The waiting times differ between an emulated and a real chip.
 enum class Patience { kStart, kAnswer };
 

@@ -73,8 +73,8 @@ Position<float> hostile_point(Random& random, const Position<float>& vehicle_m) 
   return {vehicle_m.x_m + off(), vehicle_m.y_m + off()};
 }
 
-/// Sets the time stamp of the GPS fix. Usually the fix is new, with an age of up to 2 s; sometimes
-/// its time is random; sometimes the last fix is repeated.
+/// Sets the time stamp of the GPS fix. Usually the fix is new, with an age of up to 2 s. Sometimes
+/// its time is random, or the last fix is repeated.
 void receive_fix(AutopilotInput& in, Random& random) {
   in.position_is_fix = 1;
   const std::uint32_t kind = random.bits() % 8;
@@ -118,8 +118,8 @@ bool same(const AutopilotOutput& a, const AutopilotOutput& b) {
          a.command.steering_powerless == b.command.steering_powerless;
 }
 
-/// Executes one step on chip and host, and adds to `found` its cycles and whether the outputs
-/// differ. Returns the chip's cycles.
+/// Executes one step on chip and host. Adds to `found` its cycles and whether the outputs differ.
+/// Returns the chip's cycles.
 Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hostile& found) {
   if (!attack.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(chip.follow(attack.points));

@@ -79,8 +79,8 @@ void inject(Injection injection, AutopilotInput& in) {
   }
 }
 
-/// Injects a pause of `by_ms` before a step: advances the clock. The time stamps of the inputs
-/// advance too, so that no input becomes older.
+/// Injects a pause of `by_ms` before a step by advancing the clock. The time stamps of the inputs
+/// advance too: their age stays the same, so that only the pause is a fault.
 void delay(std::uint32_t by_ms, InputTimes& times) {
   times.now_ms += by_ms;
   times.heading_ms += by_ms;

@@ -49,7 +49,7 @@ struct Mission {
   std::optional<Observers<float>> observers;
   CombinedSplit split = CombinedSplit::kRedistribute;
 
-  /// True if the chip computes the reference headings itself, from points or a path. False if the
+  /// True if the chip computes the reference headings itself, from points or a path. Otherwise the
   /// host sends the reference heading in each step.
   bool leads() const { return !points.points_m.empty() || path.has_value(); }
 };
@@ -67,8 +67,8 @@ inline constexpr std::size_t kMaxPoints = 16;
 /// `skip_passed` have the same header, so one firmware serves all of them.
 std::string mission_header(const Mission& mission);
 
-/// Returns a checksum of mission_header(), by which the host detects a board that was flashed for
-/// another mission. Returns 0 for missions that need no optional part and skip no waypoint.
+/// Returns a checksum of mission_header(). By it, the host detects a board that was flashed for
+/// another mission. 0 for missions that need no optional part and skip no waypoint.
 std::uint32_t mission_crc(const Mission& mission);
 
 }  // namespace awmr::pil

@@ -21,8 +21,8 @@ namespace {
 constexpr int kStartTimeout_ms = 500;
 /// Timeout of an answer. It is twice the slowest case, 140 bytes at 9600 baud, which take 146 ms.
 constexpr int kAnswerTimeout_ms = 300;
-/// Waiting time after the port is opened. Opening the port resets a Mega 2560, and its boot loader
-/// waits before it starts the firmware.
+/// Waiting time after the port is opened, ms. Opening the port resets a Mega 2560, whose boot
+/// loader waits before it starts the firmware.
 constexpr int kBootTime_ms = 2000;
 
 class Port : public Line {

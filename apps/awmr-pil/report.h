@@ -52,7 +52,7 @@ struct Injected {
   bool worked = false;
   /// True: the command was safe (forces 0, wheels straight) in all steps of the window.
   bool safe = true;
-  /// True: outside of the window, the autopilot had no fault. For a failure that disarms the
+  /// True: the autopilot had no fault outside of the window. For a failure that disarms the
   /// vehicle: no fault before the failure.
   bool quiet = true;
 };

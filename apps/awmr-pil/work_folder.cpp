@@ -40,8 +40,8 @@ fs::path& folder = *new fs::path;
 
 /// True: the thread that handles signals was started.
 bool can_end = false;
-/// The signal thread posts this semaphore when it receives the signal question() and no signal that
-/// ends the program is pending.
+/// The signal thread posts this semaphore to answer question(): no signal that ends the program is
+/// pending.
 sem_t not_ending;
 
 /// True for `awmr-pil-NUMBER-XXXXXX`, where NUMBER is a process ID.
@@ -74,8 +74,8 @@ bool is_left_over(const fs::path& path) {
   return lock >= 0;
 }
 
-/// Removes the folder. Tries again if that fails, because the main thread, or the compiler of a
-/// killed run, may still be writing into the folder.
+/// Removes the folder. The main thread, or the compiler of a killed run, may still be writing into
+/// it, so a failed attempt is repeated.
 void remove_folder(const fs::path& path) {
   for (int attempt = 0; attempt < 20; ++attempt) {
     std::error_code error;

@@ -25,7 +25,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Problems found in a project, in the order in which the user should deal with them.
+/// Problems found in a project, in the order in which the user should solve them.
 struct Check {
   std::vector<Finding> missing;      ///< values and trials not provided yet
   std::vector<Finding> implausible;  ///< contradictory or impossible values

@@ -83,7 +83,7 @@ struct RecoverCommand {
   fs::path model;
   RecoverOptions recover;
   ShardChoice shard = {};
-  /// File recover.json; if `shard` is given, the directory for that part of the runs.
+  /// File recover.json. With `shard`: directory for the results of this part of the runs.
   std::optional<fs::path> output = {};
 };
 Result<Outcome> execute(const RecoverCommand& command);
@@ -132,7 +132,8 @@ struct ValidateCommand {
   /// errors.
   bool other_columns = false;
   double horizon_s = 10.0;  ///< length of the windows over which logs are predicted
-  /// Largest accepted normalised RMS error (NRMSE) of the prediction of a channel over a window.
+  /// Largest accepted NRMSE of the prediction of a channel over a window (RMS error divided by the
+  /// standard deviation of the measurements).
   double log_tolerance = 0.3;
   /// True: also fit the tyres of the four-wheel model to the logs.
   bool tyres = false;

@@ -108,7 +108,7 @@ std::string bash_text(const std::vector<CommandInfo>& commands) {
 
 // ---- zsh: one specification for each option, which the zsh function _arguments reads
 
-/// Escapes the colons and brackets in a text, because they separate the parts of a zsh
+/// Escapes colons and brackets in a text, which would otherwise separate the parts of a zsh
 /// specification.
 std::string zsh_part(const std::string& text) {
   std::string result;

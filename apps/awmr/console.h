@@ -40,8 +40,8 @@ struct Session {
   int exit_code = 0;
 };
 
-/// Adds a command to the command line. It gets the options `--quiet`, `--verbose`, `--json` and
-/// `--version`, and its help ends with the example. `execute` is called to run the command.
+/// Adds a command to the command line, with the options `--quiet`, `--verbose`, `--json` and
+/// `--version`. The help of the command ends with the example. `execute` runs the command.
 CLI::App* add_command(CLI::App& app, Session& session, const std::string& name,
                       const std::string& description, const std::string& example,
                       std::function<Result<Outcome>()> execute);

@@ -98,8 +98,8 @@ std::string list_of(const std::vector<Explanation>& all) {
   return text;
 }
 
-/// Returns at most five codes that the user may have meant by a misspelt or shortened code: first
-/// those of similar spelling, then those that contain the text.
+/// Returns at most five codes that the user may have meant by a misspelt or shortened code. Codes
+/// of similar spelling come first, then those that contain the text.
 std::vector<std::string> near_codes(const std::string& code, std::vector<std::string> codes) {
   constexpr std::size_t kShortest = 3, kMax = 5;
   std::vector<std::string> near;

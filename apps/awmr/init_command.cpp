@@ -15,8 +15,9 @@
 namespace awmr::cli {
 namespace {
 
-/// True if a line of a template belongs into a project with this drive. The mark "@four_wheel " at
-/// the begin of a line means: for that drive only; "@steered " means: for drives with steering.
+/// True if a line of a template belongs into a project with this drive. A line with the mark
+/// "@four_wheel " at its beginning is for that drive only, one with "@steered " for drives with
+/// steering.
 bool is_for(std::string_view mark, Drive drive) {
   if (mark == "steered") return drive != Drive::kDifferential;
   return mark == name_in(kDriveNames, drive);
@@ -39,7 +40,7 @@ std::string for_drive(std::string_view text, Drive drive) {
   return lines;
 }
 
-/// Returns the files of the new project. Errors (input): a file exists already (one error for
+/// Returns the files of the new project. Errors (input): a file already exists (one error for
 /// each), or its path cannot be looked up.
 Result<std::vector<OutputFile>> files_to_write(const InitCommand& command) {
   std::vector<OutputFile> files;

@@ -14,7 +14,7 @@ InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
   InputNames names;
   for (const std::filesystem::path& path : paths) {
     // The relative path is empty if only one of the two paths is absolute. Output files then give
-    // the name of the file without its directory.
+    // the file's name without directory.
     const auto relative =
         path.lexically_normal().lexically_relative(project.parent_path().lexically_normal());
     if (!relative.empty()) names[path] = relative.generic_string();

@@ -36,8 +36,8 @@ std::string error_text(const Error& error);
 std::string result_schema();
 std::string error_schema();
 
-/// Combines JSON texts into one object. `documents`: pairs of name and text; the name becomes the
-/// key, and pairs with an empty text are omitted.
+/// Combines JSON texts into one object. `documents`: pairs of name and text. The name becomes the
+/// key; pairs with an empty text are left out.
 std::string joined(const std::vector<std::pair<std::string, std::string>>& documents);
 
 /// True if `--json` is among the arguments. The search does not need valid arguments: if others are

@@ -159,8 +159,7 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   return followed;
 }
 
-/// Writes the complete recording. Also writes the model, which is the one that `identify` fits to
-/// this recording.
+/// Writes the complete recording, and the model that `identify` fits to it.
 Result<Outcome> finished(const LiveCommand& command, const Followed& followed) {
   const fs::path& record = command.identify.logs.front();
   AWMR_RETURN_IF_ERROR(write_file(record, followed.recording.text()));

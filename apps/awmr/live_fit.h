@@ -22,8 +22,8 @@ class LiveFit {
  public:
   LiveFit(const LiveCommand& command, Vehicle vehicle);
 
-  /// Writes the recording to its file, so that it remains if the program is killed. Then returns
-  /// the interim result.
+  /// Returns the interim result. Before that, writes the recording to its file, so that it remains
+  /// if the program is killed.
   LiveUpdate update(const Recording& recording) const;
 
  private:

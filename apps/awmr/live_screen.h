@@ -20,7 +20,7 @@ struct LiveUpdate {
   /// Reasons why the recording cannot be used as a log yet.
   std::vector<Fault> faults = {};
   std::optional<Model> model = {};  ///< result of the last completed fit
-  /// True: the last fit exceeded its time limit, and `model` is the result of the fit before.
+  /// true: the last fit exceeded its time limit, so `model` is the result of an earlier fit
   bool out_of_time = false;
   /// The manoeuvre that would improve the model most; empty if the model is accurate enough.
   std::string next = {};

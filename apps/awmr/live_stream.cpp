@@ -141,7 +141,7 @@ Interruption::Interruption() {
   sigemptyset(&action.sa_mask);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     ::sigaction(kSignals[i], nullptr, &before_[i]);
-    // A program that was started by nohup ignores SIGHUP. This must remain so.
+    // A program that was started by nohup ignores SIGHUP, and must continue to do so.
     if (kSignals[i] == SIGHUP && before_[i].sa_handler == SIG_IGN) continue;
     ::sigaction(kSignals[i], &action, nullptr);
   }

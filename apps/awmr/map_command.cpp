@@ -21,7 +21,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Alternative sets of columns that give the same quantity of a trial. Each set is sufficient.
+/// Alternative sets of columns that give the same quantity of a trial. One complete set is
+/// sufficient.
 using Ways = std::vector<std::vector<const char*>>;
 std::vector<Ways> needs_of(TrialKind kind) {
   const Ways speed{{"speed_mps"}, {"distance_m", "elapsed_s"}};
@@ -84,7 +85,7 @@ std::string text_of(const MapCommand& command, const std::vector<ColumnGuess>& g
   const std::vector<ColumnGuess> used = likely_columns(guesses);
   json["columns"] = Json::object();
   for (const ColumnGuess& guess : used) {
-    // Writes a mapping only if the column of the file does not have the required name already.
+    // No mapping is needed if the column of the file already has the required name.
     if (guess.expression != guess.column) json["columns"][guess.column] = guess.expression;
   }
   json["open"] = open_columns(used, command.trial);

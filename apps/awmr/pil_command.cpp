@@ -37,8 +37,8 @@ std::optional<fs::path> awmr_pil() {
   return find_program("awmr-pil");
 }
 
-/// Replaces this process with the program awmr-pil (exec). The output and the exit code are then
-/// those of awmr-pil. Returns only if awmr-pil cannot be started.
+/// Replaces this process with the program awmr-pil (exec), so that output and exit code are those
+/// of awmr-pil. Returns only if awmr-pil cannot be started.
 Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
   const auto program = awmr_pil();
   int reason = ENOENT;
@@ -62,8 +62,8 @@ Result<Outcome> become_awmr_pil(std::vector<std::string> arguments) {
 }  // namespace
 
 void add_pil(CLI::App& app, Session& session) {
-  // Variables into which CLI11 writes the options. The command keeps them, because CLI11 writes to
-  // them after this function has returned.
+  // Variables into which CLI11 writes the options. It does so after this function has returned, so
+  // the command keeps them.
   struct Held {
     PilOptions options;
     CLI::App* command = nullptr;

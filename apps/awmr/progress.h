@@ -30,8 +30,8 @@ bool prints_progress_lines();
 /// or `--json`.
 void print_notice(std::string_view text);
 
-/// Returns the width of the terminal. A progress line must not be longer: it would wrap and could
-/// not be redrawn.
+/// Returns the width of the terminal. A longer progress line would wrap, and could then not be
+/// redrawn.
 std::size_t terminal_columns();
 
 /// Shows a progress line at the bottom of the terminal as long as the object exists: the current

@@ -152,8 +152,8 @@ void read_compare(JsonObject json, const FileNames& files, Project& project) {
 
 constexpr std::string_view kProjectSchema = "awmr.project/1";
 
-/// Converts the JSON content of a project file. `path`: the project file, to whose directory the
-/// file names in it are relative.
+/// Converts the JSON content of a project file. `path`: the project file; file names in it are
+/// relative to its directory.
 Project project_from_json(JsonObject& json, const fs::path& path,
                           const std::vector<Fault>& faults) {
   Project project;

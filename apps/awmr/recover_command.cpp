@@ -60,8 +60,8 @@ Status check_output_of(const RecoverCommand& command) {
                        : check_output(*command.output, inputs);
 }
 
-/// Options as they come from the command line. CLI11 writes most of them into a command; the others
-/// are kept as texts, which command_of() parses.
+/// Options as they come from the command line. CLI11 writes most of them directly into `command`.
+/// The others stay texts, which command_of() parses.
 struct RecoverWords {
   RecoverCommand command;
   std::string plan = "tables";

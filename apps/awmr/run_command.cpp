@@ -23,8 +23,8 @@
 namespace awmr::cli {
 namespace {
 
-/// Results of the steps of `run`: their combined outcome, and the JSON document of each step under
-/// the name of its file ("model").
+/// Results of the steps of `run`: their combined outcome, and the JSON document of each step. The
+/// documents are stored under the names of their files ("model").
 struct Steps {
   Outcome total;
   std::vector<std::pair<std::string, std::string>> documents;

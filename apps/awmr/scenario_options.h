@@ -30,8 +30,8 @@ struct PlantChoice {
   /// A validation.json. Its fitted tyres are used instead of those of the scenarios and the default
   /// ones.
   std::optional<std::filesystem::path> tyres_file = {};
-  /// True (only for `compare`): if `kind` is empty, the ranking is also computed with the other
-  /// vehicle model.
+  /// True (only for `compare`): the ranking is also computed with the other vehicle model, unless
+  /// `kind` is given.
   bool checks_other = false;
   bool runs_other() const { return checks_other && !kind; }
 };
@@ -41,8 +41,8 @@ inline constexpr const char* kTyresOption = "--tyres";
 /// Name of this option in the list of options in an output file.
 inline constexpr const char* kPlantName = "plant";
 
-/// Value of `--plant` for `compare`: each scenario runs with its own vehicle model, and the ranking
-/// is checked with the other model.
+/// Value of `--plant` for `compare`: each scenario runs with its own vehicle model, and the other
+/// model is used to check the ranking.
 inline constexpr const char* kBothPlants = "both";
 
 inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std::string> names,

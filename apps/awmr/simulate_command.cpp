@@ -120,8 +120,8 @@ Result<Provenance> provenance_of(const SimulateCommand& command, const Scenario&
   return Provenance{"simulate", std::move(options), std::move(inputs)};
 }
 
-/// True if a second file with the origin of the run (.csv.json) is written. None is written if the
-/// output is a pipe or a device.
+/// True if a second file with the origin of the run (.csv.json) is written: not if the output is a
+/// pipe or a device.
 bool has_side_file(const fs::path& output) {
   std::error_code ignored;
   const fs::file_status status = fs::status(output, ignored);
@@ -157,8 +157,8 @@ Result<Gains<double>> gains_for(const SimulateCommand& command, const Scenario& 
                      "the controller of this scenario needs gains: give --gains GAINS.json");
 }
 
-/// Adds the findings about the run. The finding about `--tyres` is left out, because tyres_of() has
-/// added it already.
+/// Adds the findings about the run, except the one about `--tyres`, which tyres_of() has already
+/// added.
 Status note_run(const SimulateCommand& command, const Scenario& scenario, const Model& model,
                 const Gains<double>& gains, const Metrics& metrics,
                 std::vector<Finding>& findings) {

@@ -50,8 +50,8 @@ Status check_against(const TuneConfig& config, const TuneCommand& command) {
   return {};
 }
 
-/// Returns the note `option-overrides` for each option that replaces another value in tune.json, and
-/// for each key about drawn vehicles that has no effect with `--nominal`.
+/// Returns the note `option-overrides` for each option that overrides a value in tune.json. Adds
+/// one for each key about drawn vehicles if `--nominal` makes the key ineffective.
 std::vector<Finding> overridden_keys(const TuneConfig& config, const TuneCommand& command) {
   std::vector<Finding> findings;
   const auto note = [&](const char* key, const std::string& before, const std::string& now) {

@@ -137,8 +137,8 @@ std::string evaluation_table(const std::vector<EvaluatedGains>& all,
   return text + steering_note(rows);
 }
 
-/// States for each goal in which fraction of the fresh draws (vehicles not used for tuning) the
-/// tuned gains meet it; empty without goals.
+/// For each goal, gives the fraction of the fresh draws (vehicles not used for tuning) in which the
+/// tuned gains meet it. Empty without goals.
 std::string goals_text(const std::vector<EvaluatedGoal>& all) {
   std::string text;
   for (const EvaluatedGoal& evaluated : all) {

@@ -156,8 +156,8 @@ void note_fitted_logs(const Model& model, const Provenance& provenance,
   }
 }
 
-/// Returns the list of the claims if it was requested, else the verdict and the prediction errors
-/// of each log.
+/// Returns the list of the claims if it was requested. Otherwise returns the verdict and the
+/// prediction errors of each log.
 std::string summary_of(const ValidateCommand& command, const Validation& validation) {
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
   const char* const title = validation.trials.empty()

@@ -76,8 +76,8 @@ void bind_read(py::module_& module, const char* name, Read read, const char* tex
       py::arg("path"), text);
 }
 
-/// A vehicle, with the file from which it was read. A model that is identified for this vehicle
-/// records the name and the hash of the file.
+/// A vehicle with the file from which it was read. A model that is identified for this vehicle
+/// records name and hash of this file.
 struct VehicleOfFile : Vehicle {
   InputFile file;
 };

@@ -20,8 +20,8 @@ volatile uint8_t pil_steps;  // steps executed, modulo 256
 
 namespace {
 
-// Sample time in counts of timer 1. The timer counts at F_CPU/8 and has 16 bits, so the sample time
-// may be 32 ms at most.
+// Sample time in counts of timer 1. The timer counts at F_CPU/8 and has 16 bits, which limits the
+// sample time to 32 ms.
 const uint32_t kTimerCounts = static_cast<uint32_t>(AWMR_SAMPLE_TIME_S * (F_CPU / 8) + 0.5f);
 static_assert(kTimerCounts >= 2 && kTimerCounts <= 65536,
               "the sample time has to be between 1 us and 32 ms");

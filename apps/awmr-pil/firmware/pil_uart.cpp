@@ -17,7 +17,8 @@
 namespace {
 
 const uint8_t kRingMask = 31;
-// Received bytes that main() has not read yet. main() must read each byte before 32 more arrive.
+// Received bytes that main() has not read yet. Bytes are lost if main() does not read a byte before
+// 32 more arrive.
 volatile uint8_t ring[kRingMask + 1];
 volatile uint8_t ring_head;
 uint8_t ring_tail;

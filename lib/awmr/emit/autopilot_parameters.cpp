@@ -30,8 +30,8 @@ TableShape shape_of(const EmittedTable& table) {
 /// Returns the value rounded to float32, as on the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
-/// Range of the wheel force F' (divided by F_max) that the allocation can request: the range in
-/// vehicle.json, reduced by the dead zone of the motors as in make_controller().
+/// Range of the wheel force F' (divided by F_max) that the allocation can request. It is the range
+/// in vehicle.json, reduced by the dead zone of the motors as in make_controller().
 Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehicle) {
   const Controller<double> controller = make_controller(plant, vehicle, {});
   return {controller.limits.force_min, controller.limits.force_max};

@@ -100,13 +100,14 @@ struct EmitOptions {
   std::size_t line_law = 0;
   /// How the combined mode divides the yaw moment when steering or wheel forces saturate.
   CombinedSplit split = CombinedSplit::kRedistribute;
-  /// Maximum age of heading and yaw rate, ms, > 0. A slow compass needs a larger value.
+  /// Maximum age of heading and yaw rate, ms, > 0; older values are a fault. A slow compass needs a
+  /// larger limit.
   std::uint32_t heading_timeout_ms = 100;
   /// Maximum age of speed and position, ms, > 0. The default permits two missing fixes of a 5 Hz
   /// GPS.
   std::uint32_t speed_timeout_ms = 600;
-  /// Maximum age of the last command, ms, > 0; when it is exceeded, the motors stop. An unreliable
-  /// radio link needs a larger value.
+  /// Maximum age of the last command, ms, > 0. If it is exceeded, the motors stop. An unreliable
+  /// radio link needs a larger limit.
   std::uint32_t command_timeout_ms = 1000;
   /// Maximum time between two control steps, ms; 0: three sample times, rounded up.
   std::uint32_t step_timeout_ms = 0;
@@ -135,8 +136,8 @@ struct EmittedTable {
 inline constexpr double kUsualFixNoise_m = 1.5;
 inline constexpr double kUsualFixLatency_s = 0.2;
 
-/// Upper bound of AWMR_ON_COURSE_RAD, rad. The sketches count a vehicle as on course if its heading
-/// error is at most AWMR_ON_COURSE_RAD.
+/// Upper bound of AWMR_ON_COURSE_RAD, rad: the heading error up to which the sketches count a
+/// vehicle as on course.
 inline constexpr double kMaxOnCourse_rad = radians(45.0);
 
 /// Parameters of the firmware, in the types that the chip uses.

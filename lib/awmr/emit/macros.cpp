@@ -89,7 +89,8 @@ std::string of_mode(std::optional<YawMode> mode) {
   return mode ? fmt::format(", in {} mode", name_of(*mode)) : "";
 }
 
-/// Adds the friction widths of the modes steering and combined that are above the smallest.
+/// Adds the friction widths of the modes steering and combined. Those at the smallest possible
+/// width are left out.
 void add_friction_widths(std::vector<Macro>& macros, const ModeGains& gains,
                          const std::string& file) {
   const auto add = [&](std::string name, YawMode mode, double value, std::string_view comment,

@@ -36,8 +36,9 @@ std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle&
   return steady_rate(plant.yaw, moment_m);
 }
 
-/// Yaw moment, m, of motors that make unequal forces from equal commands: 0.08 d tau_speed, if left
-/// and right force differ by 16 % of their mean. d: half track; tau_speed: surge force.
+/// Yaw moment, m, of motors that make unequal forces from equal commands. If left and right force
+/// differ by 16 % of their mean, it is 0.08 d tau_speed, with the half track d and the surge force
+/// tau_speed.
 double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
   return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
 }

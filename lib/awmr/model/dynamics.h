@@ -40,8 +40,8 @@ struct Plant {
   /// that has no effect. 0: none, as in the paper. Estimated only in the family `dead-zone`.
   T wheel_dead_zone = T(0.0);
   /// k_e, s/m, >= 0: back-EMF, the decrease of a motor's force, divided by F_max, per m/s at its
-  /// wheel. 0: an ideal force source, as in the paper. Data sheet, or a log with driven and coasting
-  /// sections.
+  /// wheel. 0: an ideal force source, as in the paper. Data sheet, or a log with driven and
+  /// coasting sections.
   T back_emf_s_per_m = T(0.0);
   /// 1 if all four wheels are driven, as in the paper; 0 if only the front wheels are. Given.
   T rear_driven = T(1.0);

@@ -30,8 +30,8 @@ double quantile_of_exponent(const Estimate& beta) {
   return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
 }
 
-/// Computes the curve from rest to 1.05 times the fastest run, with more points at low rates, where
-/// the curve is steep.
+/// Computes the curve from rest to 1.05 times the fastest run. The curve is steep at low rates, so
+/// there are more points there.
 void add_curve(const Model& model, TrialKind kind, DrawnFit& fit) {
   const auto law = fitted_law(model, kind);
   if (!law) return;

@@ -66,7 +66,7 @@ Result<Draws> take_tuning(const Json& gains, LiveSetup& setup) {
   setup.observer_yaw_max_m = tuned.observer.yaw_max_m;
   setup.observer_surge_max = tuned.observer.surge_max;
   if (json.has("mode")) setup.context.mode = json.choice("mode", kYawModeNames);
-  // If the modes have gains of their own, those of the root are for combined mode.
+  // If the modes have gains of their own, the gains at the root are those of combined mode.
   if (json.has("modes")) setup.context.mode = YawMode::kCombined;
   take_reaching(json, tuned.heading.lambda, setup.context);
   if (auto limits = json.optional_object("limits")) {

@@ -27,7 +27,7 @@ struct ReportPage {
 Result<ReportPage> report_page(const std::filesystem::path& directory);
 
 /// Checks that the page may be written to `path`. Error (input): a file of this name exists, and
-/// its title shows that it is not a page of awmr.
+/// its title is not that of a page of awmr.
 Status check_report_page(const std::filesystem::path& path);
 
 /// File name of the Python program that draws the figures.

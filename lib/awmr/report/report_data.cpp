@@ -32,7 +32,7 @@ struct Origin {
 };
 
 /// Returns a finding if a result was made from another model or other gains than those in the
-/// directory. Empty if model and gains are the same, or if the result does not name its inputs.
+/// directory. Returns empty if they are the same, or if the result does not name its inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
   const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);

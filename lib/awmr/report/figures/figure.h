@@ -11,8 +11,8 @@
 
 namespace awmr {
 
-/// Role of a series, which determines its style in plot.py. Series are drawn in the order of the
-/// roles, so later roles are on top.
+/// Role of a series. It determines the style of the series in plot.py. Series are drawn in the
+/// order of the roles, so that later roles are on top.
 enum class Role {
   kMeasured,
   kDoubtful,  ///< measured rows with a warning

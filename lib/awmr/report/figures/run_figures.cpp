@@ -88,7 +88,8 @@ Figure figure_over_time(const ScenarioRuns& one, const char* kind, const std::st
 }
 
 /// Figure of the heading. If the scenario commands headings, all runs have the same reference and
-/// share one panel. With guidance, each run has its own reference and its own panel.
+/// share one panel. Otherwise the guidance gives each run its own reference, so each has its own
+/// panel.
 Figure heading_figure(const ScenarioRuns& one) {
   const Axis psi{"ψ", "deg"};
   std::vector<Panel> panels;

@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// Input of the interactive part: the inputs of the tuning constraints, which include the plant and
-/// the force limits of the vehicle, and a heading scenario.
+/// Input of the interactive part: the inputs of the tuning constraints (they include plant and
+/// force limits of the vehicle), and a heading scenario.
 struct LiveSetup {
   /// Inputs of the tuning constraints; `plant` is the identified plant of the model.
   ConstraintContext context;
