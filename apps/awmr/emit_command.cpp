@@ -101,9 +101,9 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
            degrees(parameters.steady_error_rad))});
 }
 
-/// Warns of a sample time that the firmware cannot use: it is shorter than the chip's longest step
-/// with the compiled parts, longer than the permitted time between two steps, or longer than half
-/// of the heading timeout.
+/// Warns of a sample time that the firmware cannot use. It may not be shorter than the chip's
+/// longest step with the compiled parts. Nor may it be longer than the permitted time between two
+/// steps, or than half of the heading timeout.
 std::vector<Finding> sample_time(double sample_time_s, const ModeGains& gains,
                                  const EmitCommand& command) {
   const double longest_step_s =

@@ -46,9 +46,9 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& val
 /// Largest random seed.
 inline constexpr std::uint64_t kAnySeed = std::numeric_limits<std::uint64_t>::max();
 
-/// Accepts a number if it is finite and from `min` to `max`, no text follows it, and it fits the
-/// type of the option: a whole number for integers, without minus sign for unsigned ones. CLI11
-/// alone would convert -1 and 10^23 to 2^64 - 1, and accept nan in every range.
+/// Accepts a finite number from `min` to `max` that no text follows. For an integer option, it must
+/// be a whole number; for an unsigned one, also without minus sign. CLI11 alone would convert -1
+/// and 10^23 to 2^64 - 1, and accept nan in every range.
 template <class Number>
 CLI::Validator within(Number min, Number max) {
   static_assert(std::is_arithmetic_v<Number>);

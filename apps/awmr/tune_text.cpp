@@ -39,10 +39,10 @@ std::string described(const std::string& name, const std::vector<ConstraintRepor
 /// objective by at least this fraction.
 constexpr double kLeastGain = 0.001;
 
-/// Describes the active constraints that keep the search from a better objective: how much a wider
-/// limit would improve the objective, the key that sets the limit, and what is limited. Constraints
-/// with less effect than kLeastGain are left out (gains.json has them). Also gives the ranges of
-/// the gains mu and mu_s in which the objective is practically the same.
+/// Describes the active constraints that keep the search from a better objective. For each, it
+/// gives the improvement by a wider limit, the key that sets the limit, and what is limited.
+/// Constraints with less effect than kLeastGain are left out (gains.json has them). Also gives the
+/// ranges of the gains mu and mu_s in which the objective is practically the same.
 std::string active_text(const Tuning& tuning) {
   constexpr std::size_t kTextIndent = 12;
   constexpr std::size_t kTextWidth = 98;
@@ -79,8 +79,8 @@ std::string open_text(const UnmodelledVariation& open) {
 }
 
 /// Describes the worst case of the heading loop in each mode: the smallest damping ratio and delay
-/// margin over the 95 % region of the model's parameters (without a covariance, for the model
-/// itself).
+/// margin. The worst case is over the 95 % region of the model's parameters; without a covariance,
+/// it is that of the model itself.
 std::string certificate_text(const Certificate& certificate) {
   std::string by_mode;
   for (const ModeCertificate& one : certificate.modes) {

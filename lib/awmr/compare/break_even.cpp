@@ -22,8 +22,8 @@ namespace awmr {
 namespace {
 
 /// Smallest scrub moment of the search, as a fraction of the largest one. The search starts with
-/// small moments, and increases them by a factor of ten at a time: runs with a larger moment need
-/// shorter integration steps, and may not be needed at all.
+/// small moments, and increases them by a factor of ten at a time. Reason: runs with a larger
+/// moment need shorter integration steps, and may not be needed at all.
 constexpr double kMin = 1e-4;
 
 /// Inputs of the break-even analysis for one scenario on the nominal model and one mode.

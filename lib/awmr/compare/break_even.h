@@ -23,9 +23,9 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const ModeGains
                                              const Comparison& comparison,
                                              const CompareOptions& options);
 
-/// True if scrub was not measured at yaw rates like those of the run: the highest yaw rate of the
-/// run is outside the measured range by more than a factor of 1.2 (kLittleFurther). False if scrub
-/// was not measured at all.
+/// True if scrub was not measured at yaw rates like those of the run. Criterion: the highest yaw
+/// rate of the run is outside the measured range by more than a factor of 1.2 (kLittleFurther).
+/// False if scrub was not measured at all.
 bool turns_at_other_rates(const BreakEven& entry);
 
 /// Returns the break-even analysis as text for a terminal. For each pair of modes, it has the

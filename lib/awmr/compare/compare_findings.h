@@ -22,8 +22,8 @@ std::vector<Finding> compare_findings(const Model& model, const std::vector<Scen
                                       const HeadingRateChoice& rate);
 
 /// Returns the warning `incomplete-if-changed` for each scenario and change (other plant, slower or
-/// faster gains) that makes a mode fail: it completes some runs without the change, and none with
-/// it.
+/// faster gains) that makes a mode fail. A mode fails if it completes some runs without the change,
+/// and none with it.
 std::vector<Finding> completion_findings(const Comparison& comparison);
 
 /// Returns the warning `beyond-trials` if a run turns faster than 1.2 times the highest yaw rate of

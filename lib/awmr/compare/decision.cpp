@@ -225,8 +225,8 @@ bool Decision::survives(const Change& change) const {
 }
 
 /// If the plants have different best modes, returns the names of trials in which the plants behave
-/// differently: differential turns, in which tyres scrub, and steering while coasting, because
-/// rolling tyres steer without thrust.
+/// differently. In differential turns, tyres scrub; while coasting, rolling tyres steer without
+/// thrust.
 std::vector<std::string_view> Decision::deciding_trials() const {
   bool differential = false;
   bool steered = false;

@@ -24,7 +24,7 @@ struct RankedMode {
   std::optional<Interval> behind_ci95;
   /// Conclusion from comparing this mode with its leader; absent for the first mode. The leader is
   /// the best mode of the same rank; for this best mode, it is the best mode of the rank above.
-  /// kRelevant: this mode has a worse score, completes significantly less often, or never completes
+  /// kRelevant: this mode has a worse score, or it completes significantly less often, or never
   /// although the leader does.
   std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the other modes of the same rank

@@ -16,7 +16,7 @@ namespace awmr {
 /// A resistance as a function of a speed >= 0: g1(u) with u in m/s, or g3(r) with r in rad/s.
 using ResistanceLaw = std::function<double(double)>;
 
-/// Returns the top speed of a table of `law`. It is a speed that the vehicle cannot reach: the
+/// Returns the top speed of a table of `law`. The vehicle cannot reach this speed. It is the
 /// smallest power of two, from 1 to 64 m/s or rad/s, at which the law is at least 1.5 times the
 /// largest force or moment (`full_scale`). 64 if the law is too small even there.
 double table_top(const ResistanceLaw& law, double full_scale);

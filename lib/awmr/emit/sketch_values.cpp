@@ -44,9 +44,9 @@ double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
 }
 
 /// Fastest steady yaw rate r that the heading law reaches at a speed, rad/s, under unfavourable
-/// conditions. They are assumed as: the yaw resistance is 1.4 times that of the model, and the
-/// forces of the motors differ by 16 %, which takes the moment 0.08 d tau_speed. Outside of the
-/// boundary layer of the law (sat = 1), r is the solution of
+/// conditions. It is assumed that the yaw resistance is 1.4 times that of the model. The forces of
+/// the motors differ by 16 %, which takes the moment 0.08 d tau_speed. Outside of the boundary
+/// layer of the law (sat = 1), r is the solution of
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
 std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
                                   double speed_mps) {

@@ -69,9 +69,9 @@ struct Gains {
   /// forward the resistance g3(w) sat((psi_d_dot + lambda e)/w) instead of g3, which jumps at rest
   /// (fed_forward()). A larger w gives less noise in the steering command. But it also gives a
   /// larger heading error at rest, which only an observer removes. With an observer, w is w0 in
-  /// every mode. Without one, it depends on `steering_share`, the share s of the yaw moment that
-  /// the steering makes: w is 0.02 for s = 0, the width of the combined mode for s = 1/2, and w0
-  /// for s = 1.
+  /// every mode. Without one, w depends on `steering_share`, the share s of the yaw moment that the
+  /// steering makes. It is 0.02 for s = 0, the width of the combined mode for s = 1/2, and w0 for s
+  /// = 1.
   T friction_width_at(const T& steering_share) const {
     const T w0 = heading.friction_width_radps;
     if (observer.is_on() || steering_share > T(0.5)) return w0;

@@ -95,9 +95,9 @@ T side_force(const Tyres<T>& tyres, const T& load, const T& along, const T& roll
   return select(slides_mps > T(0.0), T(-force), force);
 }
 
-/// Force of the ground on a wheel along its rolling direction, divided by F_max: the motor's force
-/// F' (motor_force()) minus a quarter of g1, limited by tyre friction. g1 is assumed to act in the
-/// drive, between motor and ground.
+/// Force of the ground on a wheel along its rolling direction, divided by F_max. It is the motor's
+/// force F' (motor_force()) minus a quarter of g1, limited by tyre friction. g1 is assumed to act
+/// in the drive, between motor and ground.
 ///   F'x = sat(F' - g1(w)/4, mu F'z)
 template <class T>
 T ground_force(const FourWheels<T>& p, const T& load, const T& command, const T& rolls_mps) {

@@ -16,8 +16,8 @@
 namespace awmr {
 namespace {
 
-/// Reads which form of the constraint T2 < T1 = 1/lambda was required: the strict form, T2 <
-/// margin/lambda, or the paper's form. gains.json has the limit of the strict form in both cases,
+/// Reads which form of the constraint T2 < T1 = 1/lambda was required. It is the paper's form, or
+/// the strict form T2 < margin/lambda. gains.json has the limit of the strict form in both cases,
 /// and the margin is computed from this limit.
 void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
   for (JsonObject& constraint : gains.optional_objects("constraints")) {

@@ -10,7 +10,7 @@
 namespace awmr {
 
 /// Seed of a run. Each use of random numbers, such as a sensor or a term of a disturbance, gets its
-/// own random stream from it, so that one use does not change the numbers of another.
+/// own random stream. So one use does not change the numbers of another.
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;  ///< number of the draw

@@ -172,8 +172,8 @@ Sensors read_sensors(JsonObject json) {
   return sensors;
 }
 
-/// Reads the actuators. In the file, `us_per_deg` is the change of the servo's pulse width per
-/// degree of steering, microseconds, and `step_us` the resolution of the pulse width, microseconds
+/// Reads the actuators. `us_per_deg` of the file is the change of the servo's pulse width per
+/// degree of steering, microseconds. `step_us` is the resolution of the pulse width, microseconds
 /// (0.5 for a timer of an ATmega at 2 MHz).
 Actuators read_actuators(JsonObject json) {
   Actuators actuators;

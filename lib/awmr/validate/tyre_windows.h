@@ -60,8 +60,9 @@ std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
 /// Cause of the turns in a window: different left and right wheel forces (by_sides), or the
-/// steering. At most one of the two is true. A cause is true if its commands are not near 0, and
-/// its squared yaw moment, summed over the window, is at least 3 times that of the other cause.
+/// steering. At most one of the two is true. A cause is true if two conditions hold. Its commands
+/// are not near 0. Its squared yaw moment, summed over the window, is at least 3 times that of the
+/// other cause.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;
