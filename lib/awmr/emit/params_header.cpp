@@ -133,7 +133,7 @@ Status check_reaching(const HeadingGains<double>& gains, const std::string& plac
                   gains.reaching_time_constant_s(), gains.sliding_time_constant_s(), place));
 }
 
-/// Checks F'min < F'max (wheel force) and d_max < 90 deg (steering stop), after rounding to float32.
+/// Checks, after rounding to float32: F'min < F'max (wheel force), d_max < 90 deg (steering stop).
 Status check_vehicle(const Model& model) {
   const Vehicle& vehicle = model.vehicle;
   std::vector<Fault> faults;
