@@ -68,8 +68,8 @@ void quantise(const Actuators& actuators, double force_max, SideForces<double>& 
 /// Returns the plant for integration steps of step_s seconds. Near rest, a resistance can be too
 /// steep for such steps; there, it is replaced by a straight line through the origin (chord,
 /// rest.h). The plant has no Coulomb friction, because the integration steps add it (sliding.h). On
-/// tyres, the surge resistance g1 acts at the wheels, and its chord is chosen for them, with Coulomb
-/// friction (resolved_at_rest_on_tyres()).
+/// tyres, the surge resistance g1 acts at the wheels, and its chord is chosen for them, with
+/// Coulomb friction (resolved_at_rest_on_tyres()).
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
 /// Longest RK4 step that resolves those time constants of the plant that do not depend on speed.

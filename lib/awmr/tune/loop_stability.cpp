@@ -42,7 +42,8 @@ double surge_rate(const Plant<double>& plant, double speed_mps) {
          plant.mass_norm;
 }
 
-/// The speed loop at the speed of the context, with motor lag and the latency of the measured speed.
+/// The speed loop at the speed of the context, with motor lag and the latency of the measured
+/// speed.
 SampledHeadingLoop sampled_speed_loop(const Gains<double>& gains, const ConstraintContext& context,
                                       double latency_s) {
   const double resistance_rate = surge_rate(context.plant, context.speed_mps);

@@ -11,9 +11,9 @@
 namespace awmr {
 
 /// Searches gains for each mode alone. A mode keeps the gains in `common` if its search fails, if
-/// its objective is not lower by at least 5 %, or if fewer of its runs settle. Returns all modes as one Tuning: the gains of combined mode in Tuning::gains, those of the
-/// other modes in Tuning::own; Tuning::certificate has all modes. Empty if all modes keep the gains
-/// in `common`.
+/// its objective is not lower by at least 5 %, or if fewer of its runs settle. Returns all modes as
+/// one Tuning: the gains of combined mode in Tuning::gains, those of the other modes in
+/// Tuning::own; Tuning::certificate has all modes. Empty if all modes keep the gains in `common`.
 ///
 /// `setting`: the setting in which `common` was tuned for all modes. `search`: tunes for one mode
 /// in that setting.

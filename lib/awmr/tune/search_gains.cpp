@@ -38,8 +38,8 @@ ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) 
   return setting;
 }
 
-/// The baseline of one search: the given gains for its mode (for all modes: those of combined mode),
-/// or gains by pole placement.
+/// The baseline of one search: the given gains for its mode (for all modes: those of combined
+/// mode), or gains by pole placement.
 Baseline baseline_of(const TuneOptions& options, const Gains<double>& poles) {
   if (!options.baseline) return {poles, kPolePlacement};
   const auto& [gains, source] = *options.baseline;
@@ -190,10 +190,10 @@ struct ModesAlone {
 };
 
 /// Examines gains for each mode alone in the runs of the mode: those by pole placement with wide
-/// boundary layers (with them, the objective is smaller for most vehicles), and the tuned gains made
-/// faster. With the ratio of these poles to those for all modes, they are made faster by its square
-/// root and by its fourth root. They need not meet the constraints, which the search for one mode
-/// will do.
+/// boundary layers (with them, the objective is smaller for most vehicles), and the tuned gains
+/// made faster. With the ratio of these poles to those for all modes, they are made faster by its
+/// square root and by its fourth root. They need not meet the constraints, which the search for one
+/// mode will do.
 ModesAlone modes_alone(const Searched& s) {
   constexpr double kMuchFaster = 0.75;  // of the settling time
   constexpr double kBetter = 0.97;      // of the objective

@@ -79,7 +79,8 @@ SettledGains settle(const TuneOptions& options, const ConstraintContext& context
                                  (1.0 + kIndifferent) * objective);
   std::vector<Point> reduced;
   for (const double share : kReductions) {
-    reduced.push_back(scaled(scaled(point, kHeading, share * heading.lo), kSpeed, share * speed.lo));
+    reduced.push_back(
+        scaled(scaled(point, kHeading, share * heading.lo), kSpeed, share * speed.lo));
   }
   Problem on_all(quiet, context, all);
   const auto seen = on_all.look_at(reduced);

@@ -34,8 +34,8 @@ ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, 
 
 /// Largest factor of in_more_time() that is tried.
 inline constexpr double kMostTime = 4.0;
-/// Returns the setting with the duration of its scenarios, and the time for each heading, multiplied
-/// by `factor`.
+/// Returns the setting with the duration of its scenarios, and the time for each heading,
+/// multiplied by `factor`.
 ObjectiveSetting in_more_time(ObjectiveSetting setting, double factor);
 
 /// Returns the setting with only the nominal vehicle and the first drawn vehicles.

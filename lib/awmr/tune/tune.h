@@ -96,7 +96,8 @@ struct ExaminedRange {
 };
 
 /// Reference gains of the objective: each metric of a run is divided by its value with these gains.
-/// A search for one mode uses the gains of this mode, a search for all modes those of combined mode.
+/// A search for one mode uses the gains of this mode, a search for all modes those of combined
+/// mode.
 struct Baseline {
   ModeGains gains{};
   /// kPolePlacement, kPaperSource or the file from which the gains were read.
@@ -217,14 +218,14 @@ struct TuneOptions {
   /// used if `observer` is present.
   bool adds_observer = true;
   std::vector<TuningGoal> goals = {};  ///< robust search only
-  /// false: if one mode alone may be much faster (Tuning::alone, Tuning::is_mode_better_alone), gains
-  /// are searched for each mode (with_own_gains() in own_gains.h). true: one set of gains for all
-  /// modes. Not used if `mode` is present.
+  /// false: if one mode alone may be much faster (Tuning::alone, Tuning::is_mode_better_alone),
+  /// gains are searched for each mode (with_own_gains() in own_gains.h). true: one set of gains for
+  /// all modes. Not used if `mode` is present.
   bool one_set = false;
   /// Called with the number of evaluated sets of gains and with the budget, which is
   /// global_evaluations + local_evaluations. The last stage of the search, on all draws, is not
-  /// counted. If the search is repeated with an observer (adds_observer) or for each mode (one_set),
-  /// the number begins at 0 again.
+  /// counted. If the search is repeated with an observer (adds_observer) or for each mode
+  /// (one_set), the number begins at 0 again.
   Progress progress = {};
   /// Called with the expected duration before a search of more than about 10 s, and with the reason
   /// before the search is repeated with an observer (adds_observer) or for each mode (one_set).
