@@ -1,5 +1,5 @@
-/// Functions that all commands use: for their result, their place on the command line and their
-/// output on the terminal.
+/// Functions that all commands use: to return a result with an exit code, to add the command to the
+/// command line, and to print to the terminal.
 #pragma once
 
 #include <filesystem>

@@ -168,9 +168,10 @@ class RmcReader : RmcNumberReader {
   void begin_field() {
     size_ = 0;
     if (field_ < kBeyond) ++field_;
-    // Arguments: digits before the point (for the speed at most five), decimal places, and tens of
-    // minutes and seconds (RmcNumberReader::sixties_). Forms: time hhmmss[.s*] without leap
-    // seconds, latitude ddmm.m*, longitude dddmm.m*.
+    // Arguments of begin_number() after the number: how many digits stand before the point (for the
+    // speed, at most so many), how many decimal places are used, and a mask of the digits that must
+    // be below 6, because they are tens of minutes or seconds. Formats: time hhmmss[.s*] (a leap
+    // second is refused), latitude ddmm.m*, longitude dddmm.m*.
     if (field_ == kUtc) begin_number(numbers_.utc, 6, 3, 0x14);
     if (field_ == kLat) begin_number(numbers_.lat, 4, 7, 0x04);
     if (field_ == kLon) begin_number(numbers_.lon, 5, 7, 0x08);

@@ -74,8 +74,8 @@ class PositionEstimate {
   Position<T> follow_m_ = {};            // increment of c per step
   Position<T> innovation_m_ = {};        // z, then nu
   Position<T> ring_m_[kTravelled] = {};  // D every `stride` steps
-  // Age of the fix z, s. After locate(), it is the position of z between ring elements: 0 at
-  // newer_, 1 at the element before it.
+  // Age of the fix z, s. locate() replaces it by a fraction that says where the time of z lies
+  // between two elements of the ring: 0 at newer_, 1 at the next older element.
   T age_s_ = T(0.0);
   T variance_m2_ = T(0.0);  // P: variance of o
   uint16_t steps_ = 0;      // steps since a fix was last processed

@@ -304,8 +304,9 @@ std::optional<Finding> rate_mismatch(const DrivingLog& log,
       break;
   }
   return scale_finding(log,
-                       fmt::format("{}: the scale of the gyroscope is wrong (map it with {}) or "
-                                   "that of the heading (map it with {})",
+                       fmt::format("{}, so one of them has a wrong scale: if it is the gyroscope, "
+                                   "map its column with {}; if it is the heading, map its column "
+                                   "with {}",
                                    compared, rate, heading));
 }
 

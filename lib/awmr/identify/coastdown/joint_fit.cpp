@@ -39,8 +39,9 @@ struct Rows {
   Eigen::MatrixXd coast_jacobian;  ///< columns: SharedColumns, then the initial states
 };
 
-/// Jacobians of the surge rows and of the curves with respect to the same parameters (surge law,
-/// ln m', initial states), and the covariance of these parameters.
+/// Jacobians of the residuals of the surge runs (`surge`) and of the coast-down curves (`coast`),
+/// both with respect to one parameter vector (parameters of the surge law, ln m', initial states),
+/// and the covariance of this vector.
 struct Stacked {
   Eigen::MatrixXd surge;
   Eigen::MatrixXd coast;

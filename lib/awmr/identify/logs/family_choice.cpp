@@ -133,9 +133,9 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
 Finding not_finished(const std::string& file, std::string_view before, const FamilyFit& fit) {
   return {
       file, 0, Severity::kWarning, "families-not-compared",
-      fmt::format("the search reached its limit of computation or time before {} with {}, so "
-                  "the intervals are withdrawn. Select the family ({}), or use a part of the "
-                  "logs",
+      fmt::format("the search for the resistance family reached its limit of computation or time "
+                  "before {} with {}, so no intervals are given. Select the family yourself with "
+                  "{}, or use a part of the logs",
                   before, families_in_words(fit.surge, fit.yaw), option_text("family surge=..."))};
 }
 

@@ -100,9 +100,9 @@ struct FreeQuantity {
            kind == Kind::kSteeringAsymmetry || kind == Kind::kSteeringCurve ||
            kind == Kind::kSteeringScale;
   }
-  /// True for quantities that cannot be negative: lags, delays and smoothing of sensors,
-  /// saturation, wheel slip, Stribeck friction, drag in turns, and dead band. 0 is an end of their
-  /// range.
+  /// True for quantities that can be 0 but not negative, so that an estimate can lie at the lower
+  /// end of its range: lag of the motors, delay, lag and smoothing of the sensors, saturation, wheel
+  /// slip, Stribeck friction, drag in turns, and dead band.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
            kind == Kind::kSmoothing || kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
