@@ -324,7 +324,7 @@ TEST(ModelFile, RefusesQuantitiesThatTheVehicleCannotHave) {
   for (const double times : {1e-3, 6.1, 1e4}) {
     model[ParameterId::kInertiaNorm].value = 0.1 * share * times;
     EXPECT_THAT(faults_of(read_model, model_text(model)),
-                ElementsAre(StartsWith("/inertia_norm/value: I'z/m' is ")))
+                ElementsAre(StartsWith("/inertia_norm/value: ")))
         << times;
   }
   model[ParameterId::kInertiaNorm].value = 0.1 * share;

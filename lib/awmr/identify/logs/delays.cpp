@@ -103,6 +103,22 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
+/// Smallest exponent of the yaw rate in a resistance of turns (ExtraForce::kTurnDrag). A fit with a
+/// smaller one is rejected: its resistance hardly depends on the yaw rate, so it is the Coulomb
+/// friction of the surge resistance, which another family describes.
+constexpr double kFlattestTurnDrag = 0.2;
+
+/// True if the fit has a resistance of turns that is rejected (kFlattestTurnDrag).
+bool is_turn_drag_of_any_rate(const NoiseIteration& fit) {
+  const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (quantities[i].is(ExtraForce::kTurnDragExponent)) {
+      return fit.point.coordinates[i] < kFlattestTurnDrag;
+    }
+  }
+  return false;
+}
+
 /// Candidates that are much less significant than the strongest one are not tried now, to save
 /// time. They are tested again after the best term was added.
 // Smallest significance that is tried, divided by that of the strongest candidate.
@@ -186,6 +202,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
     const bool is_sensor = more.kind == FreeQuantity::Kind::kSensorDelay;
     if (is_sensor && has_sensor) continue;
     NoiseIteration fit = tried(settled, with_companion(settled.problem, candidate_term), loss);
+    if (more.is(ExtraForce::kTurnDrag) && is_turn_drag_of_any_rate(fit)) continue;
     const double found_s = fit.point.coordinates.back();
     consider_angle_beyond_stop(settled, candidate_term, fit, loss, lowest);
     if (&candidate_term == &terms.front() && candidate_term.significance > kBeyondDoubt) {
@@ -232,11 +249,12 @@ Extended with_both_of_turning(NoiseIteration fit) {
 }
 
 /// Returns a converged fit with one more free term. Empty if no term lowers AIC enough
-/// (settled_if_better()).
+/// (settled_if_better()), or if the term is rejected (is_turn_drag_of_any_rate()).
 std::optional<NoiseIteration> with_one_more(const NoiseIteration& settled, Loss loss) {
   std::optional<NoiseIteration> more = likeliest_with_one_more(settled, loss);
   if (!more) return std::nullopt;
-  return settled_if_better(settled, with_both_of_turning(*std::move(more)), loss);
+  more = settled_if_better(settled, with_both_of_turning(*std::move(more)), loss);
+  return more && !is_turn_drag_of_any_rate(*more) ? std::move(more) : std::nullopt;
 }
 
 /// Returns a fit with one more free term: a candidate of the score tests, else a slower servo, else
