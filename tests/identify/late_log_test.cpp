@@ -788,6 +788,19 @@ INSTANTIATE_TEST_SUITE_P(Short, ForceImbalance, ::testing::Values(0.05));
 /// Long tests: a choice of the families, the other sign and a larger value.
 INSTANTIATE_TEST_SUITE_P(Long, ForceImbalance, ::testing::Values(0.05, -0.1));
 
+TEST(LargeForceImbalance, WithdrawsTheIntervals) {
+  constexpr double kImbalance = 0.3;
+  TrialData data;
+  data.logs = {precise_drive(kTruths[1])};
+  for (double& force : data.logs[0].force_left) force /= 1.0 - kImbalance;
+  for (double& force : data.logs[0].force_right) force /= 1.0 + kImbalance;
+  const auto result = identify(robot(), data, power_law(), {});
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(has_finding(*result, "force-imbalance"));
+  ASSERT_TRUE(result->model[ParameterId::kMassNorm].value);
+  EXPECT_FALSE(result->model[ParameterId::kMassNorm].ci95);
+}
+
 /// The log of a vehicle whose motors saturate: a command F' gives the force
 ///   F'/(1 + s (F'/F'm)^n)^(1/n),   s = (1 - L)^(-n) - 1
 /// F'm is the largest command, and L (`loss`) the fraction of the force that is lost at F'm. The

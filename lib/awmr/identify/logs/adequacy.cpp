@@ -142,7 +142,8 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
     adequacy.withdraws_intervals |=
         has_only_positions(noise) ||
         (noise.at(channel).overwhelms_sensor() && is_evaluated(noise, channel));
-    adequacy.withdraws_sway |= channel == LogChannel::kSway;
+    adequacy.withdraws_sway |=
+        channel == LogChannel::kSway || channel == LogChannel::kX || channel == LogChannel::kY;
     adequacy.withdraws_servo |= channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
     errors += (errors.empty() ? "" : ", ") + describe_error(channel, noise.at(channel));
   }

@@ -22,7 +22,8 @@ struct Adequacy {
   /// True: heading or yaw rate show a model error, for example play of the steering. The time
   /// constant of the servo then has no interval.
   bool withdraws_servo = false;
-  bool withdraws_sway = false;  ///< true: the measured sway speed shows a model error
+  /// True: the sway speed or the position, which determine the sway resistance, show a model error.
+  bool withdraws_sway = false;
 };
 
 /// Checks every channel of the fit `chosen` for a model error (ChannelNoise::of_the_model()). One

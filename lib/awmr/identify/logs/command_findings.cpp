@@ -269,6 +269,22 @@ std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file
   return findings;
 }
 
+/// Largest difference of left and right forces of real motors, relative to their mean.
+constexpr double kLargestMotorDifference = 0.25;
+
+/// Advice for a force imbalance. `has_trim`: the fit also has a steering trim.
+std::string imbalance_advice(double imbalance, bool has_trim) {
+  if (std::abs(imbalance) > kLargestMotorDifference) {
+    return fmt::format(
+        ". Motors rarely differ by more than {:.0f} %, so the intervals are withdrawn. Check "
+        "whether speed_mps is the speed of one wheel (use the mean of a left and a right wheel), "
+        "and the columns of the left and right forces",
+        100.0 * kLargestMotorDifference);
+  }
+  return fmt::format("; the fit compensates for this. Calibrate the motors of each side{}",
+                     has_trim ? "" : "; wheels of unequal size have the same effect");
+}
+
 /// Findings `steering-trim` and `force-imbalance` for constant errors of the commands. If the
 /// logged commands cannot separate the two errors, the fit contains only one of them.
 std::vector<Finding> constant_error_findings(const LogFit& fit, const std::string& file) {
@@ -291,12 +307,11 @@ std::vector<Finding> constant_error_findings(const LogFit& fit, const std::strin
         {file, 0, Severity::kWarning, "force-imbalance",
          fmt::format(
              "at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of both "
-             "sides; the fit compensates for this. Calibrate the motors of each side{}",
+             "sides{}",
              imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
              100.0 * imbalance.error,
-             has_kind(fit.quantities, FreeQuantity::Kind::kSteeringTrim)
-                 ? ""
-                 : "; wheels of unequal size have the same effect")});
+             imbalance_advice(imbalance.value,
+                              has_kind(fit.quantities, FreeQuantity::Kind::kSteeringTrim)))});
   }
   return findings;
 }
@@ -354,6 +369,12 @@ std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& f
 }
 
 }  // namespace
+
+bool has_implausible_imbalance(const LogFit& fit) {
+  return std::ranges::any_of(
+      found_terms(fit, FreeQuantity::Kind::kForceImbalance),
+      [](const FoundTerm& term) { return std::abs(term.value) > kLargestMotorDifference; });
+}
 
 bool saturates_much(const LogFit& fit) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {

@@ -22,4 +22,9 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
 /// of small commands wrong, and with it all other values.
 bool saturates_much(const LogFit& fit);
 
+/// True if the fit has found left and right forces that differ more from their mean than those of
+/// real motors (by more than 25 %). Another error has then probably taken this form, for example a
+/// speed that is measured at one wheel, u -+ d r; the intervals are not valid.
+bool has_implausible_imbalance(const LogFit& fit);
+
 }  // namespace awmr

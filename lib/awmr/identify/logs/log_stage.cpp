@@ -280,6 +280,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     stage.withdraws_intervals = true;
     stage.findings.push_back(impossible_servo_finding(logs.front().file));
   }
+  if (chosen.fit.usable && has_implausible_imbalance(chosen.fit)) stage.withdraws_intervals = true;
   show_step(options, "comparing the logs with each other");
   compare_parts(logs, chosen, stage);
   withdraw_by_stribeck(chosen.fit);
