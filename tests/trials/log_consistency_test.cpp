@@ -187,7 +187,7 @@ TEST(LogConsistency, AMisalignedCompassAndScalesThatAreOffAreNamed) {
     EXPECT_EQ(calibrations(wheel, "scale-mismatch", "or that of the positions"), 1) << seed;
     DrivingLog alone = sound_log(seed, {.position = false});
     scale(alone[LogChannel::kYawRate]->value, 1.1);
-    EXPECT_EQ(calibrations(alone, "scale-mismatch", "or that of the heading"), 1) << seed;
+    EXPECT_EQ(calibrations(alone, "scale-mismatch", "one of them has a wrong scale"), 1) << seed;
   }
 }
 
