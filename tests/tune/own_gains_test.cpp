@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/simulate.h"
 #include "tune/vehicles.h"
@@ -44,6 +46,14 @@ TEST(OwnGains, OfEachModeSettleASlowServosOtherModesFaster) {
   ASSERT_EQ(apart->own.size(), 2U);
   EXPECT_EQ(apart->mode, YawMode::kCombined);
   EXPECT_EQ(apart->certificate->modes.size(), 3U);
+  // In a nominal search, the objective is the geometric mean over the scenarios.
+  for (const Tuning& one : apart->own) {
+    double log_objective = 0.0;
+    for (const ModeScore& score : one.scores) log_objective += std::log(score.objective);
+    EXPECT_NEAR(std::log(one.objective), log_objective / static_cast<double>(one.scores.size()),
+                1e-12)
+        << name_of(*one.mode);
+  }
   const ModeGains gains = apart->mode_gains();
   const Scenario scenario = default_tuning_scenario(model).value();
   for (const YawMode mode : kYawModes) {

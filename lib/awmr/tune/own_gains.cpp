@@ -32,6 +32,17 @@ Tuning in_mode(Tuning tuning, YawMode mode) {
   return tuning;
 }
 
+/// Sets the objectives of `tuning`, the results for all modes, to those in the runs of one mode.
+void evaluate_in(const ObjectiveSetting& runs, const Scenario& held_out, Tuning& tuning) {
+  const Gains<double>& baseline = tuning.baseline.gains.common();
+  const Objective objective(runs, baseline);
+  tuning.objective = objective(tuning.gains).objective;
+  tuning.baseline_objective = objective.baseline().objective;
+  ObjectiveSetting elsewhere = runs;
+  elsewhere.scenarios = {held_out};
+  tuning.held_out_objective = Objective(std::move(elsewhere), baseline)(tuning.gains).objective;
+}
+
 /// True if the gains `own` are clearly better than the gains `common` in the runs of one mode.
 bool is_better(const Gains<double>& own, const Tuning& common, const ObjectiveSetting& runs) {
   const Objective objective(runs, common.baseline.gains.common());
@@ -42,16 +53,19 @@ bool is_better(const Gains<double>& own, const Tuning& common, const ObjectiveSe
 
 }  // namespace
 
-std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Tuning& common,
+std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Scenario& held_out,
+                                     const Tuning& common,
                                      const std::function<Result<Tuning>(YawMode)>& search) {
   bool is_any_better = false;
   std::vector<Tuning> all;
   std::vector<ModeCertificate> certified;
   for (const YawMode mode : setting.modes()) {
     Result<Tuning> own = search(mode);
-    const bool is_used = own && is_better(own->gains, common, runs_in(setting, {}, mode));
+    const ObjectiveSetting runs = runs_in(setting, {}, mode);
+    const bool is_used = own && is_better(own->gains, common, runs);
     is_any_better = is_any_better || is_used;
     all.push_back(is_used ? *std::move(own) : in_mode(common, mode));
+    if (!is_used) evaluate_in(runs, held_out, all.back());
     certified.push_back(all.back().certificate->modes.front());
   }
   if (!is_any_better) return std::nullopt;

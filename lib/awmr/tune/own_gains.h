@@ -16,8 +16,9 @@ namespace awmr {
 /// Tuning::own; Tuning::certificate has all modes. Empty if all modes keep the gains in `common`.
 ///
 /// `setting`: the setting in which `common` was tuned for all modes. `search`: tunes for one mode
-/// in that setting.
-std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Tuning& common,
+/// in that setting. `held_out`: a scenario that the searches do not use.
+std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Scenario& held_out,
+                                     const Tuning& common,
                                      const std::function<Result<Tuning>(YawMode)>& search);
 
 }  // namespace awmr

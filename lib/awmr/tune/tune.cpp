@@ -294,7 +294,7 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
         "one mode alone may settle much faster, so gains are also searched for each mode, which "
         "takes one to three times as long again");
   }
-  auto own = with_own_gains(problem.setting, common, [&](YawMode mode) {
+  auto own = with_own_gains(problem.setting, held_out, common, [&](YawMode mode) {
     return tune_for(mode, model, problem, options, held_out);
   });
   return own ? *std::move(own) : std::move(common);
