@@ -207,6 +207,16 @@ TEST(Families, WithFrictionInYawHaveTheFrictionWidthOfTheGains) {
             0.0625F);
   EXPECT_THAT(params_header(model, gains, paper_inputs()).value(),
               HasSubstr("#define AWMR_HEADING_COMBINED_FRICTION_WIDTH_RADPS 0.0625f"));
+
+  // With gains by mode, the header has the width of each mode.
+  Gains<double> differential = kPaperGains;
+  differential.heading.friction_width_radps = 0.3125;
+  differential.observer = {1.0, 0.1, 0.5};
+  ModeGains by_mode = gains;
+  by_mode.set(YawMode::kDifferential, differential);
+  const std::string header = params_header(model, by_mode, paper_inputs()).value();
+  EXPECT_THAT(header, HasSubstr("#define AWMR_HEADING_FRICTION_WIDTH_RADPS_DIFFERENTIAL 0.3125f"));
+  EXPECT_THAT(header, HasSubstr("#define AWMR_HEADING_FRICTION_WIDTH_RADPS_COMBINED 0.0625f"));
 }
 
 TEST(Families, WithADeadZoneAllocateWhatIsLeftBeyondIt) {

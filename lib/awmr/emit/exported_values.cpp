@@ -103,9 +103,9 @@ void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode
 
 /// Adds the gains of one mode (`mode`, which becomes part of the names), or those of all modes
 /// without gains of their own. `has_observer`: the observer is added, with zeros if these gains
-/// have none.
+/// have none. `has_widths`: the friction widths are added.
 void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool has_observer,
-                  std::vector<ExportedValue>& values) {
+                  bool has_widths, std::vector<ExportedValue>& values) {
   const auto add = [&](const char* name, double value, const char* unit, const char* meaning) {
     values.push_back(
         {.name = name + (mode ? fmt::format("_{}", name_of(*mode)) : ""),
@@ -118,7 +118,7 @@ void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool 
   add("heading_mu", gains.heading.mu, "rad/s^2", "mu: largest corrective yaw acceleration");
   add("heading_epsilon", gains.heading.epsilon, "rad/s",
       "epsilon: half width of the heading law's boundary layer");
-  add_friction_widths(gains, mode, add);
+  if (has_widths) add_friction_widths(gains, mode, add);
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
   add("speed_epsilon", gains.speed.epsilon, "m/s",
       "eps_s: half width of the speed law's boundary layer");
@@ -139,9 +139,10 @@ std::vector<ExportedValue> exported_values(const ExportSource& source) {
   export_vehicle(source.model.vehicle, values);
   if (!source.gains) return values;
   const ModeGains& gains = *source.gains;
-  export_gains(gains.common(), std::nullopt, gains.common().observer.is_on(), values);
+  export_gains(gains.common(), std::nullopt, gains.common().observer.is_on(),
+               gains.listed_modes().empty(), values);
   for (const YawMode mode : gains.listed_modes()) {
-    export_gains(gains.in(mode), mode, gains.has_observer(), values);
+    export_gains(gains.in(mode), mode, gains.has_observer(), true, values);
   }
   return values;
 }

@@ -128,7 +128,15 @@ void add_laws(std::vector<Macro>& macros, const ModeGains& gains, std::optional<
   add("AWMR_HEADING_MU", set.heading.mu, "mu, rad/s^2: corrective yaw acceleration", "/heading/mu");
   add("AWMR_HEADING_EPSILON", set.heading.epsilon,
       "epsilon, rad/s: half width of the boundary layer of S", "/heading/epsilon");
-  if (!mode) add_friction_widths(macros, gains, file);
+  if (!mode) {
+    add_friction_widths(macros, gains, file);
+  } else if (const double width_radps = set.friction_width_at(steering_share<double>(*mode));
+             width_radps > feed_forward_rest_speed<double>()) {
+    add("AWMR_HEADING_FRICTION_WIDTH_RADPS", width_radps,
+        "w0, rad/s: the fed-forward Coulomb friction is proportional to psi_d_dot + lambda e while "
+        "the magnitude of this sum is below w0",
+        "/heading/friction_width_radps");
+  }
   add("AWMR_SPEED_MU", set.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
   add("AWMR_SPEED_EPSILON", set.speed.epsilon,
       "epsilon_s, m/s: half width of the boundary layer of the speed error u_d - u",

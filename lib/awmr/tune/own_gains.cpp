@@ -66,6 +66,7 @@ std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Scen
     is_any_better = is_any_better || is_used;
     all.push_back(is_used ? *std::move(own) : in_mode(common, mode));
     if (!is_used) evaluate_in(runs, held_out, all.back());
+    if (all.back().gains.observer.is_on()) all.back().observer_added |= common.observer_added;
     certified.push_back(all.back().certificate->modes.front());
   }
   if (!is_any_better) return std::nullopt;

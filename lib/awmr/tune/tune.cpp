@@ -294,8 +294,15 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
         "one mode alone may settle much faster, so gains are also searched for each mode, which "
         "takes one to three times as long again");
   }
+  // If the gains for all modes have an observer, those of each mode need one too. Otherwise, a mode
+  // would no longer reject constant disturbances.
+  TuneOptions of_modes = options;
+  if (common.gains.observer.is_on() && !of_modes.observer) {
+    of_modes.observer.emplace();
+    AWMR_RETURN_IF_ERROR(limit_observer(problem.context, of_modes.observer));
+  }
   auto own = with_own_gains(problem.setting, held_out, common, [&](YawMode mode) {
-    return tune_for(mode, model, problem, options, held_out);
+    return tune_for(mode, model, problem, of_modes, held_out);
   });
   return own ? *std::move(own) : std::move(common);
 }

@@ -125,19 +125,24 @@ void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& 
                    degrees(certificate.damping.yaw_rate_radps))});
 }
 
-/// Adds a warning if tune() added an observer by itself.
+/// Adds a warning if tune() added an observer by itself, in one or several modes.
 void note_observer(const Tuning& tuning, std::vector<Finding>& findings) {
-  const std::string in_mode =
-      tuning.mode ? fmt::format(" in {} mode", name_of(*tuning.mode)) : std::string();
-  if (tuning.observer_added) {
-    findings.push_back(
-        {"", 0, Severity::kWarning, "observer-added",
-         fmt::format("fewer than {:g} % of the runs{} settle without a disturbance observer. An "
-                     "observer with a bandwidth of {:.3g} rad/s was therefore tuned, which the "
-                     "firmware runs{}. To tune without an observer: {}",
-                     100.0 * kSettledShare, in_mode, tuning.gains.observer.bandwidth_radps, in_mode,
-                     option_text("no_observer"))});
-  }
+  std::string bandwidths;
+  const auto add = [&bandwidths](const Tuning& one) {
+    if (!one.observer_added) return;
+    bandwidths += fmt::format("{}{:.3g} rad/s{}", bandwidths.empty() ? "" : ", ",
+                              one.gains.observer.bandwidth_radps,
+                              one.mode ? fmt::format(" in {} mode", name_of(*one.mode)) : "");
+  };
+  for (const Tuning& one : tuning.own) add(one);
+  add(tuning);
+  if (bandwidths.empty()) return;
+  findings.push_back(
+      {"", 0, Severity::kWarning, "observer-added",
+       fmt::format("fewer than {:g} % of the runs settle without a disturbance observer. An "
+                   "observer was therefore tuned, which the firmware runs (bandwidth: {}). To tune "
+                   "without an observer: {}",
+                   100.0 * kSettledShare, bandwidths, option_text("no_observer"))});
 }
 
 /// Adds a warning if no scenario has a disturbance that a requested observer could reject.
@@ -246,7 +251,6 @@ std::vector<Finding> search_findings(const Model& model, const TuneOptions& opti
   std::vector<Finding> findings = tuning.robust && !tuning.robust->evaluated.empty()
                                       ? evaluation_findings(*tuning.robust, tuning.unsettled)
                                       : nominal_findings(tuning);
-  note_observer(tuning, findings);
   note_baseline(tuning, findings);
   const auto name = [](const ModeScore& score) {
     return fmt::format("{}, {}", score.scenario, name_of(score.mode));
@@ -276,6 +280,7 @@ std::vector<Finding> tune_findings(const Model& model, const TuneOptions& option
   std::ranges::move(search_findings(model, options, tuning), std::back_inserter(findings));
   if (auto finding = missing_intervals(model)) findings.push_back(*std::move(finding));
   for (const ModeCertificate& one : tuning.certificate->modes) note_certificate(one, findings);
+  note_observer(tuning, findings);
   note_pushes(options, findings);
   note_modes(tuning, findings);
   if (const auto plant = model.plant()) {
