@@ -66,11 +66,9 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
   }
   add("half_track_m", vehicle.half_track_m, "m", "d: centre line to the middle of a wheel");
   add("wheel_force_min", vehicle.wheel_force.lo, "1",
-      "F': least force of a wheel, divided by "
-      "F_max");
+      "F': least force of a wheel, divided by F_max");
   add("wheel_force_max", vehicle.wheel_force.hi, "1",
-      "F': largest force of a wheel, divided by "
-      "F_max");
+      "F': largest force of a wheel, divided by F_max");
   if (vehicle.has_steering()) {
     add("steering_max_deg", vehicle.steering_max_deg, "deg",
         "d_max: largest steering angle to either side");

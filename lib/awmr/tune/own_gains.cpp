@@ -32,23 +32,23 @@ Tuning in_mode(Tuning tuning, YawMode mode) {
   return tuning;
 }
 
-/// Sets the objectives of `tuning`, the results for all modes, to those in the runs of one mode.
-void evaluate_in(const ObjectiveSetting& runs, const Scenario& held_out, Tuning& tuning) {
-  const Gains<double>& baseline = tuning.baseline.gains.common();
-  const Objective objective(runs, baseline);
-  tuning.objective = objective(tuning.gains).objective;
-  tuning.baseline_objective = objective.baseline().objective;
-  ObjectiveSetting elsewhere = runs;
-  elsewhere.scenarios = {held_out};
-  tuning.held_out_objective = Objective(std::move(elsewhere), baseline)(tuning.gains).objective;
+/// True if the gains `own` are clearly better than the gains `common`. `objective`: of the runs of
+/// one mode.
+bool is_better(const Gains<double>& own, const Gains<double>& common, const Objective& objective) {
+  const double limit = kWorthOwnGains * objective(common).objective;
+  const ObjectiveSetting& runs = objective.setting();
+  return objective(own).objective <= limit &&
+         settled_share(runs, own) >= settled_share(runs, common);
 }
 
-/// True if the gains `own` are clearly better than the gains `common` in the runs of one mode.
-bool is_better(const Gains<double>& own, const Tuning& common, const ObjectiveSetting& runs) {
-  const Objective objective(runs, common.baseline.gains.common());
-  const double limit = kWorthOwnGains * objective(common.gains).objective;
-  return objective(own).objective <= limit &&
-         settled_share(runs, own) >= settled_share(runs, common.gains);
+/// Sets the objectives of `tuning`, the results for all modes, to those in the runs of one mode.
+void evaluate_in(const Objective& objective, const Scenario& held_out, Tuning& tuning) {
+  tuning.objective = objective(tuning.gains).objective;
+  tuning.baseline_objective = objective.baseline().objective;
+  ObjectiveSetting elsewhere = objective.setting();
+  elsewhere.scenarios = {held_out};
+  const Objective of_held_out(std::move(elsewhere), tuning.baseline.gains.common());
+  tuning.held_out_objective = of_held_out(tuning.gains).objective;
 }
 
 }  // namespace
@@ -61,11 +61,11 @@ std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Scen
   std::vector<ModeCertificate> certified;
   for (const YawMode mode : setting.modes()) {
     Result<Tuning> own = search(mode);
-    const ObjectiveSetting runs = runs_in(setting, {}, mode);
-    const bool is_used = own && is_better(own->gains, common, runs);
+    const Objective objective(runs_in(setting, {}, mode), common.baseline.gains.common());
+    const bool is_used = own && is_better(own->gains, common.gains, objective);
     is_any_better = is_any_better || is_used;
     all.push_back(is_used ? *std::move(own) : in_mode(common, mode));
-    if (!is_used) evaluate_in(runs, held_out, all.back());
+    if (!is_used) evaluate_in(objective, held_out, all.back());
     if (all.back().gains.observer.is_on()) all.back().observer_added |= common.observer_added;
     certified.push_back(all.back().certificate->modes.front());
   }
