@@ -12,9 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Adds the fits with other formulas of the surge resistance ("families") to the reports in
-/// `adequacy`. If one of them is better than the power law, returns the advice to use it. Returns
-/// empty if the power law is the best.
+/// Adds the fits with other families (forms) of the surge resistance to the reports in `adequacy`.
+/// If one of them is better than the power law, returns the advice to use it, else empty.
 std::optional<std::string> try_alternatives(BestFamily alternatives, const FamilyFit& chosen,
                                             Adequacy& adequacy) {
   for (EstimatorReport& report : reports_of(alternatives.others, chosen)) {
@@ -28,10 +27,9 @@ std::optional<std::string> try_alternatives(BestFamily alternatives, const Famil
                      aic_lead(alternatives.best.fit, chosen.fit));
 }
 
-/// True for channels whose large drift invalidates the intervals: speed and yaw rate; the position,
-/// if there is no speed; the heading, if there is no yaw rate or if the yaw rate shows a model
-/// error too. (A drift of position or heading alone can come from the GNSS receiver or the
-/// compass.)
+/// True for a channel whose large drift makes all intervals invalid: speed, yaw rate, the position
+/// in logs without speed, and the heading in logs without a yaw rate that fits. Other drifts of
+/// position or heading do not count, because the GNSS receiver or the compass can cause them.
 bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:
@@ -47,8 +45,8 @@ bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   }
 }
 
-/// True if only positions are measured. A lasting error can then also come from a drifting receiver
-/// or from a search that ended in a wrong optimum.
+/// True if the logs measure only positions. Then every model error makes all intervals invalid: it
+/// can also come from a drifting receiver, or from a search that ended in a wrong optimum.
 bool has_only_positions(const NoiseLevels& noise) {
   return std::ranges::all_of(noise, [](const auto& channel) {
     return channel.first == LogChannel::kX || channel.first == LogChannel::kY;
@@ -61,7 +59,6 @@ bool contains(const Channels& channels, LogChannel channel) {
   return std::ranges::find(channels, channel) != channels.end();
 }
 
-/// Channels whose residuals show a model error.
 Channels inadequate_channels(const NoiseLevels& noise) {
   Channels channels;
   for (const auto& [channel, level] : noise) {
@@ -70,7 +67,6 @@ Channels inadequate_channels(const NoiseLevels& noise) {
   return channels;
 }
 
-/// Possible causes of a model error in these channels.
 std::string possible_causes(const Channels& channels) {
   std::string sway;
   if (contains(channels, LogChannel::kSway)) {

@@ -14,7 +14,7 @@ namespace awmr {
 namespace {
 
 /// Total time, s, with the motors off in which the vehicle probably still rolls: the first kRolls_s
-/// after driving. Gaps between rows of the log are not counted.
+/// seconds after driving. Gaps between rows of the log do not count.
 double coasting_s(const DrivingLog& log) {
   constexpr double kRolls_s = 3.0;
   const double gap_s = kGapSteps * log.median_step_s();
@@ -72,7 +72,6 @@ LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options) {
 }
 
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms) {
-  // Smallest estimated decrease of -2 ln L for which a fit is tried.
   constexpr double kWorthATry = 4.0;
   const auto candidate_term = std::ranges::find(candidate_terms, ParameterId::kBackEmf);
   if (candidate_term == candidate_terms.end()) return false;

@@ -3,9 +3,9 @@
 /// While the motors drive, back-EMF acts like a linear resistance, so the logs cannot separate the
 /// two. Straight ahead,
 ///     m' du/dt = n (F' - k_e u) - g1(u)
-/// n: number of driven wheels; F': force, over F_max, that the command gives one wheel at
-/// standstill; k_e in s/m. With the motors off, only g1 acts. To identify k_e, logs must contain
-/// driving and coasting.
+/// with the number n of driven wheels, the force F' (over F_max) that the command gives one wheel
+/// at standstill, and k_e in s/m. With the motors off, only the resistance g1 acts. Logs must
+/// therefore contain both driving and coasting.
 #pragma once
 
 #include <string>
@@ -16,8 +16,8 @@
 namespace awmr {
 
 /// Returns the reason why these logs cannot separate k_e from the resistance. Empty if all logs
-/// together have at least 1 s of coasting (both forces 0). Coasting counts only in the first 3 s
-/// after driving, because the vehicle may stand still later.
+/// together contain at least 1 s of coasting (both forces 0). Only the first 3 s after driving
+/// count as coasting, because the vehicle may stand still later.
 std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 
 /// Returns the options with k_e as an estimated parameter, and with an initial guess of k_e if
@@ -28,20 +28,21 @@ LogFitOptions with_back_emf(LogFitOptions options);
 LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options);
 
 /// True if a further fit should also estimate k_e, for one of these reasons:
-///   - The score test of k_e (score_test.h) predicts that -2 ln L decreases by more than 4.
+///   - The score test of k_e (score_test.h) predicts that -2 ln L decreases by more than 4. Noise
+///     alone   gives such a prediction in 5 % of fits.
 ///   - A channel has a slow drift, which may hide the effect of k_e.
 ///   - `fit` did not converge.
 ///
-/// False if k_e is not in `candidate_terms`, the terms that `fit` tested.
+/// False if k_e is not one of `candidate_terms`, the terms that `fit` tested.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
-/// True if `with`, the fit that estimates k_e, is better than `without`. It must identify k_e, and
-/// its AIC must be lower by more than kFamilyAicThreshold. False if a channel of `with` has too
-/// large a drift (ChannelNoise::overwhelms_sensor()): another model error may then cause the
+/// True if `with`, the fit that estimates k_e, is better than `without`: it identifies k_e, and its
+/// AIC is lower by more than kFamilyAicThreshold. False if a channel of `with` has too large a
+/// drift (ChannelNoise::overwhelms_sensor()), because another model error may then cause the
 /// difference.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
-/// Returns the warning `back-emf`, which states that the model with k_e is used, the value of k_e,
+/// Returns the warning `back-emf`: the fit uses the model with k_e. The text has the value of k_e
 /// and the decrease of AIC.
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without);
 

@@ -17,7 +17,8 @@
 namespace awmr {
 namespace {
 
-// Significance level over all quantities together: smaller values report fewer disagreements.
+// Significance level of a disagreement, for all quantities together. A larger value would report
+// more differences that are only noise.
 constexpr double kLevel = 0.001;
 
 /// Estimates of one quantity from single logs.
@@ -35,15 +36,14 @@ std::optional<std::size_t> place_in(const LogFit& fit, const std::string& name) 
   return std::nullopt;
 }
 
-/// Adds the estimate of one log to `by_log`.
 void add(const std::string& file, double coordinate, double variance, ByLog& by_log) {
   by_log.files.push_back(file);
   by_log.coordinates.push_back(coordinate);
   by_log.weights.push_back(1.0 / variance);
 }
 
-/// Collects the estimates of the quantity `name` from the fits that identify it. `files`: the log
-/// file of each fit.
+/// Collects the estimates of the quantity `name` from the fits that identify it. `files`: log of
+/// each fit.
 ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& fits,
               const std::string& name) {
   ByLog found;
@@ -85,7 +85,7 @@ Heterogeneity heterogeneity(const ByLog& by_log) {
 
 /// Raises the standard error of quantity `i` of the common fit to `std_error`, and sets the
 /// interval by Student's t. `logs`: number of logs from which `std_error` was computed. A larger
-/// standard error of the common fit is kept, because it includes the scatter between parts of the
+/// standard error of the common fit stays, because it includes the scatter between parts of the
 /// logs.
 void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   const Eigen::Index row = eigen_index(i);
@@ -101,9 +101,8 @@ void widen(std::size_t i, double std_error, std::size_t logs, LogFit& fit) {
   parameter.ci95 = Interval{q.value(x - half), q.value(x + half)};
 }
 
-/// Selects a part of a single log: its rows from the fraction `from` to the fraction `to` of its
-/// duration. `log`: a vector with this one log. `which`: name of the part, for example "first
-/// half".
+/// Selects the rows of a single log from the fraction `from` to the fraction `to` of its duration.
+/// `log`: a vector with this one log. `which`: name of the part, for example "first half".
 LogPart part_of(const std::vector<DrivingLog>& log, double from, double to,
                 const std::string& which) {
   const std::vector<double>& t_s = log.front().t_s;
@@ -146,11 +145,10 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
 }
 
 /// Returns the delay or command error that the common fit lacks and that differs most between the
-/// logs. A score test on each log estimates every such term. Empty if no term scatters between the
-/// logs by more than three standard errors (root mean square).
-///
-/// The standard errors are those of the noise model. The scatter between blocks of a log is not
-/// used, because all blocks of a log have the same command error.
+/// logs, according to score tests on each log. Empty if the estimates of no term scatter between
+/// the logs by more than three of their standard errors (root mean square). These are the standard
+/// errors by the noise model. The scatter between blocks of a log does not count, because all
+/// blocks of a log have the same command error.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {
@@ -192,10 +190,8 @@ std::vector<LogDisagreement> disagreement_on_missing(const std::vector<DrivingLo
   return {{term->name(), p_value, by_log.files, by_log.coordinates, true}};
 }
 
-/// True if a disagreement of the logs on this term invalidates all intervals, because the other
-/// quantities absorb the effect of the term. These terms are the errors of steering and force
-/// commands (trim, dead band, asymmetry, curve, scale, imbalance, saturation, exponent) and the
-/// forces of extra_forces.h, except Stribeck friction.
+/// True if a disagreement of the logs on this term makes all intervals invalid. compare_logs()
+/// lists these terms.
 bool invalidates_all(std::string_view name) {
   constexpr std::string_view kOfCommands[] = {
       kSteeringTrimName,  kSteeringDeadBandName, kSteeringAsymmetryName, kSteeringCurveName,

@@ -26,43 +26,43 @@ struct LogDisagreement {
 /// Result of compare_logs().
 struct LogComparison {
   std::vector<LogDisagreement> disagreements;
-  /// Test of a fit of the first half of a single log on its last fifth. Present only if the fit
-  /// fails this test although the two halves of the log agree.
+  /// Test of a fit of the first half of a single log on its last fifth. Present only if the last
+  /// fifth contradicts this fit, although the two halves of the log agree.
   std::optional<HeldOut> missed;
 };
 
-/// Fits every log on its own and compares the values of each quantity. Each fit starts from the
-/// optimum of `common`, the fit of all logs together. x_l is the value (or its logarithm) from log
-/// l of L logs, and w_l = 1/var(x_l) its weight. `mean` is the weighted mean:
+/// Fits every log on its own, starting at the optimum of `common`, the fit of all logs together.
+/// Then compares the values of each quantity. x_l is the value (or its logarithm) from log l of L
+/// logs, and w_l = 1/var(x_l) its weight. `mean` is the weighted mean:
 ///
 ///     Q = sum w_l (x_l - mean)^2,   chi-squared with L - 1 degrees of freedom if the logs agree,
 ///     tau^2 = (Q - (L - 1)) / (sum w - sum w^2 / sum w)                    (DerSimonian and Laird)
 ///
-/// tau^2 is the variance between logs. The logs disagree if p < 0.001 (Bonferroni over all
-/// quantities). The standard error of the common fit is then raised to at least the standard error
-/// of the mean, which includes tau^2. The interval covers the mean over such logs, not an
-/// individual log. A quantity gets no value if its raised standard error exceeds the limit of
-/// identifiability (kUnknown in identifiability.h). Sensor biases are not compared, because they
-/// may differ between logs.
+/// tau^2 is the variance between logs. The logs disagree on a quantity if p < 0.001 divided by the
+/// number of quantities (Bonferroni). The standard error of the common fit is then raised to at
+/// least that of the mean, which includes tau^2. The interval then covers the mean over such logs,
+/// not an individual log. A quantity gets no value if its raised standard error exceeds kUnknown
+/// (identifiability.h). Sensor biases are not compared, because they may differ between logs.
 ///
-/// The common fit may lack a delay or command error that differs between the logs, for example a
-/// steering trim that was changed between two logs. A score test (score_test.h) therefore estimates
-/// each such term from every log. If the estimates of a term differ between the logs by more than
-/// three standard errors, the term with the largest difference is fitted to each log.
+/// The common fit may lack a delay or command error that differs between the logs, for example
+/// because someone changed the steering trim. A score test (score_test.h) therefore estimates each
+/// missing term from every log, without a new fit. If the estimates of a term differ by more than
+/// three standard errors, every log is fitted with this term (with the term that differs most, if
+/// there are several).
 ///
-/// If several logs disagree on one of the following terms, all intervals of the common fit are
+/// A disagreement of several logs on one of these terms makes all intervals of the common fit
 /// invalid, because the other quantities absorb the effect of the term:
 ///   - the term that was fitted in addition;
-///   - errors of the commands in the common fit: steering trim, dead band and asymmetry of the
-///     steering, force imbalance, saturation and exponent of the forces;
+///   - errors of the commands in the common fit: trim, dead band, asymmetry, curve and scale of the
+///     steering; imbalance, saturation and exponent of the forces;
 ///   - forces of extra_forces.h in the common fit, except Stribeck friction.
 ///
 /// A single log of 20 s or more is tested by its parts: a fit of its first half predicts its second
 /// half and its last fifth (held_out.h). If both predictions are accepted (p > 0.05), there is no
-/// disagreement. Otherwise the quantities of the common fit are compared between the halves as
-/// between two logs, without a search for missing terms; a disagreement does not make other
-/// intervals invalid. If the halves agree, but the prediction of the last fifth is rejected (p <
-/// 0.001), the result of that prediction is returned as `missed`.
+/// disagreement. Otherwise the halves are compared like two logs, with two differences: there is no
+/// search for missing terms, and a disagreement makes no other interval invalid. If the halves
+/// agree, but the prediction of the last fifth is rejected (p < 0.001), `missed` contains its
+/// result.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

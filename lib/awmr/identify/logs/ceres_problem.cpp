@@ -22,8 +22,8 @@ double prior_residual(const LogProblem& problem, std::size_t i, double x) {
   return (x - problem.initial[i]) / prior_std(problem, i);
 }
 
-/// Work (Effort) of one evaluation of all windows with derivatives: integration steps times the
-/// number of integrated values per step.
+/// Work (Effort) of one evaluation of all windows with derivatives: number of integration steps
+/// times the number of values that each step integrates.
 std::int64_t numbers_integrated(const LogProblem& problem) {
   double numbers = 0.0;
   for (const FitWindow& window : problem.windows) {
@@ -39,12 +39,12 @@ std::int64_t numbers_integrated(const LogProblem& problem) {
 }
 
 /// Computes the residuals and derivatives of all windows in parallel at each new point, before
-/// Ceres requests those of the first window. Derivatives are always computed, because they take
-/// little more time than the residuals.
+/// Ceres requests those of the first window. Derivatives are always computed: they take little more
+/// time than the residuals.
 ///
-/// A coordinate is fixed while it is at its bound and the cost decreases towards values beyond the
-/// bound. To fix it, the derivatives with respect to it are set to 0. (Ceres would instead cut the
-/// step at the bound, which makes the step of the other coordinates wrong.)
+/// If a coordinate is at its bound and the cost decreases towards values beyond the bound, this
+/// class fixes the coordinate: it sets the derivatives with respect to it to 0. (Ceres would
+/// instead cut the step at the bound, and the step of the other coordinates would then be wrong.)
 class Evaluator : public ceres::EvaluationCallback {
  public:
   Evaluator(const LogProblem& problem, const SearchPoint& point)
@@ -92,9 +92,9 @@ class Evaluator : public ceres::EvaluationCallback {
   std::vector<bool> held_;  ///< one per coordinate: true if it is fixed at its bound
 };
 
-/// Cost function of one window for Ceres. It passes on the residuals and the Jacobian that
-/// Evaluator has computed and reduced to a triangular matrix. Parameter blocks: the coordinates,
-/// and the initial state of the window.
+/// Cost function of one window for Ceres, with the residuals and the Jacobian that Evaluator has
+/// computed and reduced to a triangular matrix. Parameter blocks: the coordinates, and the initial
+/// state of the window.
 class WindowCost : public ceres::CostFunction {
  public:
   WindowCost(const Evaluator& evaluator, std::size_t window)
@@ -186,13 +186,13 @@ ceres::Solver::Options solver_options(double function_tolerance) {
   return options;
 }
 
-/// Ends a search that makes no progress. This is the case if one of two conditions holds:
+/// Ends a search that makes no progress, which is so in two cases:
 ///   - Two steps in a row fail, each with a predicted decrease of -ln L below 0.05. Such a decrease
-///     corresponds to less than a third of a standard error. On this scale the cost is rough,
-///     because Runge-Kutta steps cross the kink of the resistance wherever the speed or the yaw
-///     rate changes its sign. Smaller steps would only find local minima.
+///     changes an estimate by less than a third of a standard error. The cost is rough on this
+///     scale,   because Runge-Kutta steps cross the kink of the resistance where speed or yaw rate
+///     changes its   sign. Further steps would only find local minima.
 ///   - Eight steps together decrease -ln L by less than 0.01. The search then creeps along a
-///     direction that the logs do not determine.
+///     direction   that the logs do not determine.
 class EndWithoutProgress : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) final {
@@ -213,8 +213,8 @@ class EndWithoutProgress : public ceres::IterationCallback {
  private:
   static constexpr std::size_t kSteps = 8;
 
-  /// Adds the lowest cost so far to the list, after a step with this cost. For a failed step,
-  /// `cost` is the cost of the rejected point.
+  /// Appends the lowest cost so far. `cost`: cost after the last step; after a failed step, that of
+  /// the rejected point.
   void add(double cost) {
     lowest_.push_back(lowest_.empty() ? cost : std::min(lowest_.back(), cost));
   }
@@ -229,9 +229,8 @@ class EndWithoutProgress : public ceres::IterationCallback {
   std::string reason_;
 };
 
-/// Ends a search when the work of all searches reaches its limit (Effort). Used only for searches
-/// that run one after the other. In parallel searches, the end would depend on the number of
-/// threads.
+/// Ends a search when the work of all searches reaches its limit (Effort). Parallel searches do not
+/// use it, because their end would then depend on the number of threads.
 class EndAtLimit : public ceres::IterationCallback {
  public:
   explicit EndAtLimit(const LogProblem& problem) : problem_(problem) {}
@@ -277,8 +276,8 @@ Solved search_from(const LogProblem& problem, SearchPoint from, double function_
   problem_options.evaluation_callback = &evaluator;
   ceres::Problem search(problem_options);
   double* const coordinates = point.coordinates.data();
-  // Ceres eliminates the initial states in the order of their addresses. In one vector this is the
-  // order of the windows, so that runs are reproducible.
+  // Ceres eliminates the initial states in the order of their addresses. All of them are in one
+  // vector, so this is the order of the windows in every run, and results are reproducible.
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t i = 0; i < problem.windows.size(); ++i) {
     double* const initial_state = point.initial_states.data() + i * problem.model.initial.size();

@@ -17,11 +17,11 @@ struct Solved {
   std::string stop_reason;
 };
 
-/// Minimises the cost by Levenberg-Marquardt steps within the bounds, starting at `from`. The
-/// initial states of the windows are eliminated from the linear system of each step. The search
-/// converges when a step changes the cost by less than `function_tolerance` (relative), or when it
-/// makes no more progress (EndWithoutProgress in ceres_problem.cpp). It ends without convergence
-/// after 60 steps, at the limit of work (Effort) or at the deadline.
+/// Minimises the cost by Levenberg-Marquardt steps within the bounds, starting at `from`. Each step
+/// eliminates the initial states of the windows from its linear system. The search converges when a
+/// step changes the cost by less than `function_tolerance` (relative), or when further steps would
+/// not help (EndWithoutProgress in ceres_problem.cpp). It ends without convergence after 60 steps,
+/// at the limit of work (Effort) or at the deadline.
 Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance);
 
 }  // namespace awmr

@@ -27,8 +27,8 @@ Finding changes_between_rows_finding(const std::string& file) {
           "when it is sent"};
 }
 
-/// Prediction by one Gauss-Newton step of all coordinates and initial states: the cost, and the
-/// times at which commands change.
+/// Result that one Gauss-Newton step of all coordinates and initial states predicts: the cost, and
+/// the times at which commands change.
 struct Predicted {
   double squares = 0.0;              ///< twice the predicted cost
   std::vector<double> change_times;  ///< WindowErrors::change_times
@@ -61,7 +61,6 @@ Predicted predicted(const std::vector<WindowSums>& sums, const Eigen::VectorXd& 
   return result;
 }
 
-/// Comparison of uncertain times of the changes with times at the rows.
 struct UncertainTimes {
   bool are_likelier = false;
   std::vector<double> standardised;  ///< WindowErrors::change_times
@@ -102,18 +101,18 @@ UncertainTimes uncertain_times(const LogProblem& problem, const SearchPoint& poi
   return {lead > threshold, between.change_times};
 }
 
-/// Options of a fit with uncertain times of the changes. It begins at the stopped fit `at_rows`,
-/// with its back-EMF and with a motor lag above `step_s`, the row spacing. Delays and shorter lags
-/// of `at_rows` are left out, because wrong times of the changes can cause them. The terms of its
-/// families are left out, too: the new fit begins with the families of `power_law`.
+/// Options of a fit with unknown times of the changes. The fit begins at the stopped fit `at_rows`,
+/// with its back-EMF, and with its motor lag if that is above `step_s`, the row spacing. Wrong
+/// times of the changes can cause delays and shorter lags, so those of `at_rows` are left out. The
+/// terms of its families are left out, too: the new fit begins with the families of `power_law`.
 LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_law,
                            double step_s) {
   LogFitOptions from = with_back_emf_as_in(at_rows, power_law);
   from.initial_guess = fitted_values(at_rows.options, at_rows.fit);
   from.guessed.clear();
   reset_terms(from.free, power_law.initial_guess, from.initial_guess);
-  // With wrong times of the changes, the time constant of the servo can become almost 0. A search
-  // that begins there would not leave it.
+  // With wrong times of the changes, the fitted time constant of the servo can be almost 0. A
+  // search that begins there would stay there.
   constexpr std::size_t kServo = at(ParameterId::kSteeringTimeConstant);
   from.initial_guess[kServo] = power_law.initial_guess[kServo];
   const std::vector<FreeQuantity>& quantities = at_rows.fit.quantities;
@@ -158,8 +157,8 @@ bool are_times_between_rows(const std::vector<double>& times) {
 
 FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const IdentifyOptions& options) {
-  // Share of the remaining work (Effort) for the fit with uncertain times: a third. Enough work is
-  // left for the other fits if its result is rejected.
+  // A third of the remaining work (Effort) is for the fit with unknown times. The rest is enough
+  // for the other fits if this one is rejected.
   constexpr std::int64_t kEffortShare = 3;
   LogFitOptions tests = power_law;
   tests.tests_changes = std::ranges::none_of(logs, [](const DrivingLog& log) {

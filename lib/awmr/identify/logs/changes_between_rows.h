@@ -11,19 +11,19 @@
 
 namespace awmr {
 
-/// True if the commands probably change between rows. Compares two assumptions: every change has an
-/// unknown time before its row (changes_before_rows()), or every change is exactly at its row. With
-/// unknown times, -2 ln L (integrated over the times) has to be lower by more than 20 plus 2 per
-/// change, and the likeliest times have to pass are_times_between_rows(). All quantities of the fit
-/// and all terms of further_terms() are free, so that a delay or lag is not mistaken for such
-/// changes. `point`: solution of `problem`. `candidate_terms`: further free parameters
-/// (LogFitOptions::candidate_terms).
+/// True if the commands probably change between rows. Compares two assumptions: every change
+/// happened at an unknown time before its row (changes_before_rows()), or exactly at its row. With
+/// unknown times, -2 ln L (integrated over the times) has to be lower by more than 20, plus 2 for
+/// each change. The likeliest times also have to pass are_times_between_rows(). All quantities of
+/// the fit and all terms of further_terms() are free in both cases, so that a delay or lag does not
+/// look like such changes. `point`: solution of `problem`. `candidate_terms`: further free
+/// parameters (LogFitOptions::candidate_terms).
 bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& point,
                               const std::vector<ParameterId>& candidate_terms);
 
-/// True if the likeliest times of the changes scatter like times between two rows. A larger scatter
-/// is the effect of another error of the model. `times`: likeliest minus expected times, in
-/// standard deviations (LogFit::change_times).
+/// True if the likeliest times of the changes scatter no more than times between two rows do. A
+/// larger scatter means that another error of the model moves them. `times`: likeliest minus
+/// expected times, in standard deviations (LogFit::change_times).
 bool are_times_between_rows(const std::vector<double>& times);
 
 /// First fit, and the logs as this fit used them: with commands that change at the rows, or at
@@ -35,9 +35,8 @@ struct FirstFit {
 };
 
 /// Makes the first fit. If the commands probably change between the rows, first fits the logs with
-/// uncertain times of the changes. This fit is used if the times pass are_times_between_rows() and
-/// AIC is low enough: lower by more than kFamilyAicThreshold than with changes at the rows and the
-/// same terms.
+/// unknown times of the changes. Uses this fit if its times pass are_times_between_rows() and its
+/// AIC is lower by more than kFamilyAicThreshold than with changes at the rows and the same terms.
 FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const IdentifyOptions& options);
 

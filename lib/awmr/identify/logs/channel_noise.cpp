@@ -30,8 +30,8 @@ void add_second_differences(const std::vector<double>& values, Roughness& roughn
   }
 }
 
-/// Sums over the innovations nu_k with the variances S_k: sum nu_k^2/S_k, sum ln S_k and their
-/// count.
+/// Sums over the innovations nu_k with the variances S_k: sum nu_k^2/S_k, sum ln S_k, and their
+/// number.
 struct InnovationSums {
   double squares = 0.0;
   double log_variances = 0.0;
@@ -82,9 +82,9 @@ ChannelNoise unit_noise(double logit, double correlation_s) {
           .correlation_s = correlation_s};
 }
 
-/// Selects the errors from which a channel's drift is estimated, to save time: 20 000 to 30 000 of
-/// them, in whole windows spread over the logs. Returns all errors if there are fewer than 40 000.
-/// (20 000 errors determine the standard deviations to 1 %.)
+/// Selects 20 000 to 30 000 errors, in whole windows spread over the logs, from which the drift of
+/// a channel is estimated. This saves time, and 20 000 errors determine the standard deviations to
+/// 1 %. Returns all errors if there are fewer than 40 000.
 std::vector<ErrorSeries> some_of(std::span<const ErrorSeries> series) {
   constexpr std::size_t kEnough = 20'000;
   std::size_t total = 0;
@@ -116,8 +116,8 @@ struct NoiseCandidate {
   }
 };
 
-/// Returns the noise model with a first-order drift of the given correlation time. The drift has
-/// the share of the variance that is most likely for these errors.
+/// Returns the noise model with a first-order drift of the given correlation time. The drift's
+/// share of the variance is the one that makes these errors most likely.
 NoiseCandidate likeliest_share(std::span<const ErrorSeries> series, double correlation_s) {
   constexpr int kBits = 10;
   std::uintmax_t evaluations = 24;
@@ -129,10 +129,10 @@ NoiseCandidate likeliest_share(std::span<const ErrorSeries> series, double corre
   return {unit_noise(logit, correlation_s), least};
 }
 
-/// Returns the most likely first-order drift, with a correlation time from half the sample interval
-/// to the length of a window. The search evaluates a coarse grid of correlation times, then refines
-/// the best one. It skips the refinement if the best drift of the grid is hardly better than no
-/// drift. `white_cost`: cost without a drift.
+/// Returns the most likely first-order drift. The search evaluates a coarse grid of correlation
+/// times, from half the sample interval to the length of a window, then refines the best one. It
+/// skips the refinement if the best drift of the grid is hardly better than no drift. `white_cost`:
+/// cost without a drift.
 NoiseCandidate likeliest_drift(std::span<const ErrorSeries> series, double step_s,
                                double white_cost) {
   // The best drift of the grid is refined only if it lowers -2 ln L by more than this.
@@ -174,8 +174,8 @@ struct SecondOrder {
     ChannelNoise unit = unit_noise(logit, 0.0);
     unit.frequency_radps = std::exp(log_radps);
     unit.damping = std::exp(log_damping);
-    // Decay time of the drift. For zeta > 1, the drift is a sum of two exponentials, and this is
-    // the decay time of the slower one.
+    // Decay time of the drift. For zeta > 1, the drift is a sum of two exponentials, and the slower
+    // one counts.
     const double over = std::sqrt(std::max(0.0, unit.damping * unit.damping - 1.0));
     unit.correlation_s = 1.0 / (unit.frequency_radps * (unit.damping - over));
     return unit;
@@ -199,8 +199,7 @@ NoiseCandidate as_drift(std::span<const ErrorSeries> series, const SecondOrder& 
   return {noise, likelihood(series, noise).cost};
 }
 
-/// Returns the most likely point of a coarse grid of frequencies and of the drift's shares of the
-/// variance.
+/// Returns the most likely point of a coarse grid of frequencies and of shares of the variance.
 SecondOrder likeliest_of_grid(std::span<const ErrorSeries> series, const SecondOrderRange& range) {
   constexpr int kFrequencies = 8;
   SecondOrder best;
@@ -233,8 +232,8 @@ double second_order_cost(unsigned, const double* x, double*, void* data) {
   return drift.cost;
 }
 
-/// Nelder-Mead search from the point `from` [NLopt, LN_NELDERMEAD]. Returns the best point found
-/// even if the search fails: the caller compares this point with the other noise models.
+/// Nelder-Mead search from the point `from` [NLopt, LN_NELDERMEAD]. Returns the best point so far
+/// even if the search fails, because the caller compares this point with the other noise models.
 NoiseCandidate likeliest_from(std::span<const ErrorSeries> series, const SecondOrder& from,
                               const SecondOrderRange& range) {
   constexpr int kMaxEvaluations = 150;
@@ -271,7 +270,6 @@ NoiseCandidate likeliest_second_order(std::span<const ErrorSeries> series, doubl
                         range);
 }
 
-/// Most likely differenced noise.
 NoiseCandidate likeliest_difference(std::span<const ErrorSeries> series) {
   constexpr int kBits = 10;
   constexpr double kMaxTheta = 0.9999;

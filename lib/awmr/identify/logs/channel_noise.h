@@ -10,19 +10,19 @@
 
 namespace awmr {
 
-/// The error e_k (model minus reading) of sample k at the time t_k is the sum of white noise of the
-/// sensor and a drift d. The drift is correlated in time; model errors and sensor filters cause it.
+/// The error e_k (model minus reading) of sample k at the time t_k is white noise of the sensor
+/// plus a drift d. Drift is correlated in time; model errors and sensor filters cause it.
 ///
 ///     e_k = d(t_k) + white_k,   E[white_k^2] = sigma_w^2,   E[d^2] = sigma_d^2
 ///
 ///     first order    d'  = -d/tau                          + white noise
 ///     second order   d'' = -2 zeta omega d' - omega^2 d    + white noise
 ///
-/// The second order describes a suspension, a filter or a smoothed sensor: the drift is smooth from
+/// A suspension, a filter or a smoothed sensor causes a drift of second order. It is smooth from
 /// sample to sample, and oscillates if zeta < 1.
 ///
-/// Instead of a drift, a channel can have differenced white noise. A speed that is computed from
-/// counts or positions, or a yaw rate from headings, has such noise:
+/// Instead of a drift, a channel can have differenced white noise n. Examples are a speed that a
+/// program computes from counts or positions, and a yaw rate computed from headings:
 ///
 ///     e_k = n_k - theta n_{k-1},   E[n^2] = sigma_w^2
 struct ChannelNoise {
@@ -44,25 +44,25 @@ struct ChannelNoise {
   int numbers() const {
     return drift_std > 0.0 ? (second_order() ? 4 : 3) : differenced > 0.0 ? 2 : 1;
   }
-  /// True if the drift is too large and too slow to come from a sensor filter. It is then a model
-  /// error or a drift of the sensor itself. `longest_s`: correlation time, s, that a filter rarely
-  /// reaches. With the sensor noise `sensor_std`, one of these conditions suffices:
-  ///   - drift_std is above 0.5 times the sensor noise, and the correlation time is at least
-  ///     `longest_s`;
-  ///   - drift_std is above 1.5 times the sensor noise, and the correlation time is at least half
-  ///     of `longest_s`.
+  /// True if the drift is too large and too slow to come from a sensor filter. Its cause is then a
+  /// model error, or a drift of the sensor itself. `longest_s`: correlation time, s, that a filter
+  /// rarely reaches. One of two conditions suffices:
+  ///   - The drift is above 0.5 times the sensor noise, and its correlation time is at least
+  ///     `longest_s`.
+  ///   - The drift is above 1.5 times the sensor noise, and its correlation time is at least half
+  ///     of   `longest_s`.
   bool of_the_model(double longest_s = 0.5) const {
     return (drift_std > 0.5 * sensor_std && correlation_s >= longest_s) ||
            (drift_std > 1.5 * sensor_std && correlation_s >= 0.5 * longest_s);
   }
-  /// True if of_the_model() is true and the drift is above 2.5 times the sensor noise. The model is
-  /// then inadequate.
+  /// True if of_the_model() is true and the drift is above 2.5 times the sensor noise. Intervals of
+  /// the fit are then not valid.
   bool overwhelms_sensor(double longest_s = 0.5) const {
     constexpr double kMany = 2.5;
     return of_the_model(longest_s) && drift_std > kMany * sensor_std;
   }
-  /// True if the drift is above a quarter of the sensor noise and its correlation time is above 0.2
-  /// s. The cause of such a drift may be an effect that the model does not contain.
+  /// True if the drift is above a quarter of the sensor noise, with a correlation time above 0.2 s.
+  /// Such a drift may come from an effect that the model does not contain.
   bool has_slow_drift() const { return drift_std > 0.25 * sensor_std && correlation_s > 0.2; }
 };
 
@@ -93,15 +93,16 @@ using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
 
 /// Returns the most likely noise model of these errors (maximum likelihood). Begins with white
-/// noise and makes these steps. Each step counts only if it lowers -2 ln L by more than 10:
-///   1. Add a first-order drift.
-///   2. If step 1 counts: replace the first-order drift by a second-order drift.
-///   3. Replace the result by differenced noise.
+/// noise and makes three steps. The result of a step is kept only if it lowers -2 ln L by more than
+/// 10:
+///   - Step 1 adds a first-order drift.
+///   - Step 2 replaces this drift, if step 1 kept it, by a second-order drift.
+///   - Step 3 replaces the result by differenced noise.
 ///
 /// `free_share`: degrees of freedom of the fit over the number of errors, in (0, 1]. The variances
 /// are divided by it, because a fit makes the errors smaller than the noise. `before`: noise model
 /// of the previous round of settle_noise(). The result has the sensor_std of `before`. If `before`
-/// has a second-order drift, the search of step 2 starts there.
+/// has a second-order drift, the search of step 2 starts at that drift.
 ChannelNoise likeliest_noise(std::span<const ErrorSeries> series, double free_share,
                              const ChannelNoise& before);
 

@@ -31,8 +31,9 @@ std::vector<FoundTerm> found_terms(const LogFit& fit, FreeQuantity::Kind kind) {
   return found;
 }
 
-/// Reports the fitted delay of the commands. A positive delay is a dead time, a negative one means
-/// that the time stamps of the commands are late. `with_lag`: true if a motor lag is estimated too.
+/// Reports the fitted delay of the commands. A positive delay is a dead time. A negative one means
+/// that the time stamps of the commands are late. `with_lag`: true if the fit also estimates a
+/// motor lag.
 Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::string& file) {
   if (input.value < 0.0) {
     return {file, 0, Severity::kWarning, "late-commands",
@@ -51,8 +52,8 @@ Finding dead_time_finding(const FoundTerm& input, bool with_lag, const std::stri
 }
 
 /// Reports a motor lag, a dead time or late time stamps of the commands if the fit has found them.
-/// If it has found none of these, but a latency of every measured channel (at least two), reports
-/// that actuators or commands are the likely common cause.
+/// Otherwise, if at least two channels are measured and all of them have a latency, reports that
+/// actuators or commands are the likely common cause.
 std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWhy =
       "actuator lag, command latency or a slew-rate limit. m', I'z and the sway resistance may be "
@@ -83,8 +84,8 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
-/// Finding `sensor-delay` for every sensor with an identified latency, `sensor-lag` for every
-/// identified low-pass filter, and `smoothed-channel` for every identified symmetric smoothing.
+/// Finding `sensor-delay` for every identified latency of a sensor, `sensor-lag` for every low-pass
+/// filter, and `smoothed-channel` for every symmetric smoothing.
 std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, value_s, error_s] :
@@ -124,7 +125,6 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
-/// Finding `sensor-scale` for every channel with a scale error.
 std::vector<Finding> scale_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, scale, error] : found_terms(fit, FreeQuantity::Kind::kSensorScale)) {
@@ -141,7 +141,6 @@ std::vector<Finding> scale_findings(const LogFit& fit, const std::string& file) 
   return findings;
 }
 
-/// Finding `wheel-slip` for the speed and the yaw rate, if they are measured by wheels that slip.
 std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, slip, error] : found_terms(fit, FreeQuantity::Kind::kWheelSlip)) {
@@ -159,8 +158,8 @@ std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
   return findings;
 }
 
-/// Finding `sway-sensor`, if the sensor of the sideways speed is not at the centre of gravity, or
-/// not aligned with the vehicle.
+/// Finding `sway-sensor`, if the sensor of the sideways speed is off the centre of gravity or
+/// turned.
 std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayOffset)) {
@@ -183,8 +182,8 @@ std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& 
   return findings;
 }
 
-/// Finding `steering-delay`, if the steering has a delay in addition to the servo's lag. The delay
-/// is negative if the time stamps of the steering commands are late.
+/// Finding `steering-delay`, if the steering has a delay in addition to the servo's lag. A negative
+/// delay means late time stamps of the steering commands.
 std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
@@ -285,8 +284,8 @@ std::string imbalance_advice(double imbalance, bool has_trim) {
                      has_trim ? "" : "; wheels of unequal size have the same effect");
 }
 
-/// Findings `steering-trim` and `force-imbalance` for constant errors of the commands. If the
-/// logged commands cannot separate the two errors, the fit contains only one of them.
+/// Findings `steering-trim` and `force-imbalance`. If the commands of the logs cannot separate
+/// these two constant errors, the fit contains only one of them.
 std::vector<Finding> constant_error_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
@@ -316,8 +315,8 @@ std::vector<Finding> constant_error_findings(const LogFit& fit, const std::strin
   return findings;
 }
 
-/// Largest loss of force, relative to the force without saturation, at which the forces still count
-/// as proportional to the commands.
+/// Largest loss of force, as a share of the force without saturation, at which the messages call
+/// the forces proportional to the commands.
 constexpr double kLinear = 0.05;
 
 /// Fitted sharpness n of the saturation (force_saturation()). The default if n was not fitted.

@@ -15,8 +15,8 @@ HeldCommand logged_command(const DrivingLog& log, const ActingRows& rows) {
           log.driving_steering_rad()[rows.steering]};
 }
 
-/// Applies the chain rule after a function of f replaced the force f of one side: multiplies the
-/// derivatives of f by `slope`, the derivative of that function.
+/// Multiplies the derivatives of the force f of one side by `slope`, the derivative of the function
+/// by which f was replaced (chain rule).
 void scale_derivatives(double slope, double SideForces<double>::*side, DelayedCommand& at) {
   for (SideForces<double>* const by :
        {&at.by_delay, &at.by_lag, &at.by_imbalance, &at.by_exponent}) {
@@ -121,8 +121,7 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   return at;
 }
 
-/// Switches off the motors of each side whose command is 0: sets their forces and derivatives to 0
-/// (see CommandPath::switches_off).
+/// Sets force and derivatives to 0 for each side whose command is 0 (CommandPath::switches_off).
 void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
   const auto off = [&](double SideForces<double>::*side) {
     if (command.*side != 0.0) return;
@@ -180,7 +179,6 @@ DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, d
 
 DelayedCommand command_at(const LogSignals& signals, double t_s, const CommandPath& path) {
   constexpr double kMoment_s = 1e-6;
-  // Row whose command acts at a time. If the command changes at exactly this time, the new row.
   const auto row_at = [&](double at_s) {
     return ActingRow(signals.log->t_s, at_s + 2.0 * kSameTime_s).row();
   };

@@ -1,5 +1,5 @@
-/// Path of the logged commands to the wheels: delays, motor lag and constant errors, with
-/// derivatives with respect to the free quantities of a log fit. A "column" is the index of a free
+/// Path of the logged commands to the wheels: delays, motor lag and constant errors. A log fit
+/// needs its derivatives with respect to the free quantities. A "column" is the index of a free
 /// quantity among these derivatives. Private to identify/.
 #pragma once
 
@@ -44,8 +44,8 @@ struct CommandPath {
   std::optional<OffsetColumn> steering_curve = {};
   std::optional<OffsetColumn> steering_scale = {};
   double steering_stop_rad = 1.0;  ///< d_max of the vehicle file, > 0
-  /// True: the stop limits the command, before the errors of the linkage. False: the plant limits
-  /// the angle.
+  /// True: the stop limits the command, before the errors of the linkage act. False: the plant
+  /// limits the angle.
   bool stop_limits_command = false;
   /// Steering rate limit, rad/s, instead of the vehicle file's.
   std::optional<OffsetColumn> servo_rate = {};
@@ -55,17 +55,16 @@ struct CommandPath {
   std::optional<OffsetColumn> saturation = {};  ///< share L of lost force (force_saturation())
   double full_command = 1.0;                    ///< largest command F'm (force_saturation())
   std::optional<OffsetColumn> sharpness = {};  ///< sharpness n (force_saturation()); column of ln n
-  /// True for motors with back-EMF: a motor whose command is 0 gives no force, even if the lag of
+  /// True for motors with back-EMF: a motor whose command is 0 gives no force, although the lag of
   /// earlier commands would still give one.
   bool switches_off = false;
 
-  /// Changes of the commands at uncertain times, in the order of their rows. The time of changes[i]
-  /// is the column `first_change_column` + i of the derivatives.
+  /// Changes of the commands at uncertain times, in the order of their rows. The column of the time
+  /// of changes[i] is `first_change_column` + i.
   std::span<const UncertainChange> changes = {};
   std::size_t first_change_column = 0;
 
-  /// Column of the derivatives with respect to the time at which the commands of `row` begin to
-  /// act. Empty if this time is known.
+  /// Column of the time at which the commands of `row` begin to act. Empty if this time is known.
   std::optional<std::size_t> change_column(std::size_t row) const;
   /// Column of the last of the changes up to `row`; empty if there is none.
   std::optional<std::size_t> last_change_column(std::size_t row) const;
@@ -98,7 +97,7 @@ CommandColumns columns_of(const CommandPath& path);
 /// path.
 struct DelayedCommand {
   HeldCommand command;
-  /// d force / d delay, 1/s. Set only for motors with lag. Without lag the force jumps, and
+  /// d force / d delay, 1/s. Set only for motors with lag. Without lag the force jumps; then
   /// LinearStepper::change_command() adds the derivative with respect to the delay.
   SideForces<double> by_delay{};
   SideForces<double> by_lag{};         ///< d force / d time constant of the motors, 1/s
@@ -107,7 +106,7 @@ struct DelayedCommand {
   SideForces<double> by_saturation{};  ///< d force / d L
   SideForces<double> by_sharpness{};   ///< d force / d ln n
   /// Column of the latest change of the forces, if its time is uncertain. Set only for motors with
-  /// lag. `by_delay` is used as the derivative with respect to this time: the effect of earlier
+  /// lag. The derivative with respect to this time is `by_delay`, because the effect of earlier
   /// changes is assumed to have decayed.
   std::optional<std::size_t> change_column = {};
   double steering_by_trim = 0.0;       ///< d steering / d trim: 1 with a trim in the path, else 0
@@ -141,9 +140,8 @@ struct ActingRows {
 DelayedCommand command_of_rows(const DrivingLog& log, const ActingRows& rows,
                                const CommandPath& path);
 
-/// Returns the command that reaches the wheels in the interval [t, t + h]. `rows`: the rows of the
-/// log whose commands act in this interval. If the motors have a lag, the forces are means over the
-/// interval.
+/// Returns the command that reaches the wheels in the interval [t, t + h]. `rows`: rows of the log
+/// whose commands act in this interval. With a motor lag, the forces are means over the interval.
 DelayedCommand command_over(const LogSignals& signals, const ActingRows& rows, double t_s,
                             double h_s, const CommandPath& path);
 

@@ -22,8 +22,8 @@ struct CandidateTerm {
   double significance;  ///< |value| over its standard error by the noise model
 };
 
-/// The terms whose score test gives a value of more than three standard errors, most significant
-/// first. `settled`: the converged fit without these terms (here and below).
+/// The terms to which a score test gives a value of more than three standard errors, most
+/// significant first. `settled` (here and below): the converged fit without these terms.
 std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   constexpr double kWorthATry = 3.0;
   const std::vector<FreeQuantity> channels = further_terms(settled.problem);
@@ -40,18 +40,18 @@ std::vector<CandidateTerm> candidate_terms(const NoiseIteration& settled) {
   return found;
 }
 
-/// Tries a low-pass filter in place of the delay of each channel in `lags_s`. The delay in `lags_s`
-/// is the initial guess of the time constant. `lowest` keeps the best fit so far (here and below).
-/// Four filters are tried per channel: a continuous one, one with a step per row, and two of second
-/// order. The best of them is kept only if its AIC is lower than that of the best fit so far by
-/// more than kLikelierFilter.
+/// Tries a low-pass filter in place of the delay of each channel in `lags_s`, with this delay as
+/// the initial guess of the time constant. `lowest` (here and below) keeps the best fit so far.
+/// Each channel gets four trials: a continuous filter, one with a step per row, and two of second
+/// order. The best trial is kept only if its AIC is lower than that of the best fit so far by more
+/// than kLikelierFilter.
 void consider_filters(const NoiseIteration& settled,
                       const std::vector<std::pair<LogChannel, double>>& lags_s, Loss loss,
                       LowestAic& lowest) {
   constexpr double kLikelierFilter = 10.0;
   constexpr double kButterworth = 0.70710678;
-  // If the speed is the only channel, its filter has the same effect as a motor lag. A motor lag is
-  // more common, so the filter is then not tried.
+  // If the speed is the only channel, its filter has the same effect as a motor lag, which is more
+  // common and therefore preferred.
   if (settled.problem.model.noise.size() <= 1) return;
   for (const auto& [channel, lag_s] : lags_s) {
     NoiseIteration best = tried(settled, {{sensor_lag_of(channel), lag_s}}, loss);
@@ -79,8 +79,8 @@ double fastest_of(const LogProblem& problem, LogChannel channel) {
   return largest > 0.0 ? largest : 1.0;
 }
 
-/// The candidate, followed by the terms that only make sense together with it, for example the
-/// speed scale of Stribeck friction.
+/// The candidate, followed by terms that make sense only together with it, for example the speed
+/// scale of Stribeck friction.
 std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateTerm& candidate) {
   std::vector<FreeTerm> terms{{candidate.quantity, candidate.value}};
   for (const auto& [force, channel] : {std::pair(ExtraForce::kSurgeStribeck, LogChannel::kSpeed),
@@ -103,12 +103,12 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
-/// Smallest exponent of the yaw rate in a resistance of turns (ExtraForce::kTurnDrag). A fit with a
-/// smaller one is rejected: its resistance hardly depends on the yaw rate, so it is the Coulomb
-/// friction of the surge resistance, which another family describes.
+/// Smallest accepted exponent of the yaw rate in the drag in turns (ExtraForce::kTurnDrag). With a
+/// smaller exponent, this drag hardly depends on the yaw rate. It is then Coulomb friction of the
+/// surge resistance, which a resistance family describes better.
 constexpr double kFlattestTurnDrag = 0.2;
 
-/// True if the fit has a resistance of turns that is rejected (kFlattestTurnDrag).
+/// True if the fit has a drag in turns with an exponent below kFlattestTurnDrag.
 bool is_turn_drag_of_any_rate(const NoiseIteration& fit) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -119,16 +119,15 @@ bool is_turn_drag_of_any_rate(const NoiseIteration& fit) {
   return false;
 }
 
-/// Candidates that are much less significant than the strongest one are not tried now, to save
-/// time. They are tested again after the best term was added.
-// Smallest significance that is tried, divided by that of the strongest candidate.
+/// Smallest significance of a candidate that is tried, divided by that of the strongest one. Weaker
+/// candidates wait, to save time: the search tests them again after it has added the best term.
 constexpr double kComparable = 0.2;
 constexpr double kBeyondDoubt = 20.0;
 
-/// Tries smoothing of the channels whose smoothing is a candidate term. First tries all these
-/// channels together, because one program often smooths several channels, then only the most
-/// significant channel. Each trial is made with a Gaussian kernel and with a moving average.
-/// Returns the first trial: all channels with a Gaussian kernel.
+/// Tries smoothing of the channels whose smoothing is a candidate term: of all these channels
+/// together, because one program often smooths several channels, and of only the most significant
+/// one. Makes each trial with a Gaussian kernel and with a moving average. Returns the trial of all
+/// channels with a Gaussian kernel.
 std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
                                                  const std::vector<CandidateTerm>& terms, Loss loss,
                                                  LowestAic& lowest) {
@@ -149,9 +148,8 @@ std::optional<NoiseIteration> consider_smoothing(const NoiseIteration& settled,
   return first;
 }
 
-/// Returns two terms, the slip of the speed and the slip of the yaw rate. Both have the form of
-/// `of_speed` (slip speed or slip ratio). Empty if this form of slip of the yaw rate is not a
-/// candidate.
+/// Returns slip of the speed and slip of the yaw rate, two terms with the form of `of_speed` (slip
+/// speed or slip ratio). Empty if this form of slip of the yaw rate is not a candidate.
 std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<CandidateTerm>& terms,
                                                       const CandidateTerm& of_speed) {
   const FreeQuantity yaw = wheel_slip_of(LogChannel::kYawRate, of_speed.quantity.is_ratio);
@@ -161,9 +159,9 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
   return std::vector<FreeTerm>{{of_speed.quantity, of_speed.value}, {yaw, found->value}};
 }
 
-/// Tries a motor lag in place of the fitted command delay `found_s`. First tries the lag together
-/// with a delay, which is negative if the time stamps of the commands are late. If `found_s` is
-/// positive, also tries the lag alone.
+/// Tries a motor lag in place of the fitted command delay `found_s`: first together with a delay,
+/// which is negative if the time stamps of the commands are late. If `found_s` is positive, also
+/// without.
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;
@@ -172,8 +170,8 @@ void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss
   if (found_s > 0.0) lowest.consider(tried(settled, {{motor_lag(), found_s}}, loss));
 }
 
-/// `fit` is a trial with an error of the steering linkage and a stop that limits the angle. If the
-/// logs have commands near the stop, tries the same error with a stop that limits the command.
+/// `fit` is a trial with an error of the steering linkage, in which the stop limits the angle. If
+/// the logs have commands near the stop, tries the same error with a stop that limits the command.
 void consider_angle_beyond_stop(const NoiseIteration& settled, const CandidateTerm& candidate,
                                 const NoiseIteration& fit, Loss loss, LowestAic& lowest) {
   FreeTerm term{candidate.quantity, candidate.value};
@@ -183,10 +181,10 @@ void consider_angle_beyond_stop(const NoiseIteration& settled, const CandidateTe
 }
 
 /// Makes a short fit (one round) with each candidate term, and returns the fit with the lowest AIC.
-/// If no term lowers AIC, returns the fit with the most significant candidate, provided that its
-/// score test exceeds 20 standard errors (kBeyondDoubt). Otherwise returns empty. Reason: in one
-/// round, AIC may rise even if the term has a large effect, because the drift of the noise model
-/// had absorbed this effect before.
+/// If no term lowers AIC, returns the fit with the most significant candidate if its score test
+/// exceeds 20 standard errors (kBeyondDoubt), else empty. Reason: in one round, AIC may rise
+/// although the term has a large effect, because the drift of the noise model had absorbed this
+/// effect before.
 std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& settled, Loss loss) {
   LowestAic lowest(settled);
   // Fit with the most significant candidate, if above kBeyondDoubt.
@@ -209,8 +207,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
       strongest = fit;
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
-    // The same wheel encoders often measure both speed and yaw rate, so slip of both is tried
-    // together.
+    // The same wheel encoders often measure both speed and yaw rate, so slip of both is one trial.
     if (more.kind == FreeQuantity::Kind::kWheelSlip && more.channel == LogChannel::kSpeed) {
       if (const auto both = with_slip_of_yaw(terms, candidate_term)) {
         lowest.consider(tried(settled, *both, loss));
@@ -235,9 +232,9 @@ bool is_of_turning(const FreeQuantity& q) {
          q.kind == FreeQuantity::Kind::kForceImbalance;
 }
 
-/// Makes steering trim and force imbalance free together, if one of them is free and the commands
-/// allow an estimate of both. Their effects are nearly the same, so the interval of one is valid
-/// only if the other is free too.
+/// Makes both steering trim and force imbalance free if one of them is free and the commands allow
+/// an estimate of both. Their effects are nearly the same, so the interval of one is valid only if
+/// the other is free too.
 Extended with_both_of_turning(NoiseIteration fit) {
   const std::vector<FreeQuantity>& quantities = fit.problem.model.quantities;
   std::vector<FreeQuantity> other;

@@ -19,17 +19,16 @@
 ///
 /// Driving backward, g1 is 1 + e_g times as large as forward.
 ///
-/// A dragging brake, or a wheel that is out of line, pulls a driving vehicle to one side with a
-/// yaw moment M (over F_max, m; positive to the left when driving forward):
+/// A dragging brake, or a wheel that is out of line, pulls a driving vehicle to one side by a yaw
+/// moment M (over F_max, m; positive to the left when driving forward):
 ///
 ///     r_dot += M/I'z sgn u,   near rest M/I'z u/w_0 with a small speed w_0
 ///
 /// A wheel force against the motion is 1 + e_b times its command, and a negative (backward) wheel
-/// force 1 + e_r times its command. e_b and e_r are called the excess of braking or backward
-/// forces. If the left and right commands differ in the log, "the motion" is that of the wheel's
-/// side: u - d r left, u + d r right, with half the track width d. Otherwise it is that of the
-/// vehicle, u. Near rest, the effect of e_b decreases linearly to 0 (scale_by_excess() in
-/// extra_rates.cpp).
+/// force 1 + e_r times. e_b is called the excess of braking forces, e_r that of backward forces. If
+/// left and right commands differ in the log, "the motion" is that of the wheel's side: u - d r
+/// (left) or u + d r (right), with half of the track width d. Otherwise it is that of the vehicle,
+/// u. Near rest, the effect of e_b decreases linearly to 0 (scale_by_excess() in extra_rates.cpp).
 #pragma once
 
 #include <array>
@@ -38,8 +37,8 @@
 
 namespace awmr {
 
-/// The fitted numbers of these forces (symbols: see above), in the order of kExtraForceNames
-/// (model/log_term_names.h).
+/// Numbers of these forces that a fit can estimate (symbols: see above), in the order of
+/// kExtraForceNames (model/log_term_names.h).
 enum class ExtraForce {
   kSurgeStribeck,          ///< size s of the friction of the speed, over F_max
   kSurgeStribeckSpeed,     ///< w_s, m/s
@@ -57,16 +56,14 @@ enum class ExtraForce {
 };
 inline constexpr std::size_t kExtraForceCount = 13;
 
-/// One of these numbers that the fit estimates, and the column of the derivatives with respect to
-/// it.
+/// A number that the fit estimates, and the column of the derivatives with respect to it.
 struct ExtraColumn {
   ExtraForce force;
   std::size_t column;
   double factor;  ///< d quantity / d coordinate
 };
 
-/// Values of all these numbers at one point of a search, and the columns of those that the fit
-/// estimates.
+/// Values of all numbers at one point of a search, and the columns of those that the fit estimates.
 struct ExtraForces {
   std::array<double, kExtraForceCount> values{0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0,
                                               1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
