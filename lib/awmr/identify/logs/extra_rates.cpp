@@ -38,9 +38,9 @@ ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& whe
           .by_speed = braking == wanted ? slope * e_b * pure * reverse : 0.0};
 }
 
-/// Half of the track width d, m, from which the speed u -+ d r of the motors of one side follows.
-/// Returns 0 if the left and right commands never differ, because the vehicle may then have a
-/// single motor, which turns at the speed u.
+/// Half of the track width d, m, with which the motors of one side turn at the speed u -+ d r.
+/// Returns 0 if left and right commands never differ: the vehicle may then have a single motor,
+/// which turns at the speed u.
 double motor_side_m(const LinearPlant& plant) {
   return plant.extra.has_motor_per_side ? plant.plant.half_track_m : 0.0;
 }
@@ -55,8 +55,8 @@ void add_product(double share, const Vector3& a, const Vector3& b, std::array<Ve
   }
 }
 
-/// Damping matrix D of back-EMF. A wheel rolls at the speed w = J (u, v, r), with the 1 x 3 matrix
-/// J. Its force F' acts on the vehicle as (X, Y, N) = J^T F'. Back-EMF reduces F' by k_e w, so
+/// Damping matrix D of back-EMF. A wheel rolls at the speed w = J (u, v, r), with a 1 x 3 matrix J.
+/// Its force F' acts on the vehicle as (X, Y, N) = J^T F'. Back-EMF reduces F' by k_e w, so
 ///
 ///     (X, Y, N) -= k_e D (u, v, r),   D = sum J^T J over the wheels whose motor is on
 ///     J_rear = (1, 0, -+d),   J_front = (cos d_r, sin d_r, l_f sin d_r -+ d cos d_r)
@@ -119,8 +119,8 @@ void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByFo
 namespace {
 
 /// Subtracts s (1 - exp(-(w/w_s)^2)) from the resistance g at the speed w. Reason: add_friction()
-/// adds the friction at rest, c + s (Coulomb and Stribeck), at every speed. The sum is then c + s
-/// at rest and decreases to c at high speed.
+/// adds the friction at rest, c + s (Coulomb and Stribeck), at every speed. The sum of both is c +
+/// s at rest, and decreases to c at high speed.
 template <double DrivenSlopes::*kRate>
 void subtract_stribeck(const ExtraForces& extra, ExtraForce force, ExtraForce speed, double w,
                        double per_inertia, ResistanceSlopes& g, LinearRates& out) {
@@ -137,7 +137,7 @@ void subtract_stribeck(const ExtraForces& extra, ExtraForce force, ExtraForce sp
 }
 
 /// Multiplies the surge resistance g, including its Stribeck friction, by 1 + e_g if the vehicle
-/// drives backward. The friction at rest is not part of g: add_friction() adds it.
+/// drives backward. add_friction() does the same for the friction at rest, which is not part of g.
 void add_backward_drag(const LinearPlant& plant, double u_mps, ResistanceSlopes& g,
                        LinearRates& out) {
   DrivenSlopes& by = out.by_extra[at(ExtraForce::kBackwardDrag)];

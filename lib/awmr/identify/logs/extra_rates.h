@@ -1,6 +1,6 @@
-/// Rates of change of the state due to the wheel forces, the motors' back-EMF and the forces of
-/// extra_forces.h, for linear_rates(). The wheel forces include the dead zone and the excess e_b or
-/// e_r. Private to identify/.
+/// Rates of change of the state due to wheel forces, back-EMF and the forces of extra_forces.h, for
+/// linear_rates(). The wheel forces include the dead zone and the excess e_b or e_r. Private to
+/// identify/.
 #pragma once
 
 #include "awmr/identify/logs/linear_rates.h"
@@ -14,16 +14,15 @@ struct WheelForce {
   double by_dead_zone;
 };
 
-/// Derivatives of the force of a wheel with respect to e_b, e_r (extra_forces.h) and its rolling
-/// speed.
+/// Derivatives of the force of a wheel with respect to e_b, e_r (extra_forces.h) and the speed at
+/// which the wheel rolls.
 struct ByExcess {
   double by_brake = 0.0;
   double by_reverse = 0.0;
   double by_speed = 0.0;
 };
 
-/// Forces of a left and a right wheel, with the effects of the dead zone and of e_b and e_r
-/// (extra_forces.h).
+/// Forces of a left and a right wheel. They include the dead zone and the excess e_b or e_r.
 struct Wheels {
   WheelForce left;
   WheelForce right;
@@ -31,15 +30,13 @@ struct Wheels {
   ByExcess right_excess{};
 };
 
-/// True if the motor of a wheel is on.
 inline bool is_on(const WheelForce& wheel) { return wheel.value > 0.0 || wheel.value < 0.0; }
 
-/// Computes the forces of the left and right wheels from the commands `force`, with the effects of
-/// the dead zone and of e_b and e_r (extra_forces.h).
+/// Computes the wheel forces from the commands `force`.
 Wheels wheels_of(const LinearPlant& plant, const State<double>& s, const SideForces<double>& force);
 
-/// Derivatives of u_dot, v_dot and r_dot with respect to the sum of the left and right wheel
-/// forces, and of r_dot with respect to their difference, right minus left.
+/// Derivatives of u_dot, v_dot and r_dot with respect to the sum of left and right wheel forces,
+/// and of r_dot with respect to their difference, right minus left.
 struct ByForces {
   DrivenSlopes sum;
   double difference;
@@ -52,25 +49,25 @@ struct ByForces {
   }
 };
 
-/// Adds the derivatives of the rates of the state with respect to the commands of the wheels, their
-/// dead zone, and e_b and e_r (extra_forces.h).
+/// Adds the derivatives of the rates of the state with respect to the commands of the wheels, the
+/// dead zone, e_b and e_r (extra_forces.h).
 void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByForces& forces,
                       LinearRates& out);
 
-/// Adds the effect of back-EMF to the rates. Call after the wheel forces and the resistance were
-/// added. `left_on`, `right_on`: true if the motors of that side are on. `sin_d`, `cos_d`: sine and
-/// cosine of the steering angle d_r.
+/// Adds the effect of back-EMF to the rates, after the wheel forces and the resistance were added.
+/// `left_on`, `right_on`: true if the motors of that side are on. `sin_d`, `cos_d`: sine and cosine
+/// of the steering angle d_r.
 void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on, bool right_on,
                   double sin_d, double cos_d, LinearRates& out);
 
-/// Surge resistance at the speed u. Friction at rest is left out, because add_friction() adds it.
+/// Surge resistance at the speed u, without friction at rest, which add_friction() adds.
 ResistanceSlopes surge_resistance(const LinearPlant& plant, double u_mps, LinearRates& out);
 
-/// Yaw resistance at the yaw rate r. Friction at rest is left out, because add_friction() adds it.
+/// Yaw resistance at the yaw rate r, without friction at rest, which add_friction() adds.
 ResistanceSlopes yaw_resistance(const LinearPlant& plant, double r_radps, LinearRates& out);
 
-/// Additional surge resistance in turns, k |r|^p |u|^q sgn u, over F_max, with its derivatives with
-/// respect to the speed u, the yaw rate r and the fitted numbers k, p and q.
+/// Drag in turns, k |r|^p |u|^q sgn u, over F_max. It has derivatives with respect to the speed u,
+/// the yaw rate r and the fitted numbers k, p and q.
 struct TurnDrag {
   double value = 0.0;
   double by_speed = 0.0;
@@ -84,11 +81,10 @@ struct TurnDrag {
 /// derivatives treat the speed at which this line ends as constant.
 TurnDrag turn_drag(const LinearPlant& plant, const State<double>& s);
 
-/// Adds the derivatives of u_dot with respect to the parameters of the drag in turns.
 void add_turn_drag(const TurnDrag& drag, double per_mass, LinearRates& out);
 
-/// Adds the yaw moment of a side pull to r_dot. Call it before the derivative of r_dot by I'z is
-/// computed from r_dot.
+/// Adds the yaw moment of a side pull to r_dot. Call it before the derivative of r_dot with respect
+/// to I'z is computed from r_dot.
 void add_side_pull(const LinearPlant& plant, double u_mps, LinearRates& out);
 
 /// Adds the acceleration due to the slope of the ground.

@@ -23,8 +23,8 @@ bool is_of_yaw(ParameterId term) {
   return term == ParameterId::kYawCoulomb || term == ParameterId::kYawQuadratic;
 }
 
-/// Largest decrease of -2 ln L that a score test predicts for adding one term to the resistance of
-/// an axis (yaw if `of_yaw`, else surge). Returns 0 if no such term was tested.
+/// Largest decrease of -2 ln L that a score test predicts for one more term in the resistance of an
+/// axis (yaw if `of_yaw`, else surge). 0 if no such term was tested.
 double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate_terms,
                     bool of_yaw) {
   double most = 0.0;
@@ -36,10 +36,10 @@ double largest_gain(const LogFit& fit, const std::vector<ParameterId>& candidate
   return most;
 }
 
-/// True if another resistance family with more terms may be better. One of these reasons suffices:
-/// the score test of a term predicts a large decrease of -2 ln L; the errors have a slow drift,
-/// which can hide the effect of a missing term; `fit` did not converge. `of_yaw`: true for terms of
-/// yaw, false for terms of surge.
+/// True if a resistance family with more terms may be better. One of these reasons suffices: the
+/// score test of a term predicts a large decrease of -2 ln L; the errors have a slow drift, which
+/// can hide the effect of a missing term; `fit` did not converge. `of_yaw`: true for terms of yaw,
+/// false for surge.
 bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_terms, bool of_yaw) {
   constexpr double kWorthATry = 4.0;  // smallest predicted decrease of -2 ln L that is worth a fit
   if (!fit.usable || largest_gain(fit, candidate_terms, of_yaw) > kWorthATry) return true;
@@ -51,8 +51,7 @@ bool suspicious(const LogFit& fit, const std::vector<ParameterId>& candidate_ter
                 : drifts(LogChannel::kSpeed) || drifts(LogChannel::kX);
 }
 
-/// The name of the parameter that differs most between two fits, and the difference in standard
-/// errors.
+/// Name of the parameter that differs most between two fits, and the difference in standard errors.
 std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit& b) {
   std::pair<double, std::string> largest{0.0, ""};
   for (std::size_t i = 0; i < a.quantities.size(); ++i) {
@@ -68,7 +67,7 @@ std::pair<double, std::string> largest_difference(const LogFit& a, const LogFit&
 }
 
 /// Returns the best of the fits that have a power law on one axis (yaw if `of_yaw`, else surge). If
-/// all of them gave up early, the best is the one with the smallest error. Null if there is no such
+/// all of them gave up early, this is the fit with the smallest error. Null if there is no such
 /// fit.
 const FamilyFit* with_power_law(const std::vector<FamilyFit>& fits, bool of_yaw) {
   const FamilyFit* best = nullptr;
@@ -108,9 +107,9 @@ std::optional<Finding> power_law_inadequate(const std::string& file, const BestF
                              fmt::join(reasons, "; "))};
 }
 
-/// The finding `family-undecided`, if two conditions hold: the AIC of the alternative is lower than
-/// that of the selected family, but not significantly, and a parameter differs between the two by
-/// more than two standard errors.
+/// The finding `family-undecided`. It needs two conditions: the AIC of the alternative is lower
+/// than that of the selected family, but not significantly, and a parameter differs between the two
+/// fits by more than two standard errors.
 std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                                  const FamilyFit& alternative) {
   constexpr double kApart = 2.0;
@@ -128,8 +127,8 @@ std::optional<Finding> undecided(const std::string& file, const FamilyFit& best,
                              apart, families_in_words(best.surge, best.yaw))};
 }
 
-/// The finding of a search that reached its limit. `before`: steps that the search did not reach,
-/// with the families of `fit`.
+/// The finding of a search that reached its limit of work or time. `before`: step that it did not
+/// reach, in words. `fit`: the best fit so far.
 Finding not_finished(const std::string& file, std::string_view before, const FamilyFit& fit) {
   return {
       file, 0, Severity::kWarning, "families-not-compared",
@@ -139,16 +138,15 @@ Finding not_finished(const std::string& file, std::string_view before, const Fam
                   before, families_in_words(fit.surge, fit.yaw), option_text("family surge=..."))};
 }
 
-/// A fit is stopped early, to save time, if its LogFit::relative_error exceeds that of the best fit
+/// To save time, a fit is stopped early if its LogFit::relative_error exceeds that of the best fit
 /// by more than this factor.
 constexpr double kFarWorse = 1.5;
 
-/// Limit of LogFit::relative_error above which a fit that competes with `best` is stopped early.
 double give_up_above(const LogFit& best) { return kFarWorse * std::max(1.0, best.relative_error); }
 
-/// Index of the selected fit. This is the fit with a power law on the axis (yaw if `of_yaw`, else
-/// surge) if its AIC exceeds the lowest AIC by at most `lead`. Otherwise it is the fit with the
-/// lowest AIC.
+/// Index of the selected fit. The fit with a power law on the axis (yaw if `of_yaw`, else surge) is
+/// selected if its AIC is at most `lead` above the lowest AIC. Otherwise the fit with the lowest
+/// AIC is.
 std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lead) {
   std::size_t best = 0;
   std::optional<std::size_t> power;
@@ -160,8 +158,8 @@ std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lea
 }
 
 /// Fits the families `others` of one axis (yaw if `of_yaw`, else surge), and stores the best family
-/// in `result.best`. If another family beats the previous best one, the fit of the previous best is
-/// first repeated (searched_again()), because its search may have failed.
+/// in `result.best`. If another family is better than the previous best one, the previous best one
+/// is first fitted again (searched_again()), because its search may have failed.
 void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool of_yaw,
              const std::vector<Families>& others, double lead, BestFamily& result) {
   std::vector<FamilyFit> fits;
@@ -203,8 +201,8 @@ std::set<std::string> names_of_terms(const LogFit& fit) {
 }
 
 /// Fits Stribeck friction of one axis (yaw if `of_yaw`, else surge) together with Coulomb and
-/// linear friction. Keeps this fit if it is significantly better than `result.best`. (A score test
-/// cannot replace this fit, because a power law with Coulomb friction resembles Stribeck friction.)
+/// linear friction. Keeps this fit if it is significantly better than `result.best`. A score test
+/// could not find it, because a power law with Coulomb friction resembles Stribeck friction.
 void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                            bool of_yaw, BestFamily& result) {
   const LogFit& best = result.best.fit;
@@ -218,7 +216,7 @@ void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions po
 }
 
 /// True if the errors of the fit are hardly larger than the sensor noise (LogFit::relative_error
-/// below 1.2) and all its delays, lags and command errors are significant.
+/// below 1.2), and all its delays, lags and command errors are significant.
 bool has_right_terms(const LogFit& fit) {
   constexpr double kErrorOfSensors = 1.2;
   if (!(fit.relative_error < kErrorOfSensors)) return false;
@@ -232,10 +230,9 @@ bool has_right_terms(const LogFit& fit) {
   return true;
 }
 
-/// Searches delays, lags and command errors again for the best resistance families. Unless
-/// has_right_terms(), the search starts without any of these terms. Reason: terms that were found
-/// with other families may only have compensated for a wrong resistance. Keeps the new fit if it is
-/// better.
+/// Searches delays, lags and command errors again for the best resistance families, and keeps the
+/// new fit if it is better. Unless has_right_terms(), the search starts without any of these terms,
+/// because terms found with other families may only have compensated for a wrong resistance.
 void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         BestFamily& result) {
   FamilyFit& best = result.best;
@@ -257,13 +254,13 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
 }
 
 /// Returns the families of one axis (yaw if `of_yaw`, else surge) to compare again, and removes
-/// them from `others`. `winner`: the fit that was first selected on this axis. `best`: the fit
-/// after the family of the other axis and the delays were selected too. A family is compared again
-/// for one of two reasons:
-///   - Its AIC is close to that of `winner`: the difference is less than the amount by which the
-///     AIC of `best` is below that of `winner`.
+/// them from `others`. `winner`: the fit that was first selected on this axis. `best`: the best fit
+/// now, after the choice of the other axis and of the delays. A family is compared again for one of
+/// two reasons:
+///   - Its AIC is close to that of `winner`: it is higher by less than the AIC has decreased from
+///     `winner`   to `best`.
 ///   - Its fit had other delays, lags or command errors than `best`. With wrong terms, the AIC of
-///     the true family can be too high by any amount.
+///     the true   family can be too high by any amount.
 std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
                                        std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);
@@ -280,8 +277,7 @@ std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const 
   return again;
 }
 
-/// Calls undecided() for each axis, with the best alternative family of this axis. Returns its
-/// findings.
+/// Findings of undecided() for each axis, compared with the best alternative family of this axis.
 std::vector<Finding> undecided_axes(const std::string& file, const BestFamily& result) {
   std::vector<Finding> findings;
   for (const bool of_yaw : {false, true}) {
@@ -299,8 +295,8 @@ std::vector<Finding> undecided_axes(const std::string& file, const BestFamily& r
   return findings;
 }
 
-/// True if the families of one axis (yaw if `of_yaw`, else surge) have to be compared. `fit`: the
-/// best fit so far.
+/// True if the families of one axis (yaw if `of_yaw`, else surge) have to be compared. `fit`: best
+/// fit so far.
 bool is_contested(const LogFitOptions& power_law, const FamilyFit& fit,
                   const FamilyContest& contest, bool of_yaw) {
   if (!contest.open.has(of_yaw)) return false;
@@ -362,15 +358,15 @@ struct FamilyComparison {
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  // The axis (surge or yaw) whose score tests predict the larger improvement goes first. A wrong
-  // resistance of this axis may also cause the errors of the other one.
+  // First comes the axis (surge or yaw) for which score tests predict the larger improvement. Its
+  // wrong resistance may also cause the errors of the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};
   BestFamily& result = comparison.result;
   for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {
     // The errors of a wrong resistance of one axis can hide those of the other. After a change of
-    // one axis, the need to compare the other is therefore decided again.
+    // one axis, is_contested() therefore decides again whether to compare the other.
     if (comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;
     if (!is_contested(power_law, result.best, contest, of_yaw)) continue;
     comparison.compare(of_yaw, other_families(comparison.families(), of_yaw));

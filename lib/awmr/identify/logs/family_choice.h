@@ -1,5 +1,5 @@
-/// Selection of the resistance families of a log fit. A family is a form of the resistance law, for
-/// example a power law; surge and yaw have one each. Private to identify/.
+/// Selection of the resistance families of a log fit, one for surge and one for yaw. A family is a
+/// form of the resistance law, for example a power law. Private to identify/.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,9 @@ struct FamilyContest {
   OpenAxes open = {};  ///< axes (surge, yaw) whose family is compared; other axes keep theirs
   /// A power law is replaced only if the AIC of another family is lower by more than this.
   double lead = 0.0;
-  /// True: compares the families of an axis (surge or yaw) only for one of these reasons: a score
-  /// test (score_test.h) or a slow drift indicates a missing term; the fit did not converge; the
-  /// current family of the axis is not the power law.
+  /// True: compares the families of an axis only if there is a reason: a score test (score_test.h)
+  /// or a slow drift indicates a missing term; the fit did not converge; or the current family of
+  /// the axis is not the power law.
   bool only_candidates = true;
 };
 
@@ -26,26 +26,24 @@ struct BestFamily {
   /// Findings `power-law-inadequate`, `family-undecided` and `families-not-compared`, if they
   /// apply.
   std::vector<Finding> findings;
-  /// True: the limit of work (Effort) or time was reached before all comparisons were done.
+  /// True: the limit of work (Effort) or time was reached before all families were compared.
   bool is_out_of_time = false;
 };
 
-/// Returns the reports of the fits for /estimates of model.json. The AIC of each fit is computed
-/// under the noise model of `reference`, so that the values are comparable.
+/// Returns the reports of the fits for /estimates of model.json. All AIC are computed under the
+/// noise model of `reference`, because AIC under different noise models are not comparable.
 std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
                                         const FamilyFit& reference);
 
-/// Estimated number of families that best_family() compares with those of `first`. The actual
-/// number of fits can be larger: families with a similar AIC are fitted again, and a change of one
-/// axis can add the families of the other axis. The number is smaller if the limit of work or time
-/// is reached.
+/// Estimated number of fits of best_family(): one for each family of an axis that it compares. The
+/// actual number can be larger, because families with a similar AIC are fitted again, and a change
+/// of one axis can add the families of the other axis. It is smaller at the limit of work or time.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 
 /// Fits the resistance families one after the other and returns the best converged fit by AIC
-/// (family_score.h). Each fit starts from the best optimum so far. A family is therefore never
-/// worse than a simpler family that it contains. `first`: the fit to improve on, usually of power
-/// laws.
+/// (family_score.h). Each fit starts from the best optimum so far, so that a family is never worse
+/// than a simpler one that it contains. `first`: the fit to improve on, usually of power laws.
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest);
 

@@ -15,14 +15,12 @@
 namespace awmr {
 namespace {
 
-/// Fixes an exponent of the resistance at 1. Called for families without a free exponent.
 void hold_exponent(LogFitOptions& options, ParameterId beta) {
   std::erase(options.free, beta);
   options.initial_guess[at(beta)] = 1.0;
 }
 
-/// Makes a term free, so that the fit estimates it. Sets its initial guess to `guess` unless it
-/// already has one.
+/// Makes a term free, with the initial guess `guess` unless it already has one.
 void free_term(LogFitOptions& options, ParameterId id, double guess) {
   if (!options.frees(id)) options.free.push_back(id);
   double& value = options.initial_guess[at(id)];
@@ -46,9 +44,9 @@ LogFitOptions with_families(LogFitOptions options, Family surge_family, Family y
   return options;
 }
 
-/// Returns the options of a fit of the families `surge` and `yaw` that starts at the optimum of
-/// `inner`, a fit of other families. Terms that the new families lack, and terms that are 0 in
-/// `inner`, get the initial values of `power_law`.
+/// Options of a fit of the families `surge` and `yaw` that starts at the optimum of `inner`, a fit
+/// of other families. Terms that the new families lack, and terms that are 0 in `inner`, get the
+/// initial values of `power_law`.
 LogFitOptions without_terms(const LogFitOptions& power_law, const FamilyFit& inner, Family surge,
                             Family yaw) {
   LogFitOptions options = from_optimum(power_law, inner);
@@ -66,7 +64,7 @@ double fastest(const std::vector<DrivingLog>& logs, LogChannel channel) {
 }
 
 /// Sets the resistance parameters in `values`, the initial guess of a fit of the families `surge`
-/// and `yaw`. Their curves become as close as possible to the fitted curves of `inner`.
+/// and `yaw`, so that their curves are as close as possible to the fitted curves of `inner`.
 void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Family surge,
                 Family yaw, ParameterValues<double>& values) {
   const Vehicle& vehicle = inner.options.vehicle;
@@ -92,9 +90,8 @@ void begin_near(const std::vector<DrivingLog>& logs, const FamilyFit& inner, Fam
   }
 }
 
-/// Returns the options of a fit of the families `surge` and `yaw`. The initial guess are the curves
-/// of these families that are nearest to the fitted curves of `inner`. `at_optimum`: result of
-/// without_terms().
+/// Options of a fit of the families `surge` and `yaw` that starts at their curves nearest to the
+/// fitted curves of `inner`. `at_optimum`: result of without_terms().
 LogFitOptions near_options(const std::vector<DrivingLog>& logs, LogFitOptions at_optimum,
                            const FamilyFit& inner, Family surge, Family yaw) {
   begin_near(logs, inner, surge, yaw, at_optimum.initial_guess);

@@ -17,26 +17,24 @@ struct FamilyFit {
   LogFit fit;
 };
 
-/// True if the limit of work (Effort) or of time is reached, so that no further model may be
-/// fitted.
+/// True if the limit of work (Effort) or of time is reached, so that no further fit may begin.
 bool is_over(const LogFitOptions& options);
 
-/// Returns the options of a fit that starts at the optimum of `fit` and nowhere else. The new fit
-/// has the delays and command errors of `fit`, and does not search for others.
+/// Returns the options of a fit with a single start, the optimum of `fit`. The new fit has the
+/// delays and command errors of `fit`, and does not search for others.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
-/// Sets each term of `values` that the next fit does not estimate (not in `free`) to its value in
-/// `power_law`. Without this, such a term would keep the value that an earlier fit estimated.
+/// Resets each term in `values` that the next fit does not estimate (not in `free`) to its value in
+/// `power_law`. Otherwise the term would keep the value that an earlier fit estimated.
 void reset_terms(const std::vector<ParameterId>& free, const ParameterValues<double>& power_law,
                  ParameterValues<double>& values);
 
-/// Fits the logs under the families `surge` and `yaw`. Precondition: `options` already frees the
-/// terms of these families.
+/// Fits the logs under the families `surge` and `yaw`, whose terms `options` must already free.
 FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, Family surge,
                    Family yaw);
 
 /// Fits the logs under the families `surge` and `yaw`. `power_law`: options of a fit of power laws,
-/// from which the options of this fit are derived.
+/// to which this function adds the terms of the families.
 FamilyFit fit_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                      Family surge, Family yaw);
 
@@ -51,9 +49,8 @@ FamilyFit fit_from(const std::vector<DrivingLog>& logs, const LogFitOptions& pow
                    const FamilyFit& inner, Family surge, Family yaw,
                    const std::vector<FreeTerm>& more = {});
 
-/// Makes a rough fit (fit_roughly()) of the families `surge` and `yaw`. It starts from the curves
-/// of these families that are nearest to the fitted curves of `inner`. `more`: further terms to
-/// estimate.
+/// Makes a rough fit (fit_roughly()) of the families `surge` and `yaw`, starting from their curves
+/// that are nearest to the fitted curves of `inner`. `more`: further terms to estimate.
 FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                            const FamilyFit& inner, Family surge, Family yaw,
                            const std::vector<FreeTerm>& more);
@@ -63,10 +60,9 @@ FamilyFit fit_roughly_from(const std::vector<DrivingLog>& logs, const LogFitOpti
 FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        const FamilyFit& inner, bool of_yaw);
 
-/// Gives the families of `first` a second chance against `alternative`, because the search of
-/// `first` may have failed. If the AIC of `alternative` is lower by more than 2, fits the families
-/// of `first` again, from the optimum of `alternative`. Returns the better of `first` and the new
-/// fit.
+/// Gives the families of `first` a second chance, because the search of `first` may have failed: if
+/// the AIC of `alternative` is lower by more than 2, fits these families again from the optimum of
+/// `alternative`. Returns the better of `first` and the new fit.
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 

@@ -6,8 +6,8 @@
 namespace awmr {
 namespace {
 
-/// Measure of the size of a fit's errors, to compare two fits. It is the sum of n ln(sum e^2/n)
-/// over all channels, where n is the number of errors e of a channel.
+/// Size of a fit's errors, to compare two fits: the sum of n ln(sum e^2/n) over all channels, with
+/// the n errors e of a channel.
 double log_size_of_errors(const LogFit& fit) {
   double size = 0.0;
   for (const auto& [channel, errors] : fit.errors) {

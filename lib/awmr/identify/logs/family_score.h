@@ -1,9 +1,9 @@
 /// AIC comparison of log fits with different models under one noise model. Private to identify/.
 ///
-/// Two models are compared under one noise model, that of the fit with the smaller errors. Reason:
-/// each fit estimates its own noise, and the drift in this noise absorbs the error of the fit's own
-/// model. Under their own noise models, a model with a smooth error of 0.2 m/s could be likelier
-/// than a model with an error of 3 mm/s.
+/// The noise model is that of the fit with the smaller errors. Reason: each fit estimates its own
+/// noise, and the drift in this noise absorbs the error of the fit's own model. With its own noise
+/// model, a fit with a smooth error of 0.2 m/s could be likelier than a fit with an error of 3
+/// mm/s.
 #pragma once
 
 #include "awmr/identify/logs/log_fit.h"
@@ -16,8 +16,8 @@ namespace awmr {
 ///     AIC = sum (ln S_k + nu_k^2/S_k) + 2 n
 double aic_under(const NoiseLevels& noise, const LogFit& fit);
 
-/// AIC of `b` minus AIC of `a`, under the noise of the fit with the smaller errors. > 0 if `a` is
-/// better. Infinity if only `a` is usable, -infinity if only `b` is, 0 if neither is.
+/// AIC of `b` minus AIC of `a`, under the noise model of the fit with the smaller errors: > 0 if
+/// `a` is better. Infinity if only `a` is usable, -infinity if only `b` is, 0 if neither is.
 double aic_lead(const LogFit& a, const LogFit& b);
 
 }  // namespace awmr

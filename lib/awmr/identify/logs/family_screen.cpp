@@ -29,8 +29,8 @@ struct Neighbour {
   bool has_back_emf = false;
 };
 
-/// A delay of the commands and a lag of the motors, except those that the fit already estimates and
-/// a lag that the vehicle file gives.
+/// A delay of the commands and a lag of the motors. Leaves out those that the fit already
+/// estimates, and a lag that the vehicle file gives.
 std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
   constexpr double kBegin_s = 0.05;
   std::vector<FreeTerm> terms;
@@ -45,8 +45,8 @@ std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
 }
 
 /// Returns the models to try next. Each changes the family of an open axis, or adds one of
-/// late_terms() or, if it is a candidate term, back-EMF. `is_done`: axis that is not changed,
-/// because it was changed last (true: yaw, false: surge).
+/// late_terms(), or adds back-EMF if it is a candidate term. `is_done`: axis that was changed last
+/// and therefore stays (true: yaw, false: surge).
 std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
                                      std::optional<bool> is_done) {
   const Families families{fit.surge, fit.yaw};
@@ -68,9 +68,8 @@ std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open) {
   constexpr double kClearlyLess = 0.98;
-  // Back-EMF is considered only if it reduces the relative error to less than this share of the
-  // present value. Any smaller decrease may come from another model error, for which back-EMF can
-  // partly compensate.
+  // Back-EMF counts only if it reduces the relative error to less than this share. A smaller
+  // decrease may come from another model error, for which back-EMF can partly compensate.
   constexpr double kMuchLess = 0.67;
   constexpr double kExplained = 0.7;
   constexpr int kMostChanges = 8;
@@ -100,8 +99,8 @@ FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptio
     if (least->surge != best.surge) changed_yaw = false;
     best = std::move(*least);
   }
-  // If the best families decrease the errors only a little, the cause of the errors is something
-  // else, such as unequal motors. The original families are then kept.
+  // If the best families decrease the errors only a little, the errors have another cause, such as
+  // unequal motors. The original families are then kept.
   const double excess = std::max(0.0, best.fit.relative_error - 1.0);
   return excess < kExplained * (same.fit.relative_error - 1.0) ? best : same;
 }

@@ -16,7 +16,7 @@ struct Families {
 };
 
 /// Returns the pairs of families that differ from `from` only in the yaw family (if `of_yaw`) or
-/// only in the surge family (if not).
+/// only in the surge family.
 std::vector<Families> other_families(const Families& from, bool of_yaw);
 
 /// Axes whose family the fit may change, because the user did not select it.
@@ -28,15 +28,14 @@ struct OpenAxes {
 };
 
 /// Selects families by rough fits (fit_roughly()), starting at the optimum of `first`. Each round
-/// tries every change of the family of one open axis, except the axis that was changed last. It
-/// also tries an additional delay of the commands, a lag of the motors, and back-EMF if that is a
-/// candidate term of `power_law`. Reason: a wrong family can imitate these. The best change is kept
-/// if it lowers LogFit::relative_error by more than 2 % (back-EMF: by a third). There are at most
-/// eight rounds.
+/// tries every other family of each open axis, except the axis that was changed last. It also tries
+/// what a wrong family can imitate: a delay of the commands, a lag of the motors, and back-EMF if
+/// that is a candidate term of `power_law`. The best change is kept if it lowers
+/// LogFit::relative_error by more than 2 % (back-EMF: by a third). There are at most eight rounds.
 ///
-/// Let E be the amount by which the relative error exceeds 1. Returns the last rough fit if its E
-/// is less than 0.7 times that of the families of `first`. Otherwise returns the rough fit of these
-/// families.
+/// E is the amount by which the relative error exceeds 1, its value for sensor noise alone. Returns
+/// the last rough fit if its E is less than 0.7 times that of the families of `first`. Otherwise
+/// returns the rough fit of the families of `first`.
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open);
 

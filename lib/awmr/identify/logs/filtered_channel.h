@@ -19,9 +19,9 @@ struct SensorFilter {
   double damping = 0.0;  ///< zeta, in (0, 1], if the filter is of second order; else 0
 };
 
-/// Output y of a filter of first order with the input u and the time constant T. Also computes the
-/// derivatives of y with respect to the columns (unknowns) of the fit, see linear_stepper.h. With
-/// the time h between two rows and e = exp(-h/T),
+/// Output y of a filter of first order with the input u and the time constant T, and its
+/// derivatives with respect to the columns (unknowns) of the fit, see linear_stepper.h. With the
+/// time h between two rows and e = exp(-h/T),
 ///
 ///     y(t + h) = u(t + h) - q (u(t + h) - u(t)) + e (y(t) - u(t))
 ///     q = (T/h)(1 - e)   continuous filter: T dy/dt = u - y, u linear between rows
@@ -31,9 +31,8 @@ struct SensorFilter {
 template <class Scalar>
 class FilterStage {
  public:
-  /// `direction`: time constant of this stage, divided by that of the whole filter (complex for a
-  /// filter of second order). `first`: initial output. `by_column`: derivatives of `first`, one per
-  /// column.
+  /// `direction`: time constant of this stage over that of the whole filter (complex for second
+  /// order). `first`: initial output. `by_column`: derivatives of `first`, one per column.
   FilterStage(const SensorFilter& filter, Scalar direction, Scalar first,
               std::vector<Scalar> by_column)
       : lag_s_(direction * filter.lag.delay_s),
@@ -68,12 +67,13 @@ class FilterStage {
 ///
 /// A filter of second order is computed as two stages in series, with the complex time constants T
 /// exp(i phi) and T exp(-i phi), cos phi = zeta. The output y starts at the first reading of the
-/// window; the effect of this reading's noise decays with the time constant T. The output of the
-/// first stage is not measured, so it starts as if the input had risen at a constant rate before.
+/// window. The noise of this reading has an effect that decays with the time constant T. The output
+/// of the first stage is not measured: it starts as if the input had risen at a constant rate
+/// before.
 class FilteredChannel {
  public:
   /// `first`: first reading of the window. `columns`: number of columns of the fit, one for each
-  /// derivative of y; 0: only y is computed.
+  /// derivative of y. With 0 columns, only y is computed.
   FilteredChannel(const SensorFilter& filter, double first, std::size_t columns)
       : filter_(filter), y_(first), by_column_(columns, 0.0) {}
 

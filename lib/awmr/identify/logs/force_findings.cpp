@@ -33,14 +33,12 @@ std::optional<FoundForce> found_force(const LogFit& fit, ExtraForce force) {
   return std::nullopt;
 }
 
-/// The force, if it differs from 0 by more than kStandardErrors standard errors; else empty.
 std::optional<FoundForce> significant(const LogFit& fit, ExtraForce force) {
   const auto found = found_force(fit, force);
   if (!found || !(std::abs(found->value) > kStandardErrors * found->error)) return std::nullopt;
   return found;
 }
 
-/// Fitted value of a parameter; 0 if the parameter is not free.
 double fitted_value(const LogFit& fit, ParameterId id) {
   const auto i = place_of(fit.quantities, id);
   return i ? fit.quantities[*i].value(fit.coordinates[*i]) : 0.0;

@@ -13,8 +13,8 @@ namespace awmr {
 std::vector<Finding> force_findings(const LogFit& fit, const std::string& file);
 
 /// Withdraws the intervals of a resistance whose Stribeck friction is above 5 % of its Coulomb
-/// friction. Reason: all terms of this resistance depend on how the friction decreases with speed,
-/// and the logs do not show the true form of this decrease. (m' and I'z depend on it much less.)
+/// friction. All terms of this resistance depend on how the friction decreases with speed, and the
+/// logs do not show the true form of this decrease. (m' and I'z depend on it much less.)
 void withdraw_by_stribeck(LogFit& fit);
 
 }  // namespace awmr

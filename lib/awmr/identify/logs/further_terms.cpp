@@ -27,8 +27,8 @@ double largest_command(const LogProblem& problem) {
   return largest;
 }
 
-/// Adds delays of the commands and of the measured channels, and symmetric smoothing of the
-/// channels that are often filtered.
+/// Adds delays of the commands and of the measured channels, and smoothing of channels that
+/// programs often filter.
 void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
@@ -61,8 +61,7 @@ bool has_both_directions(const DrivingLog& log) {
   return any([](double f) { return f > kLeast; }) && any([](double f) { return f < -kLeast; });
 }
 
-/// Adds those forces of extra_forces.h that the fit does not yet contain and that the logs can
-/// show:
+/// Adds those forces of extra_forces.h that the fit does not contain and that the logs can show:
 ///   - Stribeck friction, if the resistance has Coulomb friction;
 ///   - a slope, if heading or position is measured;
 ///   - a side pull, if yaw rate, heading or position is measured;
@@ -94,8 +93,8 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
     found.push_back(extra_force(ExtraForce::kTurnDrag));
   }
   if (!any_log(problem, has_both_directions)) return;
-  // A fit contains either wheel slip or an excess of wheel forces, because wheel_slip.h computes
-  // the slip without this excess.
+  // A fit contains either wheel slip or an excess of wheel forces, because the slip of wheel_slip.h
+  // does not include this excess.
   if (!has_force_excess(quantities) && !has_kind(quantities, FreeQuantity::Kind::kWheelSlip)) {
     found.push_back(extra_force(ExtraForce::kBrakeForce));
     found.push_back(extra_force(ExtraForce::kReverseForce));
@@ -105,7 +104,7 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-/// Adds scale errors of the channels that another channel can check: the yaw rate if heading or
+/// Adds scale errors of channels that another channel can check: the yaw rate if heading or
 /// position is measured, the speed if position is measured.
 void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const NoiseLevels& measured = problem.model.noise;
@@ -120,8 +119,8 @@ void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 }
 
 /// Adds the slip of the wheels that measure speed or yaw rate. The slip has two forms, a speed or a
-/// ratio (WheelSlip::is_ratio). If the fit already has slip of one of these channels, only the same
-/// form is added for the other channel.
+/// ratio (WheelSlip::is_ratio). If the fit already has slip of one channel, the other channel gets
+/// only the same form.
 void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   if (has_force_excess(quantities)) return;
@@ -139,9 +138,9 @@ void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-/// Adds errors of the steering: the angle at a command of 0 and, if the logs have steering
-/// commands, dead band, asymmetry and curve of the linkage. If the fit already has asymmetry or
-/// curve, also adds the scale of the angles.
+/// Adds errors of the steering: trim and, if the logs have steering commands, dead band, asymmetry
+/// and curve of the linkage. If the fit already has asymmetry or curve, also adds the scale of the
+/// angles.
 void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   if (!any_log(problem, has_steering_changes)) return;
@@ -169,7 +168,7 @@ double begin_of(const FreeQuantity& quantity) {
 }
 
 /// Every term that a user can request by name. The other terms cannot be free from the start of a
-/// fit. They need a value from the logs (the largest command or speed, or the rate of the servo),
+/// fit: they need a value from the logs (the largest command or speed, or the rate of the servo),
 /// or another term in the fit.
 std::vector<FreeQuantity> all_terms() {
   std::vector<FreeQuantity> terms{input_delay(),    steering_delay(),     motor_lag(),
@@ -206,8 +205,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> found;
   add_times(problem, found);
-  // Without a delay of the steering in the fit, a free time constant of the servo absorbs the dead
-  // time of the servo.
+  // Without a delay of the steering, a free time constant of the servo would absorb its dead time.
   if (place_of(quantities, ParameterId::kSteeringTimeConstant) &&
       !has_kind(quantities, Kind::kSteeringDelay)) {
     found.push_back(steering_delay());
@@ -217,7 +215,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     found.push_back(force_imbalance());
   }
   const double full_command = largest_command(problem);
-  // A fit contains either an exponent or a saturation of the forces. Both together would fit every
+  // A fit contains either an exponent or a saturation of the forces. Both together could fit every
   // curve, even one with wrong forces at small commands.
   if (full_command > 0.0 && !has_kind(quantities, Kind::kForceExponent) &&
       !has_kind(quantities, Kind::kForceSaturation)) {

@@ -1,5 +1,5 @@
-/// The delays, lags and constant errors of sensors and commands that a log fit can add, by its
-/// own choice or because the user requested them. Private to identify/.
+/// Delays, lags and constant errors of sensors and commands that a log fit can add, because score
+/// tests indicate them or because the user requested them. Private to identify/.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace awmr {
 
 /// Terms that the fit does not contain yet and that the logs can show:
 ///   - a delay of the commands and of every measured channel (one for x and y together). At least
-///     one of these signals keeps the delay 0, as the time reference of the others;
+///     one of these signals keeps the delay 0: it is the time reference of the others;
 ///   - symmetric smoothing of the channels that are often filtered, unless a filter or smoothing is
 ///     already estimated;
 ///   - an additional delay of the steering, if the servo's time constant is free;
@@ -24,16 +24,16 @@ namespace awmr {
 ///   - forces of extra_forces.h (add_forces() in further_terms.cpp);
 ///   - a scale error of the yaw rate if the heading or a position is measured, and of the speed if
 ///     a position is measured;
-///   - slip of the wheels that measure the speed or, if left and right forces differ, the yaw rate.
-///     It is left out if an excess of wheel forces is estimated;
+///   - slip of the wheels that measure the speed or, if left and right forces differ, the yaw rate,
+///     unless   an excess of wheel forces is estimated (wheel_slip.h does not include it);
 ///   - position and direction of a sensor of the sideways (sway) speed.
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 
-/// True for channels that are often filtered before logging: speed, yaw rate and heading.
+/// True for channels that programs often filter before logging: speed, yaw rate and heading.
 bool is_often_filtered(LogChannel channel);
 
 /// The terms that the user requested by these names (IdentifyOptions::terms), with initial guesses.
-/// Names that are not requestable_terms() are ignored.
+/// Ignores names that are not requestable_terms().
 std::vector<FreeTerm> requested_terms(std::span<const std::string> names);
 
 }  // namespace awmr

@@ -26,9 +26,9 @@ LogProblem problem_of(const std::vector<DrivingLog>& rows, const LogFit& fit,
   return problem;
 }
 
-/// Makes one Gauss-Newton step of the initial states of the windows, while the fitted quantities
-/// stay fixed. `states`: one column for each window. Returns the largest predicted decrease of a
-/// window's cost.
+/// Makes one Gauss-Newton step of the initial states of the windows, with fixed fitted quantities.
+/// `states`: one column for each window. Returns the largest decrease of a window's cost that the
+/// step predicts.
 double step_initial_states(const std::vector<WindowSums>& sums, Eigen::Index coordinates,
                            Eigen::Map<Eigen::MatrixXd> states) {
   const Eigen::Index n = coordinates;
@@ -43,11 +43,11 @@ double step_initial_states(const std::vector<WindowSums>& sums, Eigen::Index coo
   return largest;
 }
 
-/// Fits the initial states of all windows, while the fitted quantities stay fixed. Gauss-Newton
-/// steps from the measured states suffice, because the motion is nearly linear in the states
-/// (except for a servo at its rate limit). The steps end when no state changes by more than 0.1
-/// standard errors. Smaller steps hardly change the scores, and in a window in which the vehicle
-/// rests they may alternate without end.
+/// Fits the initial states of all windows, with fixed fitted quantities. Gauss-Newton steps from
+/// the measured states suffice, because the motion is nearly linear in the states (except for a
+/// servo at its rate limit). The steps end when no state changes by more than 0.1 standard errors.
+/// Smaller steps hardly change the scores, and they may alternate without end in a window in which
+/// the vehicle rests.
 SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> coordinates) {
   constexpr int kSteps = 10;
   // Cost of a step of 0.1 standard errors; a step of d gains d^2/2.
@@ -64,8 +64,8 @@ SearchPoint with_initial_states(const LogProblem& problem, std::vector<double> c
   return point;
 }
 
-/// Indices of the coordinates to compare. Biases are listed apart, because they may differ between
-/// parts of a log. Coordinates at an end of their range are left out.
+/// Indices of the coordinates to compare, and of the biases, which may differ between parts of a
+/// log. Coordinates at an end of their range are left out.
 struct Places {
   std::vector<Eigen::Index> compared;
   std::vector<Eigen::Index> biases;
@@ -83,7 +83,7 @@ Places places_of(const LogProblem& problem, const std::vector<double>& coordinat
 }
 
 /// Information and score of the compared coordinates c, each in units of its large change
-/// (FreeQuantity::large_change). The biases b are eliminated: with information H and score S of all
+/// (FreeQuantity::large_change). Eliminates the biases b: with information H and score S of all
 /// coordinates, the result is H_cc - H_cb H_bb^-1 H_bc and S_c - H_cb H_bb^-1 S_b.
 FitEvidence scaled_evidence(const std::vector<WindowSums>& sums, const Eigen::VectorXd& scale,
                             const Places& places) {
@@ -106,9 +106,8 @@ struct Change {
   Eigen::Index directions = 0;
 };
 
-/// Computes the change d, its covariance and the p value of the test statistic X^2 (see predict()).
-/// `rows`: information and score of the tested rows. `c`: covariance of the fit. `f`: factor by
-/// which the standard errors of the fit were raised.
+/// Computes the change d, its covariance and the p value of X^2 (symbols: predict()). `rows`:
+/// information and score of the tested rows.
 Change change_of(const FitEvidence& rows, const Eigen::MatrixXd& c, double f) {
   constexpr double kShown = 1.0 / (kUnknown * kUnknown);
   const SymmetricEigen eigen = symmetric_eigen(rows.information);

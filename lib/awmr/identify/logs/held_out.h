@@ -26,21 +26,21 @@ struct HeldOut {
   double by_rows = 0.0;  ///< value of that quantity estimated from the tested rows
 };
 
-/// Tests whether `rows` agree with `fit`, a fit of other rows with these options. The test
-/// statistic X^2 follows from d, the change of the fitted coordinates (values or logarithms) in one
-/// Gauss-Newton step towards a fit of `rows`:
+/// Tests whether `rows` agree with `fit`, a fit of other rows with these options. The test follows
+/// the change d of the fitted coordinates (values or logarithms) in one Gauss-Newton step towards a
+/// fit of `rows`. X^2 is the test statistic:
 ///
 ///     d = -H^-1 S,   cov d = f^2 H^-1 + C,   X^2 = d^T (cov d)^-1 d,   chi-squared
 ///
 /// H and S are information and score (curvature and gradient of -ln L) of the rows at the fit's
 /// coordinates, after elimination of the initial states and biases. C is the covariance of the fit.
-/// f is the largest factor by which the standard errors of the fit were raised. Only the directions
-/// that the rows determine are compared (identifiability.h). Quantities at an end of their range
-/// are fixed.
+/// f is the largest factor by which the scatter between parts of the logs raised a standard error
+/// of the fit. The test compares only directions that the rows determine (identifiability.h), and
+/// fixes quantities at an end of their range.
 ///
 /// The noise levels are those of the fit. (Noise levels estimated from the tested rows would absorb
-/// a change of the vehicle as sensor drift.) Returns empty if the rows determine no direction or
-/// cannot be simulated.
+/// a change of the vehicle as sensor drift.) Returns empty if the rows determine no direction or if
+/// their simulation is not finite.
 std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options);
 
 /// A delay or command error that a fit does not contain, with its score test (score_test.h).

@@ -18,26 +18,25 @@ namespace {
 
 /// Largest standard error of an identified quantity, in units of FreeQuantity::large_change.
 ///
-/// The limit is lower for the sway resistance a_s, so that 1/a_s is at least 4 standard errors from
+/// The limit is lower for the sway resistance a_s: 1/a_s has to be at least 4 standard errors from
 /// 0. Reason: the logs measure 1/a_s, because the lateral speed is v ~ m' r u / a_s. The standard
-/// error of ln a_s is a_s times that of 1/a_s, so noise that makes a_s too small also makes this
-/// standard error too small. With the limit of the other quantities, such values would be accepted
-/// too often.
+/// error of ln a_s is a_s times that of 1/a_s. Noise that makes a_s too small thus also makes this
+/// standard error too small, and the limit of the other quantities would accept such values too
+/// often.
 double unknown_from(const FreeQuantity& q) {
   constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;
 }
 
-/// Text that states how uncertain a quantity is. `std`: its standard error, in large changes
+/// States how uncertain a quantity is. `std`: its standard error, in large changes
 /// (FreeQuantity::large_change). `unknown`: largest accepted `std`.
 std::string uncertainty_text(double std, double unknown = kUnknown) {
   if (!std::isfinite(std) || std > 1e3) return "no measurement depends on it";
   return fmt::format("the standard error is {:.2g} times the accepted limit", std / unknown);
 }
 
-/// Refuses every quantity that contributes considerably to a direction that the logs do not
-/// determine. `direction`: unit vector in the space of the coordinates. `std`: standard error along
-/// it.
+/// Refuses every quantity with a considerable part in a direction that the logs do not determine.
+/// `direction`: unit vector in the space of the coordinates. `std`: standard error along it.
 void refuse_direction(const Eigen::VectorXd& direction, double std,
                       const std::vector<FreeQuantity>& quantities,
                       std::vector<std::string>& refusal_reason) {
@@ -58,7 +57,7 @@ void refuse_direction(const Eigen::VectorXd& direction, double std,
 }
 
 /// True if the search stopped at an end of the quantity's range that is not a plausible value.
-/// Plausible ends are 0 for a delay, a lag or a term of a resistance family, and both ends for a
+/// Plausible are the end 0 of a delay, a lag or a term of a resistance family, and both ends of a
 /// quantity that only describes the form of a force, such as the sharpness of a saturation
 /// (FreeQuantity::is_form()).
 bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
@@ -69,8 +68,8 @@ bool stopped(const FreeQuantity& q, double coordinate, const Interval& bounds) {
   return coordinate <= bounds.lo || coordinate >= bounds.hi;
 }
 
-/// Variances of the coordinates by the scatter of the scores s_b of m blocks or logs. They are the
-/// diagonal of m/(m - 1) C (sum s_b s_b^T) C, with C = `covariance`.
+/// Variances of the coordinates by the scatter of the scores s_b of m blocks or logs: the diagonal
+/// of m/(m - 1) C (sum s_b s_b^T) C, with C = `covariance`.
 Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
                                      const std::vector<Eigen::VectorXd>& scores) {
   Eigen::VectorXd variances = Eigen::VectorXd::Zero(covariance.rows());
@@ -79,9 +78,9 @@ Eigen::VectorXd variances_by_scatter(const Eigen::MatrixXd& covariance,
   return m / (m - 1.0) * variances;
 }
 
-/// Raises the factors of the standard errors according to the scatter of `scores`, the scores of
-/// parts of the logs (blocks of some seconds, or whole logs). A factor is raised only if the
-/// variance by this scatter exceeds `allowed` times the variance by the noise model.
+/// Raises the factors of the standard errors according to `scores`, the scores of parts of the logs
+/// (blocks of some seconds, or whole logs). Raises a factor only if the variance by their scatter
+/// exceeds `allowed` times the variance by the noise model.
 void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
                   Identifiability& found) {
   if (scores.size() < 2) return;
@@ -94,9 +93,9 @@ void note_scatter(const std::vector<Eigen::VectorXd>& scores, double allowed,
   }
 }
 
-/// Raises standard errors to those that follow from the scatter of the scores. The scatter of
-/// blocks counts if it exceeds the prediction of the noise model. The scatter of whole logs counts
-/// if there are at least three logs and their scatter exceeds the prediction significantly.
+/// Raises standard errors to those by the scatter of the scores. Scatter of blocks counts if it
+/// exceeds the prediction of the noise model. Scatter of whole logs counts if there are at least
+/// three logs, and if it exceeds the prediction significantly.
 void widen(const Scores& scores, Identifiability& found) {
   // Practically infinite: Student's t then equals the normal distribution.
   constexpr double kManyDegrees = 1e6;
@@ -112,8 +111,8 @@ void widen(const Scores& scores, Identifiability& found) {
   found.covariance = factor.asDiagonal() * found.covariance * factor.asDiagonal();
 }
 
-/// Refuses all quantities that are correlated with the quantity `stopped` by more than kDependent
-/// in magnitude. `stopped`: index of a quantity whose search ended at an end of its range.
+/// Refuses all quantities whose correlation with the quantity `stopped` exceeds kDependent in
+/// magnitude. `stopped`: index of a quantity whose search ended at an end of its range.
 void refuse_dependent(Eigen::Index stopped, const std::vector<FreeQuantity>& quantities,
                       Identifiability& found) {
   constexpr double kDependent = 0.3;  // smallest correlation for which a quantity is refused
@@ -138,9 +137,9 @@ std::string why_stopped(const FreeQuantity& q, double coordinate) {
   return why;
 }
 
-/// Decides whether the parameter `dependent` has to be refused because `cause` was refused. If so,
-/// returns a pointer to the refusal reason of `dependent`, which the caller has to set. Null if
-/// `cause` is not refused, if `dependent` already has a reason, or if one of the two is not free.
+/// If the parameter `dependent` has to be refused because `cause` was refused, returns a pointer to
+/// its refusal reason, which the caller sets. Null if `cause` is not refused, if `dependent`
+/// already has a reason, or if one of the two is not free.
 std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, ParameterId dependent,
                            ParameterId cause, Identifiability& found) {
   const auto place = place_of(quantities, dependent);
@@ -154,7 +153,8 @@ std::string* reason_to_add(const std::vector<FreeQuantity>& quantities, Paramete
 
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities) {
-  // Information of the search's weak prior: a standard deviation of kPriorStd large changes.
+  // Information of the search's weak prior, which has a standard deviation of kPriorStd large
+  // changes.
   constexpr double kPrior = 1.0 / (kPriorStd * kPriorStd);
   constexpr double kNull = 1e-12;
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 /// Covariance of a log fit, and the decision which quantities the logs identify. The search changes
-/// the coordinate of a quantity: its value, or the logarithm of it. Private to identify/.
+/// the coordinate of a quantity: its value or the logarithm of it. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,16 +12,16 @@
 
 namespace awmr {
 
-/// Limit of the standard error of an identified quantity, in large changes
-/// (FreeQuantity::large_change: the change of its coordinate that counts as large). At this limit,
-/// the 95 % interval of a quantity with a logarithmic coordinate extends from 1/2.7 to 2.7 times
-/// its value, and that of an exponent is +-1.
+/// Limit of the standard error of an identified quantity, in large changes. (A large change,
+/// FreeQuantity::large_change, is 1 for a logarithm or an exponent.) At this limit, the 95 %
+/// interval of a quantity with a logarithmic coordinate extends from 1/2.7 to 2.7 times its value,
+/// and that of an exponent is +-1.
 inline constexpr double kUnknown = 0.5;
 
 /// Covariance and identifiability of the n coordinates of a log fit.
 struct Identifiability {
   /// Covariance of the coordinates, n x n. A coordinate that the logs do not identify has a large
-  /// variance, which propagates to all correlated coordinates.
+  /// variance, which also makes the variances of all correlated coordinates larger.
   Eigen::MatrixXd covariance;
   /// Degrees of freedom of each standard error, one per quantity.
   std::vector<double> degrees_of_freedom;
@@ -30,8 +30,8 @@ struct Identifiability {
   int rank = 0;  ///< number of directions that the logs determine
   /// Condition number of the Jacobian, with coordinates in units of large changes.
   double condition_number = 0.0;
-  /// One per quantity: factor >= 1 by which its standard error was raised. It is above 1 if parts
-  /// of the logs scatter more than the noise model predicts.
+  /// One per quantity: factor >= 1 by which its standard error was raised, because parts of the
+  /// logs scatter more than the noise model predicts.
   std::vector<double> factor;
 
   /// Largest of the factors.
@@ -48,22 +48,21 @@ struct Identifiability {
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
 ///     D_ii^2 = max(1, V_ii / C_ii)
 ///
-/// The parts are blocks of some seconds. With three or more logs, whole logs are used as parts too,
-/// if their scatter exceeds the prediction significantly (5 %). A model error that differs between
-/// logs causes such scatter. The larger D_ii then applies.
+/// The parts are blocks of some seconds. With three or more logs, whole logs are a second kind of
+/// parts, because a model error can differ between logs. They count only if their scatter exceeds
+/// the prediction significantly (5 %). The larger D_ii then applies.
 ///
-/// A quantity is refused for one of two reasons:
+/// A quantity gets no value for one of two reasons:
 ///   - Its standard error exceeds kUnknown large changes (half of that for the sway resistance).
 ///   - It contributes a tenth or more to the squared length of a direction (eigenvector of H) that
-///     the logs do not determine.
+///     the   logs do not determine.
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 
-/// Refuses every quantity (gives it no value) whose search ended at an end of its range. Also
-/// refuses every quantity whose correlation with such a quantity exceeds 0.3 in magnitude. A term
-/// of a resistance that has no meaning without a refused one is refused too: alpha without the
-/// Coulomb friction c, the quadratic coefficient q or the dead zone, and the exponent beta without
-/// alpha.
+/// Refuses every quantity (gives it no value) whose search ended at an end of its range, and every
+/// quantity whose correlation with such a quantity exceeds 0.3 in magnitude. Also refuses what has
+/// no meaning without a refused term of the resistance: alpha without the Coulomb friction c, the
+/// quadratic coefficient q or the dead zone, and the exponent beta without alpha.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

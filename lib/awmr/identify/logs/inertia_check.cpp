@@ -14,13 +14,13 @@
 namespace awmr {
 namespace {
 
-/// Usual range of I'z/m' of real vehicles, divided by the I'z/m' of a uniform box.
+/// I'z/m' of real vehicles, divided by that of a uniform box.
 constexpr Interval kUsual{0.3, 2.0};
 
-/// Names a unit of the speed column that would explain a too large I'z/m'. If the logged speed is k
-/// times the true speed, the fitted m' is 1/k of the true m', and I'z/m' is k times the true ratio.
-/// Empty if I'z/m' is not too large, or if the logs have positions, because these were already
-/// compared with the speed.
+/// Names a unit of the speed column that would explain a too large I'z/m'. Reason: if the logged
+/// speed is k times the true speed, the fitted m' is 1/k of the true m', and I'z/m' is k times the
+/// true ratio. Empty if I'z/m' is not too large, or if the logs have positions, because another
+/// check has compared these with the speed.
 std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_over_box) {
   const bool is_compared = std::ranges::all_of(
       logs, [](const DrivingLog& log) { return log[LogChannel::kX] || !log[LogChannel::kSpeed]; });
@@ -37,8 +37,7 @@ std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_
   return " (speed_mps may be a rate of rotation of the wheels: multiply it by their radius)";
 }
 
-/// Estimate of a parameter from the log fit, or else from other trials. Null if neither has a
-/// value.
+/// Estimate of a parameter from the log fit, else from other trials. Null if neither has a value.
 const Estimate* estimate_of(const Model& model, const LogStage& stage, ParameterId id) {
   const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
   if (found != stage.main.end()) return &found->estimate;

@@ -9,17 +9,15 @@
 namespace awmr {
 namespace {
 
-/// Change of a window's initial state that best compensates a change of each coordinate, (J_s^T
-/// J_s)^-1 J_s^T J_t. J_t and J_s are the Jacobians of the residuals with respect to the
-/// coordinates and the initial state.
+/// Change of a window's initial state that best compensates a change of each coordinate: (J_s^T
+/// J_s)^-1 J_s^T J_t (symbols of FitEvidence).
 Eigen::MatrixXd compensation(const WindowSums& window, Eigen::Index n) {
   const Eigen::Index k = window.products.rows() - 1 - n;
   return solve_ldlt(window.products.block(n, n, k, k), window.products.block(n, 0, k, n));
 }
 
-/// Score of the coordinates after elimination of a window's initial state, FitEvidence::score.
-/// `gradient`: g_t, then g_s (symbols of FitEvidence). `by_initial`: J_t^T J_s (J_s^T J_s)^-1 of
-/// the window.
+/// Score of the coordinates after elimination of a window's initial state. `gradient`: g_t, then
+/// g_s (symbols of FitEvidence). `by_initial`: J_t^T J_s (J_s^T J_s)^-1 of the window.
 Eigen::VectorXd score(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& by_initial) {
   const Eigen::Index n = by_initial.rows();
   return gradient.head(n) - by_initial * gradient.segment(n, by_initial.cols());

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Number of parts into which the time between two rows is divided. The commands of the
-/// interpolated log are constant in each part.
+/// Number of parts into which the time between two rows is divided. In each part, the commands of
+/// the interpolated log are constant.
 constexpr std::size_t kParts = 4;
 
 /// True if forces or steering command change in at least half of the rows.
@@ -25,8 +25,8 @@ bool changes_often(const DrivingLog& log) {
   return 2 * changes >= log.rows();
 }
 
-/// Time of one row of the interpolated log. It is between the row `row` of the original log and the
-/// next one, at the fraction `share` of the time between them, 0 <= share < 1.
+/// Time of one row of the interpolated log: after the row `row` of the original log, at the
+/// fraction `share` of the time to the next row, 0 <= share < 1.
 struct RowPart {
   std::size_t row;
   double share;
@@ -44,8 +44,8 @@ std::vector<RowPart> places_of(const DrivingLog& log) {
   return places;
 }
 
-/// The signal, linearly interpolated to the times `places` plus a shift. `later`: this shift, as a
-/// fraction (< 1) of the time between two rows.
+/// The signal, linearly interpolated to the times `places` plus the shift `later`, a fraction (< 1)
+/// of the time between two rows.
 std::vector<double> at_places(const std::vector<double>& signal, const std::vector<RowPart>& places,
                               double later) {
   std::vector<double> values;

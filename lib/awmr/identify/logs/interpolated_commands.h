@@ -1,5 +1,5 @@
-/// Logs with commands that the vehicle received more often than the log has rows, so that they
-/// change smoothly between the rows. Private to identify/.
+/// Logs with fewer rows than commands that the vehicle received, so that the commands change
+/// smoothly between the rows. Private to identify/.
 #pragma once
 
 #include <string>
@@ -12,20 +12,20 @@ namespace awmr {
 
 /// True if straight lines between the rows describe the commands better than steps. This is so if a
 /// joystick or a controller changes the commands more often than the log has rows. Returns false
-/// without a fit if the commands of any log change in less than half of its rows, or if they were
-/// already replaced by such lines or by held set-points (set_points.h).
+/// without a fit in two cases: the commands of a log change in less than half of its rows, or they
+/// are already replaced by such lines or by held set-points (set_points.h).
 ///
 /// Otherwise fits the resistance families of `first` to interpolated(logs), with a free delay of
 /// the commands. Returns true if the AIC of this fit is lower than that of `first` by more than
 /// kFamilyAicThreshold. If `first` has late commands (late time stamps), the AIC of the new fit may
-/// even be up to 10 higher. Reason: late commands have nearly the same effect as straight lines.
+/// even be up to 10 higher, because late commands have nearly the same effect as straight lines.
 /// `power_law`: options of `first`.
 bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          const FamilyFit& first);
 
-/// Returns the logs with additional rows, in which the commands follow straight lines between those
-/// of the logged rows. The additional rows have no measurements. No rows are added in a gap of the
-/// log (kGapSteps).
+/// Returns the logs with additional rows in which the commands follow straight lines from row to
+/// row. The additional rows have no measurements. Gaps of the log (kGapSteps) get no additional
+/// rows.
 std::vector<DrivingLog> interpolated(const std::vector<DrivingLog>& logs);
 
 /// The warning `interpolated-commands`.

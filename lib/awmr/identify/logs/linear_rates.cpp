@@ -10,8 +10,8 @@ namespace awmr {
 namespace {
 
 /// Adds the rate of the steering angle d_r: d_r_dot = sat((command - d_r)/T, d_rate_max), with the
-/// time constant T and the rate limit d_rate_max of the servo. At the rate limit, the only
-/// derivative that is not 0 is that with respect to d_rate_max.
+/// time constant T and the rate limit d_rate_max of the servo. At the rate limit, all derivatives
+/// are 0 except that with respect to d_rate_max.
 void add_servo(const LinearPlant& plant, const State<double>& s, double command_rad,
                LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -58,8 +58,8 @@ Plant<double> with_stribeck(Plant<double> p, const ExtraForces& extra) {
   return p;
 }
 
-/// True if the rates depend on the force `one`: if its size is not 0, or if a free quantity belongs
-/// to it (`one` itself, or `other`, a second quantity of the same force).
+/// True if the rates depend on the force `one`: its size is not 0, or the fit estimates it or
+/// `other`, a second quantity of the same force.
 bool has_force(const ExtraForces& extra, ExtraForce one, ExtraForce other) {
   return extra[one] != 0.0 || std::ranges::any_of(extra.columns, [&](const ExtraColumn& column) {
            return column.force == one || column.force == other;
@@ -251,8 +251,8 @@ void linear_rates(const LinearPlant& plant, const State<double>& s, const HeldCo
 namespace {
 
 /// Adds the effect of the friction at rest, c (Coulomb plus Stribeck), to the rate of one speed w
-/// (u or r): w_dot -= sgn(w) c/inertia. Also adds its effect to the derivatives of this rate.
-/// `way`: sgn(w). `friction`: c/inertia; the inertia is m' for u, I'z for r.
+/// (u or r) and to the derivatives of this rate: w_dot -= sgn(w) c/inertia. `way`: sgn(w).
+/// `friction`: c/inertia; the inertia is m' for u, I'z for r.
 template <double DrivenSlopes::*kRate>
 void brake(double way, double friction, double per_inertia, ParameterId coulomb,
            ExtraForce stribeck, ParameterId inertia, double& rate, LinearRates& out) {

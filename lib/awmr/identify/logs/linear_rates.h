@@ -2,8 +2,7 @@
 /// identify/.
 ///
 /// The equations are those of model/dynamics.h for left and right wheel forces. The derivatives are
-/// coded by hand, because automatic differentiation takes ten times as long. A test compares them
-/// with those by automatic differentiation.
+/// coded by hand, because automatic differentiation takes ten times as long. A test compares both.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +26,8 @@ struct ResistanceSlopes {
 };
 
 /// Resistance law with derivatives. Below the law's rest_speed, a straight line from 0 to the value
-/// at rest_speed replaces the law, so that integration steps stay stable.
+/// at rest_speed replaces the law. Without it, integration steps would be unstable near rest, where
+/// the law is too steep.
 class LinearResistance {
  public:
   explicit LinearResistance(const Resistance<double>& law);
@@ -46,10 +46,10 @@ class LinearResistance {
   ResistanceSlopes at_rest_speed_;
 };
 
-/// Vehicle model with precomputed reciprocals, for repeated evaluation of its rates. linear_rates()
-/// computes the rates without friction at rest, which add_friction() adds.
+/// Vehicle model with precomputed reciprocals, because a fit evaluates its rates millions of times.
+/// linear_rates() leaves out the friction at rest, which add_friction() adds.
 struct LinearPlant {
-  /// `by_back_emf`: if true, computes the derivatives with respect to k_e even if k_e is 0.
+  /// `by_back_emf`: true to compute the derivatives with respect to k_e even if k_e is 0.
   /// `longest_step_s`: longest Runge-Kutta step that will be used; 0 if all steps are short
   /// compared with the time constant of sway.
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
@@ -62,9 +62,9 @@ struct LinearPlant {
   double per_mass;
   double per_inertia;
   double per_lag;
-  /// Factor on v_dot, <= 1, that keeps the integration stable. It is below 1 if the time constant
-  /// m'/a_s of sway is shorter than a step. The sway speed v then approaches the same steady value
-  /// with a time constant of one step.
+  /// Factor on v_dot, <= 1, that keeps the integration stable. If the time constant m'/a_s of sway
+  /// is shorter than a step, the factor is below 1: the sway speed v then approaches the same
+  /// steady value with a time constant of one step.
   double sway_pace;
   /// k |r|^p sgn r, a factor of the drag in turns (extra_forces.h).
   LinearResistance turn_drag_of_yaw;
@@ -85,7 +85,7 @@ struct HeldCommand {
 };
 
 /// Partial derivatives of the rates of the state with respect to the state. The name x_psi means d
-/// x_dot / d psi. Derivatives that are not listed are 0, except d psi_dot / d r = 1.
+/// x_dot / d psi. Other derivatives are 0, except d psi_dot / d r = 1.
 struct StateSlopes {
   double x_psi, x_u, x_v;
   double y_psi, y_u, y_v;
@@ -119,12 +119,12 @@ struct LinearRates {
 };
 
 /// Computes the rates at the state `s`. `out` must be LinearRates{} before the first call, because
-/// the function does not write entries that are always 0.
+/// the function does not write derivatives that are always 0.
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
 
 /// Adds the friction at rest to the rates of u and r. `way`: direction of u and r; 0 for a speed
-/// that friction holds at 0. The rate of such a speed and the derivatives of this rate are set to
+/// that friction holds at 0. This function sets the rate of such a speed, and its derivatives, to
 /// 0.
 void add_friction(const LinearPlant& p, const Sliding<double>& way, LinearRates& out);
 

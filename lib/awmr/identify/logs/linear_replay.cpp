@@ -8,8 +8,8 @@ namespace awmr {
 namespace {
 
 /// Updates the derivatives with respect to the time of a command change, if this time is uncertain.
-/// `before`: rows of the log whose commands acted until the change; `after`: the new ones. The
-/// forces of motors with lag are left out, because they do not jump
+/// `before`: rows of the log whose commands acted until the change; `after`: rows of the new
+/// commands. Forces of motors with lag are left out, because they do not jump
 /// (DelayedCommand::change_column).
 void change_time_of_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                          const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
@@ -23,9 +23,8 @@ void change_time_of_rows(const LogSignals& signals, ActingRows before, const Act
                       command_of_rows(log, after, path), motion);
 }
 
-/// Updates the derivatives with respect to the delays at a command change. `before`: rows of the
-/// log whose commands acted until the change; `after`: the new ones. The forces of motors with lag
-/// are left out, because they do not jump.
+/// Updates the derivatives with respect to the delays at a command change. `before`, `after`: as in
+/// change_time_of_rows(). Forces of motors with lag are left out, because they do not jump.
 void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                  const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   change_time_of_rows(signals, before, after, path, stepper, motion);
@@ -35,8 +34,7 @@ void change_rows(const LogSignals& signals, ActingRows before, const ActingRows&
                          motion);
 }
 
-/// Integrates from `from_s` to `to_s`. In this interval, the commands of the same rows act
-/// throughout.
+/// Integrates from `from_s` to `to_s`, an interval in which no command changes.
 void step_along(const LogSignals& signals, std::size_t row, const ActingRows& rows, double from_s,
                 double to_s, const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                 LinearMotion& motion) {
@@ -125,8 +123,8 @@ LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
   const State<double> rates = then_s < row_s
                                   ? stepper.step_along_tangent(command, then_s - row_s, motion)
                                   : stepper.rates(command, motion);
-  // A longer delay selects an earlier time. The derivative of the motion with respect to the delay
-  // is therefore minus the rate.
+  // A longer delay selects an earlier time, so the derivative of the motion with respect to the
+  // delay is minus the rate.
   if (stepper.columns() == 0) return motion;
   for (const LogChannel channel : kChannels) {
     motion.row(channel, stepper.columns())[delay.column] -= channel_of(rates, channel);

@@ -11,15 +11,14 @@
 
 namespace awmr {
 
-/// Integrates the motion and its derivatives from `from_s` to `to_s`. (advance_after_row() in
-/// trials/replay.h does the same without derivatives.) Both times are between `row` and the next
-/// row.
+/// Integrates the motion and its derivatives from `from_s` to `to_s`, two times between `row` and
+/// the next row. (advance_after_row() in trials/replay.h does the same without derivatives.)
 void advance_after_row(const LogSignals& signals, std::size_t row, double from_s, double to_s,
                        const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                        LinearMotion& motion);
 
-/// Sets the steering angle of `motion` to the logged angle plus the trim. The time is between `row`
-/// and the next row, at the fraction `share`. The derivative of the angle is 1 with respect to the
+/// Sets the steering angle of `motion` to the logged angle plus the trim, at the fraction `share`
+/// of the time from `row` to the next row. The derivative of the angle is 1 with respect to the
 /// trim, and 0 with respect to all other quantities.
 void steer(const LogSignals& signals, std::size_t row, double share, const CommandPath& path,
            std::size_t columns, LinearMotion& motion);
@@ -42,7 +41,7 @@ void replay_linear(const LogSignals& signals, std::size_t begin, std::size_t end
 
 /// Returns the motion at an earlier time: delay.delay_s >= 0 seconds before the last of `motions`,
 /// which are the motions at the rows from `begin` on. Integrates from the last row before that
-/// time. If the time is before the row `begin`, extrapolates with the rates at this row.
+/// time. Before the row `begin`, extrapolates with the rates at this row.
 LinearMotion earlier_motion(const LogSignals& signals, std::size_t begin,
                             const std::vector<LinearMotion>& motions, LinearStepper& stepper,
                             const DelayColumn& delay, double longest_step_s,

@@ -40,7 +40,7 @@ constexpr RateOfParameter kActs[] = {
 constexpr double DrivenSlopes::*kDriven[kDrivenSize] = {&DrivenSlopes::u, &DrivenSlopes::v,
                                                         &DrivenSlopes::r, &DrivenSlopes::steering};
 
-/// Index of a component of the state, which is its row in LinearMotion::by_column.
+/// Row of a component of the state in LinearMotion::by_column.
 std::size_t place_of(LogChannel channel) {
   switch (channel) {
     case LogChannel::kX:
@@ -208,9 +208,9 @@ void LinearStepper::move_to(const State<double>& next, double h, LinearMotion& m
 }
 
 void LinearStepper::stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion) {
-  // S is the derivative of the speed w with respect to a column. A change S of w before the stop
-  // shifts the time of the stop by -S/w_dot. The speed after the stop changes by this time shift
-  // times the jump of the rate, so S after = S before (w_dot after)/(w_dot before).
+  // S is the derivative of the speed w with respect to a column. A change of w by S before the stop
+  // shifts the time of the stop by -S/w_dot. The speed after the stop changes by minus this shift
+  // times the rate after the stop, so S after = S before (w_dot after)/(w_dot before).
   find_rates(command, motion.state);
   const double before = channel_of(rates_.rates, speed);
   channel_of(motion.state, speed) = 0.0;

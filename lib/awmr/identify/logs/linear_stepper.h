@@ -14,13 +14,14 @@
 
 namespace awmr {
 
-/// State at one time with its derivatives with respect to the columns of a fit. A column is an
-/// unknown of the fit: a free quantity or a free component of the initial state.
+/// State at one time, with its derivatives with respect to the columns of a fit. A column is an
+/// unknown of the fit: a free quantity, a free component of the initial state, or an uncertain time
+/// of a command change.
 struct LinearMotion {
   State<double> state{};
   /// Derivatives, [kStateSize][columns]; empty if there are no columns.
   std::vector<double> by_column;
-  /// Derivatives of one component of the state, one per column. `channel`: the component.
+  /// Derivatives of the component `channel` of the state, one per column.
   const double* row(LogChannel channel, std::size_t columns) const;
   double* row(LogChannel channel, std::size_t columns);
 };
@@ -36,8 +37,8 @@ struct ParameterColumn {
 class LinearStepper {
  public:
   /// `columns`: number of columns of the derivatives; 0: only the state is computed. `parameters`:
-  /// the columns that belong to model parameters. `command_columns`: columns_of() of the command
-  /// path. `longest_step_s`, `extra`: as for LinearPlant.
+  /// columns of model parameters. `command_columns`: columns_of() of the command path.
+  /// `longest_step_s`, `extra`: as for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters,
                 const CommandColumns& command_columns, double longest_step_s = 0.0,
@@ -55,8 +56,7 @@ class LinearStepper {
   /// The additional delay of the steering changes only the derivative of the steering angle.
   void change_command(const DelayedCommand& before, const DelayedCommand& after,
                       LinearMotion& motion);
-  /// Updates the derivatives with respect to the time of this jump of the commands, whose column is
-  /// `column`, as change_command() does for the delay.
+  /// Does the same for the time of this jump, whose column is `column`.
   void change_time(std::size_t column, const DelayedCommand& before, const DelayedCommand& after,
                    LinearMotion& motion);
   /// Returns the rates of the state, friction included. If friction holds a speed at 0, sets the
@@ -66,8 +66,7 @@ class LinearStepper {
   std::size_t columns() const { return columns_; }
 
  private:
-  /// Derivative of one rate with respect to a parameter, and the place in driven_ to which it is
-  /// copied.
+  /// Derivative of one rate with respect to a parameter, and its place in driven_.
   struct Term {
     std::size_t parameter;
     double DrivenSlopes::*rate;
@@ -76,10 +75,10 @@ class LinearStepper {
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
   /// Sets the derivatives of the rates with respect to a quantity that changes the commands. `by`:
-  /// derivatives of the commands with respect to this quantity; `column`: its column.
+  /// derivatives of the commands with respect to this quantity.
   void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
-  /// Sets the derivatives of the rates with respect to the change that acted last
-  /// (DelayedCommand::change_column) to 0 if another change acts now.
+  /// If another change acts than before (DelayedCommand::change_column), sets the derivatives of
+  /// the rates with respect to the previous one to 0.
   void follow_change(const DelayedCommand& command);
   /// Computes the rates at the state `s` and their derivatives, friction included, into rates_.
   void find_rates(const DelayedCommand& command, const State<double>& s);
@@ -87,13 +86,13 @@ class LinearStepper {
   /// derivatives of this speed in `motion` to 0.
   void find_way(const DelayedCommand& command, LinearMotion& motion);
   /// Returns the state after h_s seconds. Stores the derivatives of the rates at the Runge-Kutta
-  /// stages, which move_to() needs.
+  /// stages for move_to().
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
-  /// Sets the state of `motion` to `next`, the result of the last state_after(), and advances the
-  /// derivatives of the state by the same step.
+  /// Sets the state of `motion` to `next`, the result of the last state_after(), and advances its
+  /// derivatives by the same step.
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);
-  /// Handles a speed that has reached 0: friction holds it at 0, or the speed changes its sign. Its
-  /// derivatives are scaled by the ratio of the rates of this speed after and before the stop.
+  /// Handles a speed that has reached 0: friction holds it at 0, or the speed changes its sign.
+  /// Multiplies its derivatives by the rate of this speed after the stop over that before.
   void stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion);
 
   LinearPlant plant_;
