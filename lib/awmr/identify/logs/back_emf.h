@@ -29,7 +29,7 @@ LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options);
 
 /// True if a further fit should also estimate k_e, for one of these reasons:
 ///   - The score test of k_e (score_test.h) predicts that -2 ln L decreases by more than 4. Noise
-///     alone   gives such a prediction in 5 % of fits.
+///     alone gives such a prediction in about 2 % of fits.
 ///   - A channel has a slow drift, which may hide the effect of k_e.
 ///   - `fit` did not converge.
 ///

@@ -189,10 +189,10 @@ ceres::Solver::Options solver_options(double function_tolerance) {
 /// Ends a search that makes no progress, which is so in two cases:
 ///   - Two steps in a row fail, each with a predicted decrease of -ln L below 0.05. Such a decrease
 ///     changes an estimate by less than a third of a standard error. The cost is rough on this
-///     scale,   because Runge-Kutta steps cross the kink of the resistance where speed or yaw rate
-///     changes its   sign. Further steps would only find local minima.
+///     scale, because Runge-Kutta steps cross the kink of the resistance where speed or yaw rate
+///     changes its sign. Further steps would only find local minima.
 ///   - Eight steps together decrease -ln L by less than 0.01. The search then creeps along a
-///     direction   that the logs do not determine.
+///     direction that the logs do not determine.
 class EndWithoutProgress : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) final {

@@ -50,7 +50,7 @@ struct ChannelNoise {
   ///   - The drift is above 0.5 times the sensor noise, and its correlation time is at least
   ///     `longest_s`.
   ///   - The drift is above 1.5 times the sensor noise, and its correlation time is at least half
-  ///     of   `longest_s`.
+  ///     of `longest_s`.
   bool of_the_model(double longest_s = 0.5) const {
     return (drift_std > 0.5 * sensor_std && correlation_s >= longest_s) ||
            (drift_std > 1.5 * sensor_std && correlation_s >= 0.5 * longest_s);

@@ -15,14 +15,14 @@ namespace awmr {
 /// more than 10.
 ///   - The delay of the commands is negative if their time stamps are late.
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
-///     file   gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw
-///     rate or the   heading.
+///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw
+///     rate or the heading.
 ///   - If no candidate is kept, a slower servo and then a motor lag are tried (term_trials.h).
-///     After each   added term, one motor lag is tried in place of all filters.
+///     After each added term, one motor lag is tried in place of all filters.
 ///   - With an error of the steering linkage, the stop may limit the angle or the command
 ///     (steering_linkage.h). Both are tried if the logs have commands near the stop.
 ///   - Steering trim and force imbalance have nearly the same effect. If the search finds one of
-///     them   and the commands allow an estimate of both, both become free.
+///     them and the commands allow an estimate of both, both become free.
 ///
 /// The search also ends if `ends` returns true for a fit with an added term.
 NoiseIteration find_delays_and_errors(NoiseIteration settled, Loss loss,

@@ -258,9 +258,9 @@ void search_terms_again(const std::vector<DrivingLog>& logs, const LogFitOptions
 /// now, after the choice of the other axis and of the delays. A family is compared again for one of
 /// two reasons:
 ///   - Its AIC is close to that of `winner`: it is higher by less than the AIC has decreased from
-///     `winner`   to `best`.
+///     `winner` to `best`.
 ///   - Its fit had other delays, lags or command errors than `best`. With wrong terms, the AIC of
-///     the true   family can be too high by any amount.
+///     the true family can be too high by any amount.
 std::vector<Families> to_compare_again(const LogFit& winner, bool of_yaw, const FamilyFit& best,
                                        std::vector<FamilyFit>& others) {
   const double improved = aic_lead(best.fit, winner);

@@ -25,7 +25,7 @@ namespace awmr {
 ///   - a scale error of the yaw rate if the heading or a position is measured, and of the speed if
 ///     a position is measured;
 ///   - slip of the wheels that measure the speed or, if left and right forces differ, the yaw rate,
-///     unless   an excess of wheel forces is estimated (wheel_slip.h does not include it);
+///     unless an excess of wheel forces is estimated (wheel_slip.h does not include it);
 ///   - position and direction of a sensor of the sideways (sway) speed.
 std::vector<FreeQuantity> further_terms(const LogProblem& problem);
 

@@ -55,7 +55,7 @@ struct Identifiability {
 /// A quantity gets no value for one of two reasons:
 ///   - Its standard error exceeds kUnknown large changes (half of that for the sway resistance).
 ///   - It contributes a tenth or more to the squared length of a direction (eigenvector of H) that
-///     the   logs do not determine.
+///     the logs do not determine.
 Identifiability identifiability(const Eigen::MatrixXd& information, const Scores& scores,
                                 const std::vector<FreeQuantity>& quantities);
 

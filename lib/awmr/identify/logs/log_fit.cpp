@@ -29,7 +29,7 @@ namespace {
 /// 000 samples, the last step is therefore shorter than 0.01 standard errors.
 constexpr double kFine = 1e-9;
 
-/// Largest number of rough optima of the multistart from which the final search is tried, best
+/// Largest number of rough optima of the multistart from which the final search may start, best
 /// first. The next one is tried only if the simulation of the logs diverges where the search ends.
 constexpr std::size_t kTries = 3;
 
@@ -40,8 +40,8 @@ LogFit without_solution(std::string why, std::vector<SearchStart> starts) {
   return fit;
 }
 
-/// For each candidate term, the decrease of -2 ln L that a score test predicts if the term were
-/// also estimated. 0 for a term that the fit estimates already.
+/// For each candidate term, the decrease of -2 ln L that a score test predicts for a fit that also
+/// estimates it. 0 for a term that the fit estimates already.
 std::vector<double> candidate_gains(const LogProblem& problem, const SearchPoint& point,
                                     const std::vector<ParameterId>& candidate_terms) {
   std::vector<FreeQuantity> terms;
@@ -61,7 +61,6 @@ std::vector<double> candidate_gains(const LogProblem& problem, const SearchPoint
 }
 
 /// Mean square of the errors, each divided by the standard deviation of its sensor in `guess`.
-/// About 1 if the model is right.
 double relative_error_of(const LogProblem& guess, const ErrorsByChannel& errors) {
   double sum = 0.0;
   for (const auto& [channel, parts] : errors) {
@@ -73,8 +72,8 @@ double relative_error_of(const LogProblem& guess, const ErrorsByChannel& errors)
   return sum / guess.readings();
 }
 
-/// Solution of a log fit with n quantities, its covariance (n x n), and the scores of the blocks
-/// into which the logs are divided. A score is the gradient of -ln L, of length n.
+/// Solution of a log fit with n quantities, its covariance (n x n), and the scores (gradients of
+/// -ln L, of length n) of the blocks into which the logs are divided.
 struct BootstrapInput {
   const std::vector<FreeQuantity>& quantities;
   const std::vector<double>& coordinates;
@@ -108,10 +107,9 @@ double scale_to(double std, const std::vector<double>& draws) {
 }
 
 /// Computes 95 % intervals by a block bootstrap. Each resample draws blocks with replacement and
-/// makes one Gauss-Newton step from the solution. The steps are scaled so that their standard
-/// deviations equal the standard errors of the covariance. The bootstrap thus determines only the
-/// shape of the intervals, not their width. The ends are the 2.5 % and 97.5 % percentiles of each
-/// quantity's value. Empty for 0 resamples.
+/// makes one Gauss-Newton step from the solution. The steps are scaled to the standard errors of
+/// the covariance, so the bootstrap determines only the shape of the intervals, not their width.
+/// The ends are the 2.5 % and 97.5 % percentiles of each quantity's value. Empty for 0 resamples.
 std::vector<Interval> block_bootstrap(const BootstrapInput& input, int resamples,
                                       std::uint64_t seed) {
   if (resamples <= 0) return {};
@@ -136,8 +134,8 @@ std::vector<Interval> block_bootstrap(const BootstrapInput& input, int resamples
   return intervals;
 }
 
-/// Returns the result of a fit whose search ended at `solved`. `sums`: sums of all windows at this
-/// point, all finite.
+/// Returns the result of a fit whose search ended at `solved`. `sums`: sums of all windows there,
+/// all finite.
 LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector<WindowSums>& sums,
               const LogFitOptions& options) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
@@ -163,8 +161,7 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
-/// Result of a fit that was stopped early because its errors are too large. `at`: end of its first
-/// round.
+/// Result of a fit that stopped early because of large errors. `at`: end of its first round.
 LogFit given_up(const NoiseIteration& at) {
   LogFit fit = without_solution("not refined, because the errors are too large", {});
   fit.quantities = at.problem.model.quantities;
@@ -174,7 +171,6 @@ LogFit given_up(const NoiseIteration& at) {
   return fit;
 }
 
-/// Result of a fit that was stopped, because the commands of the logs change between rows.
 LogFit stopped_at(const NoiseIteration& at) {
   LogFit fit = without_solution("stopped, because commands change between rows", {});
   fit.quantities = at.problem.model.quantities;
@@ -190,8 +186,7 @@ NoiseRounds rounds_of(const LogProblem& problem, const LogFitOptions& options) {
 }
 
 /// Fits the coordinates and the noise of the logs, by a search that starts at these coordinates.
-/// For long logs, the search first uses a sample of the windows, because an evaluation of all rows
-/// takes longer.
+/// For long logs, the search first uses a sample of the windows, which saves time.
 NoiseIteration settled_from(LogProblem problem, std::vector<double> coordinates,
                             const LogFitOptions& options) {
   problem.model.longest_step_s = step_s_at(problem.model, coordinates);

@@ -31,32 +31,31 @@ struct LogFit {
   std::vector<double> change_times;
   ErrorsByChannel errors;  ///< model + bias - measured at the optimum, SI; not whitened
   /// One per term in LogFitOptions::candidate_terms: the decrease of -2 ln L, >= 0, that a score
-  /// test predicts if the term were also estimated.
+  /// test predicts for a fit that also estimates this term.
   std::vector<double> candidate_gain;
   double widened = 1.0;    ///< largest factor by which a standard error was raised
   EstimatorReport report;  ///< report for /estimates of model.json
   bool usable = false;     ///< true if the final search converged
   /// Mean square of the errors at the optimum, relative to the noise by sensor_noise(): about 1 if
-  /// the model is right. If the fit gave up, the value is that after the first round of
+  /// the model is right. If the fit gave up, this is the value after the first round of
   /// settle_noise().
   double relative_error = 0.0;
-  /// True if the fit was stopped early because its relative error after the first round exceeded
+  /// True: the fit stopped early, because its relative error after the first round exceeded
   /// LogFitOptions::give_up_above. The fit is then not usable. Of its results only `quantities`,
   /// `coordinates`, `relative_error` and `report` are set.
   bool gave_up = false;
-  /// True if the fit was stopped early because the commands of the logs probably change between
-  /// rows (LogFitOptions::tests_changes). The fit is then not usable. Of its results only
-  /// `quantities` and `coordinates` are set.
+  /// True: the fit stopped early, because the commands of the logs probably change between rows
+  /// (LogFitOptions::tests_changes). The fit is then not usable. Of its results only `quantities`
+  /// and `coordinates` are set.
   bool has_changes_between_rows = false;
 
   /// Standard error of coordinate i.
   double error_of(std::size_t i) const {
     return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
   }
-  /// True if quantity i differs significantly from 0: by at least two standard errors, and by at
-  /// least 1e-3 in its SI unit (1e-6 s^2 for smoothing). For a delay, a lag, or an error of
-  /// commands or sensors. Precondition: the coordinate of the quantity is its value, not a
-  /// logarithm.
+  /// True if quantity i, a delay, a lag, or an error of commands or sensors, differs significantly
+  /// from 0: by at least two standard errors, and by at least 1e-3 in its SI unit (1e-6 s^2 for
+  /// smoothing). Precondition: the coordinate of the quantity is its value, not a logarithm.
   bool is_significant(std::size_t i) const {
     const double smallest = quantities[i].kind == FreeQuantity::Kind::kSmoothing ? 1e-6 : 1e-3;
     return !(std::abs(coordinates[i]) < std::max(smallest, 2.0 * error_of(i)));
@@ -64,17 +63,17 @@ struct LogFit {
 };
 
 /// Fits the logs. Precondition: an initial guess for every parameter. The fit is not usable and has
-/// no quantities in these cases: nothing is measured, no quantity is free, the readings are not
-/// more than the unknowns, or all searches fail. The report of the fit then states the reason.
+/// no quantities if nothing is measured, if no quantity is free, if there are not more readings
+/// than unknowns, or if all searches fail. Its report then states the reason.
 LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
 /// Makes a quick fit, only to rank models: one search from the initial guess, with short parts of
-/// the logs and long integration steps (rough_problem()). Only `quantities`, `coordinates` and
-/// `relative_error` of the result are set. `relative_error` is infinite if the search fails.
+/// the logs and long integration steps (rough_problem()). Sets only `quantities`, `coordinates` and
+/// `relative_error` of the result. `relative_error` is infinite if the search fails.
 LogFit fit_roughly(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// Returns the options with the delays and command errors of `fit` as free terms, whose initial
-/// guesses are their fitted values. Unchanged if `fit` has no quantities.
+/// Returns the options with the delays and command errors of `fit` as free terms, starting at their
+/// fitted values. Unchanged if `fit` has no quantities.
 LogFitOptions with_terms_of(const LogFit& fit, LogFitOptions options);
 
 /// Values of all parameters after the fit, fitted and fixed ones.

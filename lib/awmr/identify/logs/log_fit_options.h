@@ -18,9 +18,9 @@
 
 namespace awmr {
 
-/// Counter of the work of all searches of one identification, with a limit. The unit of work is one
+/// Counter of the work of all searches of one identification, with a limit. The unit is one
 /// integration step of one state vector, or of the derivatives of the state with respect to one
-/// quantity. Unlike a time limit, the limit of work does not depend on the machine or its load.
+/// quantity. Unlike a time limit, this limit gives the same result on a slow or busy machine.
 class Effort {
  public:
   explicit Effort(std::int64_t limit) : limit_(limit) {}
@@ -38,32 +38,32 @@ struct LogFitOptions {
   Vehicle vehicle;
   /// One per ParameterId: initial guess of a free parameter, or value of a fixed parameter.
   ParameterValues<double> initial_guess{};
-  /// Free parameters whose initial guess is only an order of magnitude. The multistart varies them.
-  /// Empty if all initial guesses come from other trials; one search then suffices.
+  /// Free parameters whose initial guess is only an order of magnitude, so that the multistart
+  /// varies them. Empty if all initial guesses come from other trials; one search then suffices.
   std::vector<ParameterId> guessed;
   std::vector<ParameterId> free;
   bool frees(ParameterId id) const { return std::ranges::find(free, id) != free.end(); }
   /// Terms of resistance families, and back-EMF, that are fixed at 0 in this fit. A score test
-  /// estimates how much each of them would improve the fit.
+  /// predicts how much each of them would improve the fit.
   std::vector<ParameterId> candidate_terms;
   /// Free delays, lags, and errors of commands and sensors. A motor lag that the vehicle file gives
-  /// is fixed and not listed.
+  /// is not listed, because it is fixed.
   std::vector<FreeTerm> terms;
   std::vector<LogChannel> biases;  ///< channels whose constant offset is estimated
   bool finds_delays = true;        ///< true: the fit also searches delays.h for further terms
-  /// True: the fit is stopped early (LogFit::has_changes_between_rows) if the commands probably
-  /// change between the rows of the logs.
+  /// True: the fit stops early (LogFit::has_changes_between_rows) if the commands probably change
+  /// between the rows of the logs.
   bool tests_changes = false;
   /// Time interval of the rows that are fitted, s. Commands before it still act through delays and
   /// lags. Absent: all rows.
   std::optional<Interval> only_s;
   /// Further initial guesses, for example the optimum of a fit with another resistance family.
   std::vector<ParameterValues<double>> also_from;
-  /// Noise levels with which the search begins, from a fit at nearly the same coordinates. Empty:
-  /// the search begins with the noise of the sensors.
+  /// Noise levels with which the search begins, from a fit at nearly the same coordinates. If
+  /// empty, the search begins with the noise of the sensors.
   NoiseLevels noise;
-  /// The fit is stopped early (LogFit::gave_up) if LogFit::relative_error exceeds this value after
-  /// the first round of settle_noise().
+  /// The fit stops early (LogFit::gave_up) if LogFit::relative_error exceeds this value after the
+  /// first round of settle_noise().
   double give_up_above = std::numeric_limits<double>::infinity();
   Loss loss = Loss::kSquared;  ///< use a robust loss if a sensor has outliers
   std::uint64_t seed = 1;      ///< seed of the multistart and of the bootstrap

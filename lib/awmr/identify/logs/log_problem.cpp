@@ -32,8 +32,7 @@ double step_s_at(const LogModel& model, const std::vector<double>& coordinates) 
   plant.sway_alpha = 0.0;
   plant.steering_time_constant_s = std::numeric_limits<double>::infinity();
   const bool jumps = has_force_excess(model.quantities);
-  // The step is at least kShortestReplayStep_s. This limit matters only if a guessed time constant
-  // is shorter than that of any vehicle.
+  // This limit matters only if a guessed time constant is shorter than that of any vehicle.
   return std::max(kShortestReplayStep_s,
                   std::min({replay_step_s(plant), model.row_spacing_s,
                             jumps ? kStepWithJumps_s : model.row_spacing_s,

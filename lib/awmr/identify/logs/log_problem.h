@@ -47,27 +47,25 @@ struct SearchPoint {
   std::vector<double> initial_states;
 };
 
-/// Longest integration step, s, at these coordinates: the step of replay_step_s() without sway and
-/// servo, with these limits:
+/// Longest integration step, s, at these coordinates. It is the step of replay_step_s() without
+/// sway and servo, with these limits:
 ///   - Fast sway shortens the step to no less than 1/4 of the row spacing, and a fast servo to no
 ///     less than 1/8. (Still faster sway is slowed down, see LinearPlant::sway_pace.)
-///   - The step is at most the row spacing, because a longer step lengthens the straight line that
+///   - The step is at most the row spacing. A longer step would lengthen the straight line that
 ///     replaces the resistance near rest (Resistance::rest_speed).
 ///   - The step is at most 5 ms if an excess of braking or backward forces is free, because braking
 ///     forces jump where a wheel changes its direction.
 ///   - The step is at least kShortestReplayStep_s.
 double step_s_at(const LogModel& model, const std::vector<double>& coordinates);
 
-/// Builds the least-squares problem at the initial guess. The noise is that by sensor_noise(), and
-/// all samples have the weight 1 (a robust loss acts later). The logs must outlive the problem.
+/// Builds the least-squares problem at the initial guess, with the noise by sensor_noise() and the
+/// weight 1 of all samples (a robust loss acts later). The logs must outlive the problem.
 LogProblem log_problem(const std::vector<DrivingLog>& logs, const LogFitOptions& options);
 
-/// Replaces the noise levels of the problem by those in `levels`. A channel that is not in `levels`
-/// keeps its noise level.
+/// Replaces the noise levels of the channels in `levels`. Other channels keep theirs.
 void set_noise(const NoiseLevels& levels, LogProblem& problem);
 
-/// Returns the search point with these coordinates and with the measured initial state of every
-/// window.
+/// Returns the search point with these coordinates and the measured initial states of all windows.
 SearchPoint from_measured(const LogProblem& problem, std::vector<double> coordinates);
 
 /// Longest integration step, s, of rough searches (which only rank initial guesses or models) and
@@ -95,20 +93,18 @@ bool all_finite(const std::vector<WindowSums>& sums);
 /// time. Logs with less than twice as many windows are used entirely.
 inline constexpr std::size_t kSampleWindows = 12;
 
-/// True if the logs have so many windows, at least 2 kSampleWindows, that a sample of them saves
-/// time.
+/// True if the logs have at least 2 kSampleWindows windows, so that a sample of them saves time.
 bool is_long(const LogProblem& problem);
 
-/// Returns `count` evenly spaced indices out of `size`; all indices if `size` is smaller than
-/// `count`.
+/// Returns `count` evenly spaced indices out of `size`, or all indices if there are fewer.
 std::vector<std::size_t> spread(std::size_t size, std::size_t count);
 
-/// Returns the problem with only the windows that have these indices. Channels without samples in
-/// them are left out.
+/// Returns the problem with only these windows (indices). Leaves out channels without samples in
+/// them.
 LogProblem with_windows(const LogProblem& problem, const std::vector<std::size_t>& windows);
 
-/// Returns the point with only the initial states of the windows that have these indices.
-/// `problem`: the problem to which `point` belongs.
+/// Returns the point with only the initial states of these windows (indices). `problem`: problem to
+/// which `point` belongs.
 SearchPoint with_windows(const LogProblem& problem, const SearchPoint& point,
                          const std::vector<std::size_t>& windows);
 

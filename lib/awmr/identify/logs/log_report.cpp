@@ -34,8 +34,8 @@ std::string in_words(const NoiseLevels& levels) {
   return text;
 }
 
-/// Report of quantity `i` with its 95 % interval. The interval is that of the bootstrap if
-/// available, else that of Student's t for the coordinate. A refused quantity gets no interval.
+/// Report of quantity `i`. Its 95 % interval is that of the bootstrap if there is one, else that of
+/// Student's t for the coordinate. A refused quantity gets no interval.
 EstimatorParameter parameter_of(const LogReportInput& input, std::size_t i) {
   const FreeQuantity& q = input.problem.model.quantities[i];
   const double x = input.solved.point.coordinates[i];

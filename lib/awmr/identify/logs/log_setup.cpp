@@ -25,9 +25,9 @@ bool any_has(const std::vector<DrivingLog>& logs, std::initializer_list<LogChann
   });
 }
 
-/// Reason why the logs cannot identify a parameter, judging by their channels and commands, before
-/// any search. Empty if they can. Indirect effects, for example of the yaw rate on the speed, do
-/// not count.
+/// Reason why the channels and commands of the logs cannot identify a parameter, known before any
+/// search. Empty if they can. Indirect effects, for example of the yaw rate on the speed, do not
+/// count.
 std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   switch (id) {
     case ParameterId::kSteeringTimeConstant: {
@@ -68,8 +68,8 @@ std::string cannot_show(const std::vector<DrivingLog>& logs, ParameterId id) {
   }
 }
 
-/// True if commands of the logs turn the vehicle: left and right forces differ, or a steering angle
-/// is above kMuch_rad.
+/// True if commands turn the vehicle: left and right forces differ, or a steering angle is above
+/// kMuch_rad.
 bool turns(const std::vector<DrivingLog>& logs) {
   constexpr double kMuch_rad = 0.01;
   return std::ranges::any_of(logs, [](const DrivingLog& log) {
@@ -79,8 +79,9 @@ bool turns(const std::vector<DrivingLog>& logs) {
   });
 }
 
-/// Channels whose constant offset is estimated: those that the user requested; the yaw rate, if the
-/// heading determines its offset; the heading, if the course over ground determines its offset.
+/// Channels whose constant offset the fit estimates: those that the user requested; the yaw rate,
+/// if the heading determines its offset; the heading, if the course over ground determines its
+/// offset.
 std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
                                         std::vector<LogChannel> requested) {
   const auto add = [&](LogChannel channel, bool is_biased) {
@@ -94,8 +95,8 @@ std::vector<LogChannel> biased_channels(const std::vector<DrivingLog>& logs,
   return requested;
 }
 
-/// Limit of the work of all searches (Effort). It corresponds to about half a minute on a processor
-/// of 2023, more for long logs. A log that the model describes well needs a tenth of this.
+/// Limit of the work of all searches (Effort): about half a minute on a processor of 2023, more for
+/// long logs. A log that the model describes well needs a tenth of this.
 std::int64_t effort_limit(const std::vector<DrivingLog>& logs) {
   constexpr double kMin = 6e8;
   constexpr double kPerSecond = 1e6;  // additional work per second of log
@@ -108,8 +109,8 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
                           const IdentifyOptions& options) {
   LogFitOptions fit;
   fit.vehicle = vehicle;
-  // If the commands were logged too slowly, the time of each change is known only to about one row
-  // interval. The delay of the commands is therefore estimated.
+  // If the commands were logged too slowly, the rows do not show when a command changed. The fit
+  // therefore estimates the delay of the commands.
   const bool is_interpolated = std::ranges::any_of(logs, &DrivingLog::has_interpolated_commands);
   fit.terms = requested_terms(options.terms);
   const bool has_delay = std::ranges::find(options.terms, kInputDelayName) != options.terms.end();
@@ -132,7 +133,7 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   return fit;
 }
 
-/// Makes the parameters free that are requested or have no value. Guesses those without a value.
+/// Makes the parameters free that the user requested or that have no value, and guesses the latter.
 /// Stores the reason for each parameter that the logs cannot identify.
 void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
                      const std::vector<ParameterId>& requested, const Model& model,
@@ -143,16 +144,16 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     if (known.value) fit.initial_guess[at(parameter.id)] = *known.value;
     const bool wanted = contains(requested, parameter.id) || !known.value;
     // Back-EMF and the servo's time constant stay fixed if the logs cannot identify them. (With a
-    // steering command that never changes, a free time constant would be harmful: the fitted
-    // initial steering angle of each window would act like a trim.)
+    // steering command that never changes, the fitted initial steering angle of each window would
+    // act like a trim if the time constant were free.)
     const bool never_acts =
         parameter.id == ParameterId::kBackEmf || parameter.id == ParameterId::kSteeringTimeConstant;
     if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
     // In logs with turns, every other parameter that the logs cannot identify still affects the
-    // remaining ones. Such a parameter stays free during the fit, so that the intervals of the
-    // others include its uncertainty, and is refused afterwards.
+    // remaining ones. It stays free during the fit, so that the intervals of the others include its
+    // uncertainty, and is refused afterwards.
     if (!why.empty() && (!turning || never_acts)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);
@@ -160,9 +161,9 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
   if (fit.frees(ParameterId::kBackEmf)) fit = with_back_emf(std::move(fit));
 }
 
-/// True if the fit has to be tested for back-EMF. All of these conditions must hold: the vehicle
-/// file does not give k_e; no parameters were requested; the logs contain enough coasting; no
-/// resistance comes from a table, which would include the back-EMF.
+/// True if the fit has to be tested for back-EMF. All conditions must hold: the vehicle file does
+/// not give k_e; the user requested no parameters; the logs contain enough coasting; no resistance
+/// comes from a table, which would include the back-EMF.
 bool looks_for_back_emf(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                         const IdentifyOptions& options, const Model& model) {
   return options.requested.empty() && !vehicle.back_emf_s_per_m &&

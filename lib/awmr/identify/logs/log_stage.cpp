@@ -36,10 +36,10 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
 }
 
 /// Selects the model of the logs: resistance families of surge and yaw, and back-EMF if it is
-/// significant. Decides between wheel slip and late commands (decide_slip()), and what the steering
-/// stop limits (decide_stop()). Then checks whether the selected fit describes the logs, which can
-/// withdraw intervals. Adds the reports of all fits and the findings to `stage`. `power_law`,
-/// `first`: as in choose_model().
+/// significant. Decides between wheel slip and late commands (decide_slip()), and whether the
+/// steering stop limits the command or the angle (decide_stop()). Then checks whether the fit
+/// describes the logs, which can withdraw intervals. Adds the reports of all fits and the findings
+/// to `stage`. `power_law`, `first`: as in choose_model().
 FamilyFit fit_families(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                        const IdentifyOptions& options, FamilyFit first, LogStage& stage) {
   const FamilyChoice& surge = options.surge_family;
@@ -119,7 +119,7 @@ Finding in_words(const HeldOut& missed, const std::string& file) {
 }
 
 /// True if the search ended with the servo's time constant at its upper limit. No servo is that
-/// slow, so the search has probably found a wrong optimum.
+/// slow, so the optimum is probably wrong.
 bool has_impossible_servo(const LogFit& fit) {
   constexpr double kAtLimit = 1.0 - 1e-6;
   const auto i = place_of(fit.quantities, ParameterId::kSteeringTimeConstant);
@@ -134,9 +134,9 @@ Finding impossible_servo_finding(const std::string& file) {
                       kSlowestServo_s, option_text("starts"))};
 }
 
-/// Reports `not-identifiable` for each delay, lag or error that was fitted or requested but gets no
-/// value: as an error if `requested` contains its name, else as a note. Parameters that only
-/// describe the form of another term (FreeQuantity::is_form()) are left out.
+/// Reports `not-identifiable` for each delay, lag or error that the fit contains or the user
+/// requested, but that gets no value: as an error if `requested` contains its name, else as a note.
+/// Leaves out parameters that only describe the form of another term (FreeQuantity::is_form()).
 std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::string>& requested,
                                    const std::string& file) {
   std::vector<Finding> findings;
@@ -164,9 +164,9 @@ std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::str
 }
 
 /// Returns the warning `estimates-disagree` if parameter `i` of the log fit differs significantly
-/// from `known`, its estimate from other trials. The test is a two-sided normal test (p < 0.01) of
-/// the fitted coordinates, which are logarithms for most parameters. Empty if the estimates agree
-/// or `known` has no standard error.
+/// from `known`, its estimate from other trials: by a two-sided normal test (p < 0.01) of the
+/// fitted coordinates, which are logarithms for most parameters. Empty if the estimates agree, or
+/// if `known` has no standard error.
 std::optional<Finding> disagreement(const LogFit& fit, std::size_t i, const Estimate& known,
                                     const std::string& file) {
   constexpr double kApart = 0.01;
@@ -187,8 +187,8 @@ std::optional<Finding> disagreement(const LogFit& fit, std::size_t i, const Esti
                   info(q.id).name, q.value(fit.coordinates[i]), *known.value, known.method, z, p)};
 }
 
-/// Copies the parameters that the fit identifies to `stage`. A parameter that already has a value
-/// from other trials is copied only if `overrule` is true.
+/// Copies the parameters that the fit identifies to `stage`. If a parameter already has a value
+/// from other trials, copies it only if `overrule` is true.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
           LogStage& stage) {
   stage.block = fit.covariance;
@@ -217,7 +217,7 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
 /// disagreement, and withdraws the intervals if necessary.
 void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogStage& stage) {
   // The true form of a large saturation is unknown. With a wrong form, the estimates differ between
-  // parts of the logs, so a comparison of the parts would be meaningless.
+  // parts of the logs, so a comparison of the parts would mean nothing.
   const bool saturates = saturates_much(chosen.fit);
   const LogComparison compared = saturates ? LogComparison{} : compare_logs(logs, chosen);
   stage.withdraws_intervals =
@@ -227,15 +227,15 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
-/// The logs with their commands interpreted in another way, and the finding that reports this.
+/// The logs with their commands read in another way, and the finding that reports this.
 struct ReadAgain {
   std::vector<DrivingLog> logs;
   Finding finding;
 };
 
-/// Tries other interpretations of the logged commands: set-points that are held, straight lines
-/// between the rows, and measured steering angles. Returns the first one whose fit is better than
-/// `first`, else empty.
+/// Tries other ways to read the logged commands: as set-points that the vehicle holds, as straight
+/// lines between the rows, and as measured steering angles. Returns the first one whose fit is
+/// better than `first`, else empty.
 std::optional<ReadAgain> read_again(const std::vector<DrivingLog>& logs,
                                     const LogFitOptions& power_law, const FamilyFit& first) {
   const std::string& file = logs.front().file;

@@ -25,12 +25,11 @@ struct LogStage {
   Family surge_family = Family::kPower;  ///< families of the fit
   Family yaw_family = Family::kPower;
   Eigen::MatrixXd block;  ///< covariance of all coordinates of the fit
-  /// Reason why the logs do not identify a parameter. One entry for each such parameter that is
-  /// requested or has no value from other trials.
+  /// Reason why the logs do not identify a parameter, for each such parameter that the user
+  /// requested or that has no value from other trials.
   std::map<ParameterId, std::string> reasons;
   /// True if k_e (back-EMF) was free in the fit but is not identified. The model then has no value
-  /// of k_e. (A value of 0 would be wrong, because the other parameters were fitted with a nonzero
-  /// k_e.)
+  /// of k_e: 0 would be wrong, because the other parameters were fitted with a nonzero k_e.
   bool is_back_emf_open = false;
   std::vector<EstimatorReport> reports;  ///< one for each fit of a resistance family
   std::size_t chosen_report = 0;         ///< index in `reports` of the fit from which `main` comes
@@ -39,7 +38,7 @@ struct LogStage {
 };
 
 /// Fits the logs, starting from the values in `model`. The parameters in `requested` and those
-/// without a value are free, the others fixed. `overrule`: if true, values from the logs replace
+/// without a value are free, the others fixed. If `overrule` is true, values from the logs replace
 /// those from other trials.
 ///
 /// Findings: `estimates-disagree` (logs against other trials, p < 0.01), `coloured-residuals`,

@@ -18,15 +18,15 @@ bool is_open(const FamilyChoice& choice) {
   return !choice.family || (!choice.requested && choice.family == Family::kPower);
 }
 
-/// Axes (surge, yaw) whose resistance family may be changed, because the user did not select one.
-/// Yaw counts only if its resistance is estimated.
+/// Axes (surge, yaw) whose resistance family may change, because the user did not select one. Yaw
+/// counts only if its resistance is estimated.
 OpenAxes open_axes(const LogFitOptions& power_law, const IdentifyOptions& options) {
   return {.surge = is_open(options.surge_family),
           .yaw = is_open(options.yaw_family) && power_law.frees(ParameterId::kYawAlpha)};
 }
 
-/// Informs the user if the step `what` may take more than 10 s on one processor, by options.notice.
-/// `numbers`: approximate work of the step, in the unit of Effort.
+/// Calls options.notice if the step `what` may take more than 10 s on one processor. `numbers`:
+/// approximate work of the step, in the unit of Effort.
 void announce(const IdentifyOptions& options, double numbers, const std::string& what) {
   constexpr double kNumbersPerSecond = 2e7;  // work (Effort) per second on a processor of 2023
   constexpr double kLong_s = 10.0;
@@ -38,7 +38,7 @@ void announce(const IdentifyOptions& options, double numbers, const std::string&
 }
 
 /// Estimated work of the first fit, in the unit of Effort. Each evaluation of the logs integrates
-/// the state and its derivatives with respect to every free quantity and every component of the
+/// the state, and its derivatives with respect to every free quantity and every component of the
 /// initial state.
 double numbers_of_first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& options) {
   constexpr double kEvaluations = 40.0;
@@ -110,8 +110,8 @@ bool is_steering_measured(const std::vector<DrivingLog>& logs, LogFitOptions pow
   });
   const FamilyFit follows = fit_family(with_measured_steering(logs), from, first.surge, first.yaw);
   // A servo lag with equally late time stamps of the commands describes measured angles just as
-  // well, but takes two more terms. If `first` has found these terms, any lower AIC of the model
-  // without them therefore suffices.
+  // well, but takes two more terms. If `first` has these terms, the model without them needs no
+  // significantly lower AIC.
   const double threshold = late_stamps_s > 0.0 ? 0.0 : kFamilyAicThreshold;
   return follows.fit.usable && aic_lead(follows.fit, first.fit) > threshold;
 }
@@ -140,8 +140,8 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
   chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
   if (!open.any()) return chosen;
-  // With `--family auto`, a family replaces the power law if its AIC is lower by any amount.
-  // Without this option, it has to be significantly lower.
+  // With `--family auto`, any lower AIC is enough for a family to replace the power law. Without
+  // this option, its AIC has to be significantly lower.
   show_step(options, "trying families of resistance");
   const bool is_family_requested = !options.surge_family.family || !options.yaw_family.family;
   const FamilyContest contest{.open = open,
@@ -157,8 +157,8 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return chosen;
 }
 
-/// Selects the families with the back-EMF of `first`. Empty if back-EMF is not significant: a fit
-/// of the same families and terms without it has nearly the same AIC, or the result is inadequate.
+/// Selects the families with the back-EMF of `first`. Empty unless shows_back_emf(), compared with a
+/// fit of the same families and terms without back-EMF.
 std::optional<BestFamily> with_screened_back_emf(const std::vector<DrivingLog>& logs,
                                                  LogFitOptions& power_law,
                                                  const IdentifyOptions& options,
@@ -174,11 +174,10 @@ std::optional<BestFamily> with_screened_back_emf(const std::vector<DrivingLog>& 
 }
 
 /// Tests whether the motors have back-EMF: fits the best families of `ideal`, the result without
-/// back-EMF, with back-EMF in addition.
-///
-/// If this fit is significantly better, makes back-EMF a free parameter of `power_law`, selects the
-/// families again, and returns the new result. The best fit of `ideal` is then one of its
-/// alternatives. Otherwise returns `ideal`, with the fit with back-EMF as one of its alternatives.
+/// back-EMF, with back-EMF in addition. If this fit is significantly better, makes back-EMF a free
+/// parameter of `power_law`, selects the families again, and returns the new result, with the best
+/// fit of `ideal` as one of its alternatives. Otherwise returns `ideal`, with the fit with back-EMF
+/// as one of its alternatives.
 BestFamily or_with_back_emf(const std::vector<DrivingLog>& logs, LogFitOptions& power_law,
                             const IdentifyOptions& options, BestFamily ideal) {
   show_step(options, "trying back-EMF of the motors");

@@ -10,12 +10,12 @@
 namespace awmr {
 namespace {
 
-/// Draws a random initial guess. Each parameter in `guessed` with a logarithmic coordinate is
-/// multiplied by a factor in [e^-2, e^2]. An exponent in `guessed` is drawn from [0.3, 1.3] and
-/// limited to its range. Terms that only some resistance families have do not change.
+/// Draws a random initial guess of the parameters in `guessed`. Those with a logarithmic coordinate
+/// are multiplied by a factor in [e^-2, e^2]. Exponents are drawn from [0.3, 1.3] and limited to
+/// their range. Terms that only some resistance families have do not change.
 ///
-/// A random number is drawn for every quantity, even if it is not used. The guess of one quantity
-/// then does not depend on whether another one is in `guessed`.
+/// Every quantity uses one random number, even if it is not in `guessed`. The guess of a quantity
+/// then does not depend on which others are in `guessed`.
 std::vector<double> drawn(const LogProblem& problem, const std::vector<ParameterId>& guessed,
                           Random& random) {
   std::vector<double> coordinates = problem.initial;
@@ -34,8 +34,7 @@ std::vector<double> drawn(const LogProblem& problem, const std::vector<Parameter
   return coordinates;
 }
 
-/// Coordinates at which searches start: the initial guess, then those of options.also_from, then
-/// random guesses.
+/// Coordinates at which searches start: the initial guess, options.also_from, random guesses.
 std::vector<std::vector<double>> places(const LogProblem& problem, const LogFitOptions& options) {
   std::vector<std::vector<double>> from{problem.initial};
   for (const ParameterValues<double>& values : options.also_from) {

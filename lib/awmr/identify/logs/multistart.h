@@ -1,4 +1,4 @@
-/// Searches from several initial guesses (multistart), which find the starting points of a log fit.
+/// Searches from several initial guesses (multistart), which find starting points for a log fit.
 /// Private to identify/.
 #pragma once
 
@@ -11,8 +11,7 @@ namespace awmr {
 
 /// Result of multistart().
 struct Multistart {
-  /// Coordinates where the searches ended, smallest cost first. Only searches with a usable
-  /// solution.
+  /// Coordinates where the usable searches ended, smallest cost first.
   std::vector<std::vector<double>> ends;
   /// Report of every search: from the initial guess, from LogFitOptions::also_from, from random
   /// guesses.
@@ -23,15 +22,15 @@ struct Multistart {
 /// with longer integration steps.
 LogProblem rough_problem(const LogProblem& problem);
 
-/// A quick search only finds a starting point. It ends when a step changes the cost by less than
-/// this (relative).
+/// A quick search ends when a step changes the cost by less than this (relative). It only has to
+/// find a starting point.
 inline constexpr double kRough = 1e-4;
 
 /// Finds initial guesses for the fit. If other trials gave the whole initial guess and `also_from`
 /// is empty, returns only that guess, without a search.
 ///
-/// Otherwise runs quick searches from the initial guess and from each guess in `also_from`. If some
-/// parameters have only a guess of their order of magnitude, also searches from random guesses. The
+/// Otherwise runs quick searches from the initial guess and from each guess in `also_from`. If the
+/// guess of some parameters is only an order of magnitude, also searches from random guesses. The
 /// searches use short parts of some windows: over a long part, the effect of a wrong guess
 /// accumulates, and the search ends in a wrong optimum. If no search is usable, `ends` is empty.
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options);

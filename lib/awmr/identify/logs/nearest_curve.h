@@ -12,7 +12,7 @@ namespace awmr {
 /// rad/s, > 0).
 ///
 /// The member `coulomb` of the result is the constant term: Coulomb friction, or the force that a
-/// dead zone takes. `coulomb` is at least a tenth of the resistance at half of `fastest`: a fit of
+/// dead zone takes. It is at least a tenth of the resistance at half of `fastest`, because a fit of
 /// logs that starts at 0 could stay there even if 0 is wrong. Returns `curve` itself if no such
 /// curve exists.
 Resistance<double> nearest_curve(const Resistance<double>& curve, const FamilyTerms& terms,

@@ -29,8 +29,7 @@ ErrorsByChannel by_channel(const std::vector<FitWindow>& windows,
   return channels;
 }
 
-/// Clips the errors of a channel at three standard deviations. The standard deviation is a robust
-/// estimate by the median.
+/// Clips the errors of a channel at three standard deviations, which are estimated by the median.
 void clip(std::vector<ErrorSeries>& channel) {
   std::vector<double> all;
   for (const ErrorSeries& part : channel) {
@@ -94,7 +93,7 @@ double largest_change(const NoiseLevels& before, const NoiseLevels& after) {
 }
 
 /// Square root of the weight that a robust loss gives to the standardised residual r. The constants
-/// are those with an efficiency of 95 % for normal errors. The weights are
+/// give an efficiency of 95 % for normal errors. The weights are
 ///
 ///     Huber 1 for |r| <= 1.345, else 1.345/|r|;   Cauchy 1/(1 + (r/2.385)^2);
 ///     Tukey (1 - (r/4.685)^2)^2 for |r| < 4.685, else 0

@@ -17,7 +17,7 @@ struct NoiseIteration {
 };
 
 /// Collects the errors (before whitening) by channel. With a robust loss, clips them at three
-/// robust standard deviations, so that outliers do not increase the estimated noise.
+/// robust standard deviations, because outliers would increase the estimated noise.
 ErrorsByChannel errors_by_channel(const LogProblem& problem,
                                   const std::vector<WindowErrors>& errors, Loss loss);
 
@@ -27,15 +27,14 @@ struct NoiseRounds {
   /// The iteration stops after the first round if the cost then exceeds this value.
   double give_up_above = std::numeric_limits<double>::infinity();
   /// True: the search starts at the result of a fit to a part of the same logs, with its noise
-  /// levels. The first round then uses the normal integration steps, and may be the only round.
-  /// False: the first round uses longer steps (rough_step_s()) to save time, and at least one more
-  /// round follows.
+  /// levels. The first round then has normal integration steps, and may be the only one. False: the
+  /// first round has longer steps (rough_step_s()) to save time, and at least one more round
+  /// follows.
   bool is_near = false;
 };
 
-/// Alternately fits the coordinates and estimates the noise levels from the residuals. A round
-/// consists of both. Ends when no noise level changes by 1 % or more, or after NoiseRounds::most
-/// rounds.
+/// Alternately fits the coordinates and estimates the noise levels from the residuals (one round
+/// does both). Ends when no noise level changes by 1 % or more, or after NoiseRounds::most rounds.
 NoiseIteration settle_noise(LogProblem problem, SearchPoint point, Loss loss,
                             const NoiseRounds& rounds = {});
 

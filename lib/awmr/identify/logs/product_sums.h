@@ -1,5 +1,5 @@
-/// Condenses the matrix M = [J r], a Jacobian with its residuals, to the product M^T M. The product
-/// is summed row by row, then factored into a triangular matrix. Private to identify/.
+/// Reduces the matrix M = [J r], a Jacobian with its residuals, to the small matrix M^T M, which is
+/// summed row by row and then factored into a triangle. Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,10 +14,10 @@ class ProductSums {
   /// `size`: number of columns of M.
   explicit ProductSums(std::size_t size);
   /// Length of a row in memory: the number of columns of M, rounded up to a multiple of kRowVector.
-  /// The caller has to fill the rest of each row with 0.
+  /// The caller fills the rest of each row with 0.
   std::size_t columns() const { return columns_; }
   void add(const double* row);
-  /// Returns J^T r of the rows that were added since the last call of this function.
+  /// Returns J^T r of the rows that were added since the last call.
   Eigen::VectorXd take_gradient();
   /// M^T M as a full symmetric matrix.
   Eigen::MatrixXd products();
@@ -33,14 +33,14 @@ class ProductSums {
 };
 
 /// Matrix T = [R z; 0 rest], which replaces M = [J r] in least squares, because T^T T = M^T M. T
-/// has few rows: one more than J has columns. R is triangular up to a permutation of its columns.
+/// has only one row more than J has columns. R is triangular up to a permutation of its columns.
 struct Triangle {
   Eigen::MatrixXd r;
   Eigen::VectorXd z;
   double rest = 0.0;  ///< norm of the residuals that remain at the optimum
 };
 /// Computes the triangle from M^T M by a pivoted L D L^T decomposition with columns scaled to
-/// length 1. A pivot below 1e-14 is set to 0, because the rows then do not determine its direction.
+/// length 1. A pivot below 1e-14 becomes 0, because the rows then do not determine its direction.
 Triangle triangle_of(const Eigen::MatrixXd& products);
 
 }  // namespace awmr

@@ -22,8 +22,8 @@ Interval parameter_bounds(const FreeQuantity& quantity, double initial, const Ve
   }
   if (quantity.scale == Scale::kLinear) return {0.0, 1e6};
   // The servo's time constant is limited to kSlowestServo_s. Reason: servo and yaw motion are two
-  // lags in series, and a search could exchange the time constants of the two (I'z/g3' for the yaw
-  // motion).
+  // lags in series, with the time constants T and I'z/g3'. Without the limit, a search could
+  // exchange them.
   const double most = quantity.is(ParameterId::kSteeringTimeConstant)
                           ? to_coordinate(quantity.scale, kSlowestServo_s)
                           : initial + 10.0;

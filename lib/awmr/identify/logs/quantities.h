@@ -52,8 +52,8 @@ struct FreeQuantity {
   LogChannel channel = LogChannel::kX;
   ExtraForce force = ExtraForce::kSlopeX;  ///< for kExtraForce
   Scale scale = Scale::kLinear;
-  /// Change of the coordinate that counts as large, by kind. It is the unit of the standard
-  /// deviations of priors and of the limits of identifiability:
+  /// Change of the coordinate that counts as large, by kind. Standard deviations of priors and
+  /// limits of identifiability are multiples of it:
   ///   - 1 for a logarithm (a factor e), an exponent or a bias (SI);
   ///   - 0.2 for a term of a resistance family, Stribeck friction or drag in turns;
   ///   - 0.1 for a delay or lag (s), a trim or angle (rad), an imbalance, excess, saturation, wheel
@@ -66,8 +66,8 @@ struct FreeQuantity {
   double damping = 0.0;     ///< zeta of a second-order filter; 0: first order (for kSensorLag)
   bool is_mean = false;     ///< true: moving average; false: Gaussian kernel (for kSmoothing)
   bool is_ratio = false;    ///< true: a slip ratio; false: a slip speed (for kWheelSlip)
-  /// True: the stop limits the command, so the angle may lie beyond it. False: the stop limits the
-  /// angle. (For errors of the steering, is_of_linkage().)
+  /// For errors of the steering (is_of_linkage()). True: the stop limits the command, so the angle
+  /// may lie beyond the stop. False: the stop limits the angle.
   bool is_beyond_stop = false;
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
@@ -76,21 +76,21 @@ struct FreeQuantity {
   bool is_stribeck_speed() const {
     return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
   }
-  /// True for Stribeck friction, its speed scales, and slopes. No resistance family can describe
-  /// these effects.
+  /// True for Stribeck friction, its speed scales, and slopes, which no resistance family can
+  /// describe.
   bool is_stribeck_or_slope() const {
     return kind == Kind::kExtraForce && force <= ExtraForce::kSlopeY;
   }
   bool is_turn_drag_exponent() const {
     return is(ExtraForce::kTurnDragExponent) || is(ExtraForce::kTurnDragSpeedExponent);
   }
-  /// True for e_b or e_r of extra_forces.h, by which braking or backward forces exceed their
-  /// commands. A fit contains at most one of the two.
+  /// True for e_b or e_r of extra_forces.h, the excess of braking or backward forces. A fit
+  /// contains at most one of the two.
   bool is_force_excess() const {
     return is(ExtraForce::kBrakeForce) || is(ExtraForce::kReverseForce);
   }
-  /// True for a quantity that describes the shape of another term: sharpness of a saturation, speed
-  /// scale of Stribeck friction, exponents of the drag in turns.
+  /// True for a quantity that only describes the shape of another term: sharpness of a saturation,
+  /// speed scale of Stribeck friction, exponents of the drag in turns.
   bool is_form() const {
     return kind == Kind::kSaturationSharpness || is_stribeck_speed() || is_turn_drag_exponent();
   }
@@ -100,9 +100,8 @@ struct FreeQuantity {
            kind == Kind::kSteeringAsymmetry || kind == Kind::kSteeringCurve ||
            kind == Kind::kSteeringScale;
   }
-  /// True for quantities that can be 0 but not negative, so that an estimate can lie at the lower
-  /// end of its range: lag of the motors, delay, lag and smoothing of the sensors, saturation, wheel
-  /// slip, Stribeck friction, drag in turns, and dead band.
+  /// True for a quantity that can be 0 but not negative. Its estimate may therefore lie at the
+  /// lower end of its range.
   bool may_be_zero() const {
     return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
            kind == Kind::kSmoothing || kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
@@ -120,8 +119,8 @@ FreeQuantity free_parameter(ParameterId id);
 /// Delay of all commands, s; negative if their time stamps are late.
 FreeQuantity input_delay();
 
-/// Additional delay of the steering command relative to the forces, s, for example due to the
-/// period of the servo's pulses. Negative if the time stamps of the steering command are late.
+/// Additional delay of the steering command relative to the forces, s, for example the period of
+/// the servo's pulses. Negative if the time stamps of the steering command are late.
 FreeQuantity steering_delay();
 
 /// Time constant of the motors, s.
@@ -142,15 +141,15 @@ FreeQuantity steering_asymmetry();
 ///
 ///     c (1 + k (c/d_max)^2),   d_max: steering stop of the vehicle file
 ///
-/// The slope at small commands is 1 by definition, unless the scale is estimated too.
+/// Small commands c steer to the angle c, unless the scale is estimated too.
 FreeQuantity steering_curve();
 
 /// Scale error q of the steering: the angles are 1 + q times those of the other errors of the
-/// linkage except the trim. Only in fits with an asymmetry or a curve, which leave the scale open
-/// (widen_by_steering_scale() in steering_linkage.h).
+/// linkage except the trim. Only in fits with an asymmetry or a curve, which do not determine the
+/// scale (widen_by_steering_scale() in steering_linkage.h).
 FreeQuantity steering_scale();
 
-/// Rate limit of the steering angle, rad/s, which replaces that of the vehicle file. `begin_radps`:
+/// Rate limit of the steering angle, rad/s, in place of that of the vehicle file. `begin_radps`:
 /// initial guess, > 0.
 FreeQuantity servo_rate(double begin_radps);
 
@@ -159,8 +158,8 @@ FreeQuantity servo_rate(double begin_radps);
 FreeQuantity force_imbalance();
 
 /// Exponent p of the wheel forces: the command F' gives the force |F'|^p sgn F' (times F_max). The
-/// search tries only p below 1, because for p above 1 the curve resembles a dead zone of the
-/// wheels.
+/// search tries only p below 1. For p above 1, the curve resembles a dead zone of the wheels, for
+/// which there is a resistance family.
 FreeQuantity force_exponent();
 
 /// Saturation of the wheel forces: the share L, in [0, 1), of the force that is lost at F'm, the
@@ -176,13 +175,13 @@ FreeQuantity force_saturation(double full_command);
 FreeQuantity saturation_sharpness();
 inline constexpr double kDefaultSharpness = 4.0;  ///< n in fits that do not estimate it
 
-/// A force that the model does not contain (extra_forces.h). For the speed scale of Stribeck
-/// friction, call stribeck_speed_term() instead.
+/// A force that the model does not contain (extra_forces.h), except the speed scale of Stribeck
+/// friction: for that, call stribeck_speed_term().
 FreeQuantity extra_force(ExtraForce force);
 
 /// Time constant, s, of a low-pass filter of first order through which a channel was logged.
-/// `is_at_rows`: true for a recursive filter with one step per row of the log, y(row) = e y(row -
-/// 1) + (1 - e) u(row); false for a continuous filter (filtered_channel.h).
+/// `is_at_rows`: true for a recursive filter with one step per row of the log, false for a
+/// continuous filter (filtered_channel.h).
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 
 /// Time constant T, s, of a continuous low-pass filter of second order through which a channel was
@@ -190,10 +189,9 @@ FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows = false);
 /// filter (filtered_channel.h).
 FreeQuantity second_order_lag_of(LogChannel channel, double damping);
 
-/// Variance, s^2, of a symmetric kernel by which a channel was smoothed over the rows of the log.
-/// `is_mean`: true for a moving average, false for a Gaussian kernel (smoothing_kernel.h). Central
-/// differences, interpolation between the rows of another log and smoothing after the drive have
-/// such kernels.
+/// Variance, s^2, of a symmetric kernel that smoothed a channel over the rows of the log: by
+/// central differences, interpolation between the rows of another log, or smoothing after the
+/// drive. `is_mean`: true for a moving average, false for a Gaussian kernel (smoothing_kernel.h).
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean = false);
 
 /// Latency of a channel, s.
@@ -202,13 +200,13 @@ FreeQuantity sensor_delay_of(LogChannel channel);
 /// Scale error s of a channel: it reads 1 + s times the true value.
 FreeQuantity sensor_scale_of(LogChannel channel);
 
-/// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h). `is_ratio`: true if
-/// s is a slip ratio, false if s is a slip speed.
+/// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h): a slip ratio if
+/// `is_ratio`, else a slip speed.
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
 
 /// Mounting of the sensor of the sway speed v: its distance x_s, m, ahead of the centre of gravity,
-/// and the angle a, rad, by which it is turned to the left. u is the speed, r the yaw rate. The
-/// sensor reads
+/// and the angle a, rad, by which it is turned to the left. With the speed u and the yaw rate r, it
+/// reads
 ///
 ///     v cos a - u sin a + x_s r
 FreeQuantity sway_offset();
@@ -224,7 +222,7 @@ struct FreeTerm {
 bool is_late_commands(const FreeTerm& term);
 
 /// Speed scale w_s of the Stribeck friction `force`, with its initial guess. `fastest`: largest
-/// speed (m/s or rad/s) of the logs.
+/// speed of the logs, m/s or rad/s.
 FreeTerm stribeck_speed_term(ExtraForce force, double fastest);
 inline constexpr double kStribeckShare = 0.1;  ///< initial guess of w_s over `fastest`
 
@@ -246,8 +244,7 @@ std::vector<double> initial_coordinates(const LogFitOptions& options);
 std::vector<Interval> coordinate_bounds(const std::vector<FreeQuantity>& quantities,
                                         const std::vector<double>& initial, const Vehicle& vehicle);
 
-/// Returns the values of all parameters: the free ones at these coordinates, the others from
-/// `held`.
+/// Returns the values of all parameters: free ones at these coordinates, others from `held`.
 ParameterValues<double> parameters_at(ParameterValues<double> held,
                                       const std::vector<FreeQuantity>& quantities,
                                       const std::vector<double>& coordinates);

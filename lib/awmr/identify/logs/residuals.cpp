@@ -30,8 +30,8 @@ void for_each_row(const LogModel& model, const FitWindow& window, const Simulate
                 });
 }
 
-/// Calls visit(i, reading, row) for every sample i in order. `reading`: simulated reading of the
-/// sensor; `row`: its derivatives. Only for fits in which no channel is smoothed.
+/// Calls visit(i, reading, row) for every sample i in order, with the simulated reading of the
+/// sensor and its derivatives. Only for fits in which no channel is smoothed.
 template <class Visit>
 void for_each_reading(const LogModel& model, const FitWindow& window,
                       const SimulatedVehicle& vehicle, std::size_t columns, Visit visit) {
@@ -46,8 +46,8 @@ void for_each_reading(const LogModel& model, const FitWindow& window,
                });
 }
 
-/// Does the same as for_each_reading(), for fits with smoothed channels. Smoothing needs later
-/// rows, so the readings of all rows are computed first.
+/// Does the same for fits with smoothed channels. Smoothing needs later rows, so the readings of
+/// all rows are computed first.
 template <class Visit>
 void for_each_smoothed_reading(const LogModel& model, const FitWindow& window,
                                const SimulatedVehicle& vehicle, std::size_t columns, Visit visit) {
@@ -70,10 +70,10 @@ void for_each_smoothed_reading(const LogModel& model, const FitWindow& window,
 }
 
 /// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured.
-/// `row` contains the derivatives of the error, one per column (empty if `columns` is 0); `visit`
-/// may overwrite them. A measurement is compared with the output of the sensor model: with latency,
-/// the state one delay earlier; with a filter, the output of the filter; with smoothing, a mean
-/// over earlier and later rows.
+/// `row` has the derivatives of the error, one per column (empty if `columns` is 0); `visit` may
+/// overwrite them. The model value is the output of the sensor model: with latency, the state one
+/// delay earlier; with a filter, the output of the filter; with smoothing, a mean over earlier and
+/// later rows.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
                     std::size_t columns, Visit visit) {
@@ -92,8 +92,8 @@ void for_each_error(const LogModel& model, const FitWindow& window, const Simula
   }
 }
 
-/// Residual of the weak prior of one component of a window's initial state. The prior keeps the
-/// component near its measured value.
+/// Residual of the weak prior that keeps a component of a window's initial state near its measured
+/// value.
 double pull(const InitialComponent& component, const FitWindow& window, double initial) {
   return (initial - channel_of(window.measured, component.channel)) / component.prior_std;
 }
@@ -104,7 +104,7 @@ struct RowWhitener {
       : gains(noise), states(noise.is_white() ? 0 : columns) {}
 
   /// Replaces each number of the row (the error or one of its derivatives) by its innovation,
-  /// divided by the standard deviation and multiplied by `weight`.
+  /// divided by the standard deviation of the innovation and multiplied by `weight`.
   void next(double since_s, double weight, std::vector<double>& row) {
     const WhitenerGains::Step& step = gains.next(since_s);
     const double scale = weight / std::sqrt(step.variance);
@@ -133,7 +133,7 @@ class Blocks {
   double block_s_;
 };
 
-/// The errors of a window and their derivatives with respect to the times of its m changes: one row
+/// Errors of a window and their derivatives with respect to the times of its m changes: one row
 /// [J_o r] per sample.
 struct ErrorRows {
   Eigen::MatrixXd raw;           ///< not whitened

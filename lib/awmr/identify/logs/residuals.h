@@ -3,8 +3,7 @@
 ///
 /// The model is simulated with the logged commands and compared with all measurements. Correlated
 /// errors of a channel are whitened. The Jacobian J has a row per sample, but only J^T J is stored.
-/// (Exception: if a channel is smoothed, the readings of a window and their derivatives are
-/// stored.)
+/// (If a channel is smoothed, also the readings of a window and their derivatives are stored.)
 #pragma once
 
 #include <Eigen/Core>
@@ -19,11 +18,11 @@ struct WindowErrors {
   Eigen::VectorXd raw;  ///< the n errors, model + bias - measured, SI
   /// The n errors, whitened, divided by their standard deviation and weighted.
   Eigen::VectorXd standardised;
-  /// Contribution of uncertain times of command changes to -2 ln L (marginalised()). The errors are
-  /// those at the likeliest times.
+  /// Part of -2 ln L that is due to uncertain times of command changes (marginalised()). The errors
+  /// are those at the likeliest times.
   double change_cost = 0.0;
-  /// Likeliest time of each of these changes minus its expected time, in standard deviations of its
-  /// prior.
+  /// Likeliest time of each of these changes minus its expected time, in standard deviations of the
+  /// prior of this time.
   Eigen::VectorXd change_times;
   bool finite = false;  ///< false if the simulation is not finite
 };
@@ -36,18 +35,18 @@ WindowErrors errors_of(const LogModel& model, const FitWindow& window, const dou
 /// Sums over the residuals r of one window and their Jacobian J. The residuals are the standardised
 /// errors of the samples, and those of a weak prior about the measured initial state. J has a
 /// column for each of the q free quantities, then for each of the k free components of the initial
-/// state. If commands change at uncertain times, these times are eliminated (marginalised()).
+/// state. Uncertain times of command changes are eliminated (marginalised()).
 struct WindowSums {
   Eigen::MatrixXd products;  ///< [J r]^T [J r], (q + k + 1) x (q + k + 1)
-  /// J^T r (length q + k) of each block of samples. The prior is left out. Empty unless requested.
+  /// J^T r (length q + k) of each block of samples, without the prior. Empty unless requested.
   std::vector<Eigen::VectorXd> block_gradients;
-  /// `products` as they would be if the commands changed exactly at the times of their rows. Empty
-  /// if no change has an uncertain time.
+  /// `products` if the commands changed exactly at the times of their rows. Empty if no change has
+  /// an uncertain time.
   Eigen::MatrixXd products_at_known_times;
   double change_cost = 0.0;  ///< ln det of marginalised()
   /// One row for each of the m changes at uncertain times: [m][q + k + 1]. The last column has the
-  /// likeliest times (WindowErrors::change_times). The columns before it have the amounts by which
-  /// these times decrease if an unknown (quantity or initial state) increases by 1.
+  /// likeliest times (WindowErrors::change_times). Each column before it has the amounts by which
+  /// these times decrease if one unknown (quantity or initial state) increases by 1.
   Eigen::MatrixXd change_times;
   bool finite = false;  ///< false if the simulation or its derivatives are not finite
 
@@ -56,7 +55,7 @@ struct WindowSums {
 };
 
 /// Computes the sums of one window. If `block_s` > 0, also computes the gradients J^T r of blocks
-/// that last about `block_s` seconds.
+/// of about `block_s` seconds.
 WindowSums sums_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                    const double* initial_state, double block_s = 0.0);
 

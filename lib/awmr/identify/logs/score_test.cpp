@@ -69,7 +69,7 @@ std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& 
   const Eigen::Index all = rows_of(with.problem.model.quantities);
   const Eigen::MatrixXd h = fit_evidence(sums, all).information;
   const std::vector<Eigen::VectorXd> scores = scores_of(with.problem.windows, sums, all).blocks;
-  // The weak prior of the search is added to H_tt, the information of the quantities of the fit. It
+  // H_tt, the information of the quantities of the fit, includes the weak prior of the search. This
   // keeps H_tt regular even if the data do not determine a quantity.
   Eigen::MatrixXd of_others = h.topLeftCorner(n, n);
   of_others.diagonal().array() += 1.0 / (kPriorStd * kPriorStd);

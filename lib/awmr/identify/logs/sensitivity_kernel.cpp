@@ -4,7 +4,7 @@ namespace awmr {
 namespace {
 
 // The functions below must be inlined into their callers, which are compiled for several
-// instruction sets. The inlined code then uses the instruction set of the caller.
+// instruction sets. The inlined code then uses the set of its caller.
 #if defined(__GNUC__)
 #define AWMR_INLINE inline __attribute__((always_inline))
 #else
@@ -68,8 +68,8 @@ AWMR_INLINE void step_columns(const StateSlopes* __restrict a, const double* __r
   }
 }
 
-/// Adds the products of all rows to the sums, one tile of kTile x kTile sums after the other. The
-/// sums of a tile stay in registers while all rows are added.
+/// Adds the products of all rows to the sums, one tile of kTile x kTile sums after the other,
+/// because the sums of a tile then stay in registers.
 AWMR_INLINE void add_rows(const double* __restrict rows, std::size_t count, std::size_t columns,
                           double* __restrict sums) {
   constexpr std::size_t kTile = kRowVector;

@@ -1,9 +1,9 @@
 /// The two inner loops of a log fit: a Runge-Kutta step of the derivatives of the state, and the
 /// product J^T J of the Jacobian. Private to identify/.
 ///
-/// Both are compiled for several instruction sets. The best one that the processor supports is
-/// selected at run time. The results are the same to the last bit, because no version uses fused
-/// multiply-add and sums have a fixed order.
+/// Both are compiled for several instruction sets, and the program selects the best one that the
+/// processor supports. All give the same bits: none uses fused multiply-add, and sums have a fixed
+/// order.
 #pragma once
 
 #include <array>
@@ -26,13 +26,12 @@ inline constexpr std::size_t kStages = 4;
 ///     S_dot = A S + B
 ///
 /// `stages`: A at each Runge-Kutta stage of the state. `driven`: the rows of B that are not 0, at
-/// each stage, [kStages][kDrivenSize][columns]. `s`: S, [kStateSize][columns], which is replaced by
-/// S after the step.
+/// each stage, [kStages][kDrivenSize][columns]. `s`: S, [kStateSize][columns], before and after the
+/// step.
 void step_sensitivities(const std::array<StateSlopes, kStages>& stages, const double* driven,
                         double h_s, std::size_t columns, double* s);
 
-/// The number of columns of a row in memory is a multiple of this, so that vector instructions can
-/// be used.
+/// The number of columns of a row in memory is a multiple of this, for vector instructions.
 inline constexpr std::size_t kRowVector = 4;
 
 /// Adds rows^T rows to `sums`, on and above the diagonal. `rows`: [count][columns]. `sums`:

@@ -69,8 +69,8 @@ double LogSensors::scaled(LogChannel c, double value) {
   return factor * value;
 }
 
-/// Reading of the sensor of the sway speed, which may be mounted away from the centre of gravity or
-/// at an angle (sway_offset()).
+/// Reading of the sensor of the sway speed, which may sit off the centre of gravity or at an angle
+/// (sway_offset()).
 double LogSensors::sway(const LinearMotion& motion) {
   const State<double>& s = motion.state;
   const double x = terms_.sway_offset ? terms_.sway_offset->value : 0.0;

@@ -16,10 +16,9 @@ class ReadingSeries {
  public:
   /// Adds the reading at the next row. `row`: its derivatives.
   void add(double value, const std::vector<double>& row);
-  /// Returns the reading at the row with the index i, and sets `row` to the derivatives of the
-  /// reading. If `smoothing` is present, the reading is a weighted mean over pairs of rows i - n
-  /// and i + n (SmoothingKernel). If one row of a pair is outside of the window, row i replaces
-  /// both.
+  /// Returns the reading at the row with the index i, and sets `row` to its derivatives. If
+  /// `smoothing` is present, the reading is a weighted mean over pairs of rows i - n and i + n
+  /// (SmoothingKernel). If one row of a pair is outside of the window, row i replaces both.
   double read(std::size_t i, const std::optional<Smoothing>& smoothing,
               std::vector<double>& row) const;
 
@@ -28,8 +27,8 @@ class ReadingSeries {
   std::vector<double> rows_;  ///< [index of the row][column]
 };
 
-/// Computes the readings of the sensors for the motion at one time. Latency, filters, smoothing and
-/// bias are not applied here.
+/// Computes the readings of the sensors for the motion at one time, without latency, filters,
+/// smoothing and bias.
 class LogSensors {
  public:
   /// All arguments must outlive the object. `columns`: number of derivatives.
@@ -52,15 +51,15 @@ class LogSensors {
   std::vector<double> row_;
 };
 
-/// Computes the readings of all sensors row by row, while the motion of a window is simulated. The
-/// readings include latency and filters, but not symmetric smoothing, which needs later rows.
+/// Computes the readings of all sensors row by row, while the motion of a window is simulated. They
+/// include latency and filters, but not symmetric smoothing, which needs later rows.
 class SensorReadings {
  public:
   /// The arguments must outlive the object. `columns`: number of derivatives.
   SensorReadings(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
                  std::size_t columns);
-  /// Advances to the next row of the window. The first call goes to the first row. `now`: the
-  /// simulated motion at the new row.
+  /// Advances to the next row of the window (first call: to the first row). `now`: simulated motion
+  /// there.
   void go_on(const LinearMotion& now);
   /// Returns the reading of a channel at this row. Afterwards, row() returns its derivatives.
   double read(LogChannel c, const LinearMotion& now);

@@ -13,8 +13,8 @@ namespace {
 
 using Signal = std::vector<double>;
 
-/// Returns the unit to which the values of the signal were rounded: the smallest difference between
-/// two different values. Infinite if the signal is constant.
+/// Returns the unit to which the values of the signal were rounded: the smallest difference of two
+/// different values. Infinite if the signal is constant.
 double resolution_of(Signal signal) {
   // Relative to the range: smaller differences are rounding errors.
   constexpr double kRounding = 1e-9;
@@ -29,7 +29,7 @@ double resolution_of(Signal signal) {
 }
 
 /// Returns true for each row at which a straight line ends. A row continues a line if its value
-/// differs by at most `tolerance` from the straight line between the rows before and after it.
+/// differs by at most `tolerance` from the line between the rows before and after it.
 std::vector<bool> line_ends(const Signal& t_s, const Signal& signal, double tolerance) {
   std::vector<bool> ends(signal.size(), true);
   for (std::size_t i = 1; i + 1 < signal.size(); ++i) {
@@ -52,8 +52,8 @@ std::vector<std::size_t> lengths_of(const Signal& signal, const std::vector<bool
   return lengths;
 }
 
-/// Number of rows between two set-points: the most frequent length of a line. Returns 0 if the
-/// signal is not interpolated between set-points, that is, in one of these cases:
+/// Number of rows between two set-points: the most frequent length of a line. Returns 0 in these
+/// cases, because the signal is then not interpolated between set-points:
 ///   - The most frequent length is below two rows or above 0.5 s.
 ///   - The signal changes in fewer than kFewest rows.
 ///   - At most half of these rows are on lines whose length is a multiple of the most frequent
@@ -81,8 +81,8 @@ std::size_t rows_of_set_point(const Signal& t_s, const Signal& signal,
 }
 
 /// Returns, for each row, the index of the row with its set-point. Set-points are the rows at which
-/// a line ends, and the rows at multiples of rows_of_set_point() after them. The values on the
-/// lines may be exact or rounded. Empty if the signal is not interpolated between set-points.
+/// a line ends, and the rows at multiples of rows_of_set_point() after them. Values on the lines
+/// may be exact or rounded. Empty if the signal is not interpolated between set-points.
 std::optional<std::vector<std::size_t>> set_points_of(const Signal& t_s, const Signal& signal) {
   constexpr double kExact = 1e-3;  // tolerance for exact values, relative to the resolution
   // Tolerance for rounded values: 0.5 for the row itself, 0.5 for its two neighbours.

@@ -11,8 +11,8 @@ namespace awmr {
 namespace {
 
 /// Raises a servo time constant below h/2 to h/2, the shortest that Runge-Kutta steps of h seconds
-/// resolve. Otherwise the integration would diverge when a search tries a time constant near 0. The
-/// column of the derivatives with respect to the time constant is then removed.
+/// resolve. Otherwise the integration would diverge when a search tries a time constant near 0.
+/// Also removes the column of the time constant, which then has no effect.
 void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double>& plant) {
   if (!(plant.steering_time_constant_s < 0.5 * h)) return;
   plant.steering_time_constant_s = 0.5 * h;
@@ -30,8 +30,8 @@ Smoothing smoothing_at(const FitWindow& window, const FreeQuantity& quantity, do
           rows2_per_s2};
 }
 
-/// Sets the part of the command path that the quantity `q` describes, if any. `number`: value of
-/// the quantity; `i`: its column.
+/// Sets the part of the command path that the quantity `q` describes, if any. `number`: its value;
+/// `i`: its column.
 void set_command_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                       CommandPath& path) {
   using Kind = FreeQuantity::Kind;
@@ -84,8 +84,8 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
   }
 }
 
-/// Sets the sensor error that the quantity `q` describes, if any. `number`: value of the quantity;
-/// `i`: its column.
+/// Sets the sensor error that the quantity `q` describes, if any. `number`: its value; `i`: its
+/// column.
 void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                      SensorTerms& sensors) {
   using Kind = FreeQuantity::Kind;
@@ -161,8 +161,8 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
   if (vehicle.path.servo_rate)
     vehicle.plant.steering_max_rate_radps = vehicle.path.servo_rate->value;
   slow_servo(model.longest_step_s, vehicle.parameters, vehicle.plant);
-  // A logged steering angle is used as it is, so it must not be cut by the steering limit of the
-  // vehicle. If the stop limits the command, it does not limit the angle.
+  // A logged steering angle is used as it is, without the steering limit of the vehicle. If the
+  // stop limits the command, it does not limit the angle.
   if (!window.rows.log->steering_command_rad || vehicle.path.stop_limits_command) {
     vehicle.plant.steering_max_rad = 10.0;
   }

@@ -34,8 +34,7 @@ struct Smoothing {
   double rows2_per_s2;  ///< variance of the kernel in rows^2 over that in s^2
 };
 
-/// Errors of the sensors at one point of the search, with the columns of the derivatives with
-/// respect to them.
+/// Errors of the sensors at one point of the search, with the columns of their derivatives.
 struct SensorTerms {
   std::array<double, kChannelCount> bias{};
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};
@@ -68,7 +67,7 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
                             const double* coordinates, const double* initial_state);
 
 /// Initial motion of a window. The derivative of each free component of the state with respect to
-/// itself is 1, and so is that of the steering angle with respect to its trim. The others are 0.
+/// itself is 1, and so is that of the steering angle with respect to the trim. The others are 0.
 LinearMotion first_motion(const LogModel& model, const SimulatedVehicle& vehicle,
                           std::size_t columns);
 

@@ -35,8 +35,8 @@ std::string_view explanation(const FamilyFit& fit) {
                                  : "wheel slip in proportion to the force";
 }
 
-/// The channels whose slip is in `terms`. If none is, returns the measured channels that slipping
-/// wheels may affect: the speed, and the yaw rate if left and right forces differ.
+/// The channels whose slip is in `terms`. If there are none, returns the measured channels that
+/// slipping wheels may affect: the speed, and the yaw rate if left and right forces differ.
 std::vector<LogChannel> slipping_channels(const Terms& terms, const std::vector<DrivingLog>& logs) {
   std::vector<LogChannel> channels;
   for (const FreeTerm& term : terms) {
@@ -65,7 +65,7 @@ Terms with_slip(Terms terms, const std::vector<LogChannel>& channels, bool is_ra
 }
 
 /// Replaces all slip in `terms` by late commands. If only the speed has slip, also adds a latency
-/// of a measured yaw rate. Then the speed responds before the logged commands, but the yaw rate
+/// of a measured yaw rate: the speed then responds before the logged commands, but the yaw rate
 /// does not.
 Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
                          const std::vector<DrivingLog>& logs) {
@@ -89,8 +89,8 @@ Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
   return terms;
 }
 
-/// Returns the other explanations of a fit that has slip or late commands in its terms. Each is a
-/// list of terms to fit instead.
+/// Returns the other explanations of a fit with slip or late commands, each as a list of terms to
+/// fit.
 std::vector<Terms> other_explanations(const Terms& terms, const std::vector<DrivingLog>& logs) {
   const auto slip = std::ranges::find_if(terms, is_slip);
   const bool slips = slip != terms.end();

@@ -9,15 +9,15 @@
 
 namespace awmr {
 
-/// Tries other explanations if the fit `chosen` has significant wheel slip or late commands: one of
-/// the two in place of the other, and the other form of slip (WheelSlip::is_ratio). With each of
-/// them, a reading rises earlier than the logged commands explain, so a fit can confuse them.
+/// If the fit `chosen` has significant wheel slip or late commands, tries the alternatives: one of
+/// the two in place of the other, and the other form of slip (WheelSlip::is_ratio). A fit can
+/// confuse them, because each of them makes a reading rise earlier than the logged commands
+/// explain.
 ///
 /// The fit with the lowest AIC becomes `chosen`. If the AIC of another fit is higher by less than
-/// 10, the logs do not decide: the intervals of the parameters that differ between the fits by more
-/// than one standard error are then withdrawn. Returns the finding `wheel-slip` that names both
-/// explanations. Empty if nothing was withdrawn, or if `chosen` has no significant slip and no late
-/// commands.
+/// 10, the logs do not decide between the two. The intervals of the parameters that differ between
+/// the fits by more than one standard error are then withdrawn, and the finding `wheel-slip` names
+/// both explanations. Empty if nothing was withdrawn.
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
 }  // namespace awmr

@@ -25,8 +25,8 @@ inline constexpr double kWidestKernel = 2500.0;
 ///     w_n = e^-s I_n(s),   dw_n/ds = (w_{n-1} + w_{n+1})/2 - w_n
 SmoothingKernel gaussian_kernel(double variance);
 
-/// Moving average with the variance s >= 0 (rows^2). The k rows on either side have the same weight
-/// as the middle row. The next row on either side has f times this weight, f in [0, 1). k and f
+/// Moving average with the variance s >= 0 (rows^2). The k rows on either side have the weight of
+/// the middle row, and the next row on either side has f times this weight, f in [0, 1). k and f
 /// follow from
 ///
 ///     s = (2 sum_{n <= k} n^2 + 2 f (k + 1)^2)/(2 k + 1 + 2 f)

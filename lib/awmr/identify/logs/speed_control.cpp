@@ -12,9 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Steady speed of each wheel divided by its command, m/s, according to the fitted resistances.
-/// Present only if these show that the ratio is the same at all speeds (see
-/// speed_control_findings()).
+/// Steady speed of each wheel divided by its command, m/s, from the fitted resistances. Present
+/// only if this ratio is the same at all speeds (first sign of speed_control_findings()).
 std::optional<double> fitted_speed_per_command(const Vehicle& vehicle,
                                                const std::vector<DrivingLog>& logs,
                                                const LogStage& stage) {

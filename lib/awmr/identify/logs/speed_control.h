@@ -10,8 +10,8 @@
 namespace awmr {
 
 /// Median ratio of the steady speeds of the wheels to their commands, m/s. Uses only speeds with a
-/// standard error below 5 %. Empty if the speeds are not proportional to the commands, that is, in
-/// one of these cases:
+/// standard error below 5 %. Empty in these cases, because the speeds are then not shown to be
+/// proportional to the commands:
 ///   - There are fewer than six such speeds.
 ///   - Their commands differ by less than a factor of 3.
 ///   - A ratio differs from the median by more than 5 %. (A power law with the exponent b1 = 0.9
@@ -21,8 +21,8 @@ std::optional<double> speed_per_set_point(const Vehicle& vehicle,
                                           const std::vector<DrivingLog>& logs);
 
 /// Returns the warning `speed-controlled` if the speed at which each wheel rolls seems to be
-/// proportional to its command. The cause is either motor drag as the only resistance, or a speed
-/// controller whose set-points were logged as forces. One of these signs suffices:
+/// proportional to its command. Either motor drag is then the only resistance, or the log has the
+/// set-points of a speed controller instead of forces. One of these signs suffices:
 ///   - Both fitted resistances are linear, and the yaw coefficient a3 is d^2 times the surge
 ///     coefficient a1 (d: half of the track width):
 ///

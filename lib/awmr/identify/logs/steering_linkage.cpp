@@ -61,7 +61,7 @@ double value_of(const LogFit& fit, FreeQuantity::Kind kind) {
 }
 
 /// Scale s of the steering angles at one standard deviation, see widen_by_steering_scale(). With a
-/// curve, it is on the side of 1 at which the angle at the stop agrees better with the command.
+/// curve, s brings the angle at the stop closer to the command.
 double possible_scale(const LogFit& fit) {
   const double asymmetry = value_of(fit, FreeQuantity::Kind::kSteeringAsymmetry);
   const double log_curve = std::log1p(value_of(fit, FreeQuantity::Kind::kSteeringCurve));
@@ -88,8 +88,8 @@ FamilyFit fit_with_scale(const std::vector<DrivingLog>& logs, const FamilyFit& c
   return fit_with(with_scaled_steering(logs, scale), options, chosen.surge, chosen.yaw);
 }
 
-/// Multiplies the standard error of quantity `i` and the distances of the ends of its interval from
-/// the coordinate by `factor`. A withdrawn interval stays withdrawn.
+/// Multiplies the standard error of quantity `i`, and the distances of the ends of its interval
+/// from the estimate (in the coordinate), by `factor`. A withdrawn interval stays withdrawn.
 void stretch_interval(std::size_t i, double factor, LogFit& fit) {
   EstimatorParameter& parameter = fit.report.parameters[i];
   if (parameter.std_error) *parameter.std_error *= factor;

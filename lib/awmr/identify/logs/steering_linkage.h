@@ -1,13 +1,13 @@
 /// Errors of the steering linkage in a log fit (FreeQuantity::is_of_linkage()): the limit of the
 /// angle at the stop, and the unknown scale of the angles. Private to identify/.
 ///
-/// A vehicle file gives one steering stop d_max, but does not say what it limits. With the angle
-/// L(c) to which the linkage steers at the command c, the wheels point to
+/// A vehicle file gives one steering stop d_max, but does not say what it limits. L(c) is the angle
+/// to which the linkage steers at the command c. The wheels point to
 ///
 ///     sat(L(c), d_max)     if the stop limits the angle: a mechanical stop at the wheels
 ///     L(sat(c, d_max))     if the stop limits the command: the servo or the program clips it
 ///
-/// The angle may lie beyond d_max in the second case only.
+/// Only in the second case, the angle may lie beyond d_max.
 #pragma once
 
 #include <optional>
@@ -18,19 +18,19 @@
 
 namespace awmr {
 
-/// True if the fit has an error of the linkage, and the logs have commands that would steer the
-/// wheels beyond the stop if nothing limited them.
+/// True if the fit has an error of the linkage, and commands of the logs would steer the wheels
+/// beyond the stop if nothing limited them.
 bool is_stop_reached(const LogProblem& problem, const SearchPoint& point);
 
 /// Fits the logs with the other meaning of the stop: it limits the command if it limits the angle
-/// in `settled`, and vice versa. Returns this fit if its AIC is lower. Empty if it is not lower, or
-/// if is_stop_reached() is false.
+/// in `settled`, and vice versa. Empty if the AIC of this fit is not lower, or if is_stop_reached()
+/// is false.
 std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Loss loss);
 
-/// Compares the two limits for the converged fit `chosen`. The fit with the lower AIC becomes
-/// `chosen`. If the AIC of the other is higher by less than 10, the logs do not decide: the
-/// intervals of the parameters that differ between the fits by more than one standard error are
-/// then withdrawn. Returns the finding `steering-stop` that names them. Empty if nothing was
+/// Compares the two meanings of the stop for the converged fit `chosen`. The fit with the lower AIC
+/// becomes `chosen`. If the AIC of the other fit is higher by less than 10, the logs do not decide.
+/// The intervals of the parameters that differ between the fits by more than one standard error are
+/// then withdrawn, and the finding `steering-stop` names these parameters. Empty if nothing was
 /// withdrawn.
 std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
@@ -38,10 +38,11 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
 /// Only for fits with an asymmetry e or a curve k of the linkage that do not estimate the scale.
 ///
 /// With forces that are equal left and right, angles of s times the assumed ones have nearly the
-/// same effect as I'z, yaw and sway resistance divided by s. The terms e and k define s = 1 for the
-/// mean of left and right, and for small commands. The true linkage may instead be right on one
-/// side, or at the stop, so ln s has the prior standard deviation sqrt(e^2 + ln(1 + k)^2). The logs
-/// are fitted once more with angles of this scale. The changes Delta of the coordinates add
+/// same effect as I'z, yaw and sway resistance divided by s. A fit with e assumes that the scale is
+/// right for the mean of left and right, a fit with k that it is right for small commands. It may
+/// instead be right on one side, or at the stop, so ln s has the prior standard deviation sqrt(e^2
+/// + ln(1 + k)^2). This function fits the logs once more with angles of this scale. The changes
+/// Delta of the coordinates add
 ///
 ///     Delta Delta^T/(1 + D),   D: increase of -2 ln L by this scale, at least 0
 ///
@@ -49,8 +50,8 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
 void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
 /// True if the fit has a curve of the linkage of more than 5 %. The form of the yaw resistance
-/// follows from the angles, so the true form of this curve is then too uncertain for intervals of
-/// the yaw resistance.
+/// follows from the steering angles. With such a curve, whose true form is unknown, it gets no
+/// intervals.
 bool is_much_curved(const LogFit& fit);
 
 /// Withdraws the intervals of the yaw resistance if is_much_curved().

@@ -24,9 +24,9 @@ Interval commanded_angles_rad(const FitWindow& window) {
   return angles;
 }
 
-/// Largest steering rate, rad/s, that the logged commands demand of the servo: the range of the
-/// steering commands divided by the servo's time constant. It is at most the rate limit of the
-/// vehicle file. Returns 0 if the time constant is not free.
+/// Largest steering rate, rad/s, that the commands demand of the servo: the range of the steering
+/// commands divided by the servo's time constant, at most the rate limit of the vehicle file.
+/// Returns 0 if the time constant is not free.
 double demanded_rate_radps(const NoiseIteration& settled) {
   const LogModel& model = settled.problem.model;
   const auto lag = place_of(model.quantities, ParameterId::kSteeringTimeConstant);
@@ -41,8 +41,9 @@ double demanded_rate_radps(const NoiseIteration& settled) {
                   radians(model.vehicle.steering_max_rate_degps));
 }
 
-/// Returns a fit in which a rate limit of the servo shows most clearly. For long logs this is a new
-/// fit of the windows with the largest ranges of steering commands. For short logs it is `settled`.
+/// Returns a fit in which a rate limit of the servo shows most clearly. For long logs, this is a
+/// new fit of the windows with the largest ranges of steering commands; for short logs, it is
+/// `settled`.
 NoiseIteration with_largest_steering(const NoiseIteration& settled, Loss loss) {
   if (!is_long(settled.problem)) return settled;
   const std::vector<FitWindow>& windows = settled.problem.windows;

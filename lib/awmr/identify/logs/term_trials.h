@@ -1,5 +1,5 @@
 /// Trial fits of the logs with further terms of the vehicle or sensor model, such as a delay, motor
-/// lag, smoothing or wheel slip. Each trial is compared by AIC with the fit without these terms.
+/// lag, smoothing or wheel slip. AIC decides between each trial and the fit without these terms.
 /// Private to identify/.
 #pragma once
 
@@ -16,14 +16,14 @@ namespace awmr {
 double akaike_of(const NoiseIteration& fit);
 
 /// Adds the terms `more` to the estimated quantities of the converged fit `settled`, and makes a
-/// short fit (one round). The fit starts with white noise in place of drift, so that drift cannot
+/// short fit (one round). The fit starts with white noise in place of drift, because drift could
 /// absorb the effect of the terms. Initial guesses are limited to three large changes
-/// (FreeQuantity::large_change), except those of quantities that only describe a form
+/// (FreeQuantity::large_change), except for quantities that only describe a form
 /// (FreeQuantity::is_form()).
 NoiseIteration tried(const NoiseIteration& settled, const std::vector<FreeTerm>& more, Loss loss);
 
-/// Makes a converged fit that starts at `from`. Returns it if its AIC is lower than that of
-/// `settled` by more than 10, else empty.
+/// Makes a converged fit that starts at `from`. Empty unless its AIC is lower than that of
+/// `settled` by more than 10.
 std::optional<NoiseIteration> settled_if_better(const NoiseIteration& settled, Extended from,
                                                 Loss loss);
 
@@ -32,8 +32,8 @@ class LowestAic {
  public:
   explicit LowestAic(const NoiseIteration& start) : criterion_(akaike_of(start)) {}
 
-  /// Keeps the fit if its AIC is lower by more than `by` than the lowest AIC so far. Returns true
-  /// if the fit was kept.
+  /// Keeps the fit if its AIC is lower than the lowest AIC so far by more than `by`. Returns true
+  /// if it was kept.
   bool consider(NoiseIteration fit, double by = 0.0) {
     const double criterion = akaike_of(fit);
     if (!(criterion + by < criterion_)) return false;
@@ -49,22 +49,21 @@ class LowestAic {
   double criterion_;
 };
 
-/// True if a motor lag is given in the vehicle file or estimated.
+/// True if the vehicle file gives a motor lag or the fit estimates one.
 bool has_motor_lag(const LogModel& model);
 
 /// Replaces all low-pass filters of the sensors by one motor lag. Reason: the search adds filters
-/// one by one, although a single motor lag has the same effect in nearly linear motion. Empty if
-/// this does not lower AIC, if there are fewer than two filters, or if the model already has a
-/// motor lag.
+/// one by one, although one motor lag has the same effect in nearly linear motion. Empty if AIC is
+/// not lower, if there are fewer than two filters, or if the model already has a motor lag.
 std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss);
 
 /// Adds a motor lag to a fit with a positive delay of the commands. Empty if there is no such
 /// delay, if the model already has a motor lag, or if AIC does not decrease by more than 10.
 std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& settled, Loss loss);
 
-/// Estimates a servo rate limit below that of the vehicle file. Empty if a rate limit is already
-/// estimated, if the servo's time constant is not estimated, or if AIC does not decrease by more
-/// than 10.
+/// Estimates a servo rate limit below that of the vehicle file. Empty if the fit already estimates
+/// a rate limit, if it does not estimate the servo's time constant, or if AIC does not decrease by
+/// more than 10.
 std::optional<NoiseIteration> with_slower_servo(const NoiseIteration& settled, Loss loss);
 
 }  // namespace awmr

@@ -1,9 +1,9 @@
-/// Changes of the commands at uncertain times, because the log has only samples of the commands.
-/// Private to identify/.
+/// Changes of the commands at uncertain times: a log has only samples of the commands. Private to
+/// identify/.
 ///
-/// The time of a change is t + o. t is the time of its row; o is normally distributed, with a mean
-/// and a standard deviation s. The residuals r are linear in the times o, with the Jacobian J_o.
-/// The cost of a fit is the minimum over these times, which are thus eliminated from all sums:
+/// A change happens at the time t + o. t is the time of its row. o is normally distributed, with a
+/// mean and a standard deviation s. The residuals r are linear in all o, with the Jacobian J_o. The
+/// cost of a fit is the minimum over all o, which are thus eliminated from all sums:
 ///
 ///     min over o of |r + J_o o|^2 + |(o - mean)/s|^2
 #pragma once
@@ -27,17 +27,18 @@ struct UncertainChange {
 /// the window does not count.
 std::vector<UncertainChange> uncertain_changes(const LogWindow& window);
 
-/// All changes within the window. The time of each is uniformly distributed between its row and the
-/// row before. Empty if the window has too many changes (kMaxChangeShare).
+/// All changes within the window. The time of each is uniformly distributed between the row before
+/// and its own row. Empty if the window has too many changes (kMaxChangeShare).
 std::vector<UncertainChange> changes_before_rows(const LogWindow& window);
 
-/// Largest number of changes per row of a window whose times are estimated. If commands change more
-/// often, they are rather interpolated between the rows (interpolated_commands.h).
+/// Largest number of changes per row of a window for which their times are estimated. If commands
+/// change more often, straight lines between the rows describe them better
+/// (interpolated_commands.h).
 inline constexpr double kMaxChangeShare = 0.2;
 
 /// Returns the logs with an additional row for every change of the commands, in the middle between
-/// two rows. This row has the new commands and no measurements, and its time is uncertain. No rows
-/// are added in a gap of the log (kGapSteps).
+/// two rows. This row has the new commands, an uncertain time and no measurements. Gaps of the log
+/// (kGapSteps) get no additional rows.
 std::vector<DrivingLog> with_changes_between_rows(const std::vector<DrivingLog>& logs);
 
 /// Sums without the times of m changes.

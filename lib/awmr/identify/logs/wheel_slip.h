@@ -2,15 +2,15 @@
 /// identify/.
 ///
 /// A wheel that drives the vehicle rolls faster than it moves over ground. The wheels of a side
-/// move over ground with w = u - d r (left) or u + d r (right), with half the track width d. F' is
-/// the wheel force after the motors' lag, dead zone and back-EMF. The wheels roll at one of these
-/// speeds, according to the form of the slip s:
+/// move over ground with w = u - d r (left) or u + d r (right), with half of the track width d. F'
+/// is the wheel force after motor lag, dead zone and back-EMF. The slip s has two forms, with which
+/// the wheels roll at one of these speeds:
 ///
 ///     w + s F'        s in m/s; no slip if w = 0
 ///     w + s F' |w|    s: slip ratio at F' = 1 (WheelSlip::is_ratio)
 ///
-/// The measured speed is the mean of both sides, and the measured yaw rate is their difference
-/// (right - left) over 2 d.
+/// The measured speed is the mean of both sides, the measured yaw rate their difference (right -
+/// left) over 2 d.
 #pragma once
 
 #include <vector>
@@ -20,8 +20,7 @@
 
 namespace awmr {
 
-/// Slip s of the wheels that measure a channel, and the column of the derivatives with respect to
-/// s.
+/// Slip s of the wheels that measure a channel, and the column of the derivatives by s.
 struct WheelSlip {
   LogChannel channel;  ///< speed or yaw rate
   OffsetColumn slip;
@@ -35,8 +34,8 @@ struct SlippingWheels {
   CommandColumns columns;
 };
 
-/// Returns the change of a channel's reading due to the slip. Adds the derivatives of this change
-/// to `by_column`, an array of `columns` numbers.
+/// Returns the change of a channel's reading due to the slip. Adds its derivatives to `by_column`,
+/// an array of `columns` numbers.
 double add_wheel_slip(const WheelSlip& slip, const SlippingWheels& wheels,
                       const DelayedCommand& command, const LinearMotion& motion,
                       std::size_t columns, double* by_column);

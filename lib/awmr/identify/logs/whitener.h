@@ -67,8 +67,8 @@ struct DriftStep {
 ///     nu = e + theta n,   S = sigma_w^2 + theta^2 P,   n = (sigma_w^2/S) nu
 ///     P = sigma_w^2 (1 - sigma_w^2/S)
 ///
-/// The numbers nu/sqrt(S) are white if e follows ChannelNoise. This class computes F, S and the
-/// gains, which depend only on the times of the residuals, not on their values.
+/// nu/sqrt(S) is white noise if e follows ChannelNoise. This class computes F, S and the gains,
+/// which depend only on the times of the residuals, not on their values.
 class WhitenerGains {
  public:
   /// `noise` must outlive this object.
@@ -85,7 +85,7 @@ class WhitenerGains {
     double variance = 0.0;  ///< S
   };
   /// Advances to the next residual. `since_s`: time since the previous residual, s; 0 for the
-  /// first. At a constant interval the gains converge, and are then reused.
+  /// first. At a constant interval the gains converge; the class then reuses them, to save time.
   const Step& next(double since_s) {
     if (settled_ && same_step(since_s)) return last_;
     const double white = noise_.white_std * noise_.white_std;
@@ -116,8 +116,8 @@ class WhitenerGains {
   static bool near(double a, double b) { return std::abs(a - b) <= 1e-14 * std::abs(b); }
 
   /// Computes the gains for differenced noise e_k = n_k - theta n_{k-1}. After a gap of more than
-  /// kGap steps the filter restarts, because n_{k-1} is then not the noise of the last residual
-  /// before the gap.
+  /// kGap steps the filter restarts, because the last residual before the gap does not have the
+  /// noise n_{k-1}.
   const Step& next_differenced(double white, double since_s) {
     constexpr double kGap = 1.5;
     last_.restarts = since_s_ > 0.0 && since_s > kGap * since_s_;
@@ -142,8 +142,9 @@ class WhitenerGains {
       p00_ = f[0][0] * f[0][0] * p00_ + (1.0 - f[0][0] * f[0][0]) * drift;
       return;
     }
-    // Rewritten prediction of P, with drift = sigma_d^2: F P F^T + drift (I - F F^T) = drift I + F
-    // (P - drift I) F^T.
+    // Prediction of P in another form, with drift = sigma_d^2: F P F^T + drift (I - F F^T) = drift
+    // I + F (P
+    //   - drift I) F^T.
     const double q00 = p00_ - drift;
     const double q11 = p11_ - drift;
     const double a0 = f[0][0] * q00 + f[0][1] * p01_;

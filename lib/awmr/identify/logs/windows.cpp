@@ -38,9 +38,8 @@ LogWindow within(const LogWindow& window, const Interval& only_s) {
           at(std::lower_bound(from, to, only_s.hi) - t_s.begin())};
 }
 
-/// Index of the first row that is fitted. Lagged forces and filtered sensors depend on commands and
-/// speeds before the log begins. If a log begins in motion, its first second is therefore not
-/// fitted.
+/// Index of the first row that is fitted. If a log begins in motion, its first second is not
+/// fitted: lagged forces and filtered sensors then depend on commands and speeds before the log.
 std::size_t first_fitted_row(const DrivingLog& log) {
   constexpr double kForgotten_s = 1.0;
   constexpr double kShortest_s = 5.0;  // shorter logs are fitted from the first row

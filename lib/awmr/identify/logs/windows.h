@@ -1,7 +1,7 @@
 /// Division of the logs into windows for the fit. Private to identify/.
 ///
-/// Each window has its own fitted initial state (multiple shooting without continuity constraints),
-/// so that a disturbance affects only one window, not the rest of the log.
+/// Each window has its own fitted initial state (multiple shooting without continuity constraints).
+/// A disturbance then affects only one window, not the rest of the log.
 #pragma once
 
 #include <cstdint>
@@ -43,15 +43,15 @@ struct FitWindow {
   double weight(std::size_t sample) const { return weights.empty() ? 1.0 : weights[sample]; }
 };
 
-/// Divides all logs into windows. If `only_s` is given, uses only this time interval. Omits windows
-/// without samples. If a log of 5 s or more begins in motion, also omits its first second, because
-/// motors and filters then depend on unknown earlier commands. The logs must outlive the windows.
+/// Divides all logs (only the time interval `only_s`, if given) into windows. Omits windows without
+/// samples. If a log of 5 s or more begins in motion, also omits its first second, because motors
+/// and filters then depend on unknown earlier commands. The logs must outlive the windows.
 std::vector<FitWindow> fit_windows(const std::vector<DrivingLog>& logs,
                                    const std::optional<Interval>& only_s = {});
 
 /// Divides a window into parts with about equal numbers of rows. Each part has its own initial
-/// state, lasts at most about `longest_s` seconds, and has at least three rows. Parts without
-/// samples are omitted.
+/// state, lasts at most about `longest_s` seconds, and has at least three rows. Omits parts without
+/// samples.
 std::vector<FitWindow> parts_of(const FitWindow& window, double longest_s);
 
 /// A component of the initial state that is fitted in every window.
@@ -60,12 +60,11 @@ struct InitialComponent {
   double prior_std;    ///< standard deviation of the weak prior about the measured value, SI
 };
 
-/// Components of the initial state that influence a measured channel of the logs. They are fitted
-/// in every window.
+/// Components of the initial state that every window fits, because they influence a measured
+/// channel of the logs.
 std::vector<InitialComponent> initial_components(const std::vector<DrivingLog>& logs);
 
-/// Returns the measured initial states: all components of the first window, then of the next, and
-/// so on.
+/// Measured initial states: all components of the first window, then of the next, and so on.
 std::vector<double> measured_initial_states(const std::vector<FitWindow>& windows,
                                             const std::vector<InitialComponent>& components);
 
