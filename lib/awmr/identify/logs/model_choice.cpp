@@ -157,8 +157,8 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   return chosen;
 }
 
-/// Selects the families with the back-EMF of `first`. Empty unless shows_back_emf(), compared with a
-/// fit of the same families and terms without back-EMF.
+/// Selects the families with the back-EMF of `first`. Compares the result with a fit of the same
+/// families and terms without back-EMF; empty unless shows_back_emf() is then true.
 std::optional<BestFamily> with_screened_back_emf(const std::vector<DrivingLog>& logs,
                                                  LogFitOptions& power_law,
                                                  const IdentifyOptions& options,
