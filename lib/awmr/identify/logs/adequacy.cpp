@@ -27,9 +27,10 @@ std::optional<std::string> try_alternatives(BestFamily alternatives, const Famil
                      aic_lead(alternatives.best.fit, chosen.fit));
 }
 
-/// True for a channel whose large drift makes all intervals invalid: speed, yaw rate, the position
-/// in logs without speed, and the heading in logs without a yaw rate that fits. Other drifts of
-/// position or heading do not count, because the GNSS receiver or the compass can cause them.
+/// True for a channel whose large drift makes all intervals invalid: speed; yaw rate; position, if
+/// there is no speed; heading, if there is no yaw rate or if the yaw rate shows a model error too.
+/// Other drifts of position or heading do not count: the GNSS receiver or the compass can cause
+/// them.
 bool is_evaluated(const NoiseLevels& noise, LogChannel channel) {
   switch (channel) {
     case LogChannel::kSpeed:
@@ -118,11 +119,12 @@ std::vector<Finding> autocorrelation_findings(const LogFit& fit, const std::stri
     if (test.p_value >= kSignificant || !test.name.starts_with("whiteness")) continue;
     findings.push_back(
         {file, 0, fit.widened >= kMuch ? Severity::kWarning : Severity::kNote, "coloured-residuals",
-         fmt::format("{}: successive residuals are more strongly correlated than their noise model "
-                     "allows (p = {:.2g}), so the model is incomplete. Standard errors are "
-                     "multiplied by up to {:.2g}, according to the scatter between parts of the "
-                     "logs",
-                     test.name, test.p_value, fit.widened)});
+         fmt::format(
+             "{}: successive residuals are more strongly correlated than their noise model "
+             "allows (p = {:.2g}), so the model is incomplete. To allow for this, standard "
+             "errors were multiplied by up to {:.2g}, the factor by which parts of the logs "
+             "scatter more than the noise model predicts",
+             test.name, test.p_value, fit.widened)});
   }
   return findings;
 }

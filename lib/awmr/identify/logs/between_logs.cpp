@@ -145,10 +145,10 @@ std::vector<LogDisagreement> disagreements_of(const std::vector<std::string>& fi
 }
 
 /// Returns the delay or command error that the common fit lacks and that differs most between the
-/// logs, according to score tests on each log. Empty if the estimates of no term scatter between
-/// the logs by more than three of their standard errors (root mean square). These are the standard
-/// errors by the noise model. The scatter between blocks of a log does not count, because all
-/// blocks of a log have the same command error.
+/// logs, according to score tests on each log. Empty if the estimates of every term agree within
+/// three standard errors (root mean square over the logs). These standard errors are those by the
+/// noise model. The scatter between blocks of a log does not count, because all blocks of a log
+/// have the same command error.
 std::optional<FreeQuantity> strongest_missing_term(const std::vector<DrivingLog>& logs,
                                                    const LogFitOptions& options,
                                                    const LogFit& common) {

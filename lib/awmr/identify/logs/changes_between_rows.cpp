@@ -50,8 +50,8 @@ Predicted predicted(const std::vector<WindowSums>& sums, const Eigen::VectorXd& 
     result.squares += window.products(n + k, n + k) -
                       gradient.dot(Eigen::VectorXd(solve_ldlt(of_initial, gradient)));
     if (window.change_times.size() == 0) continue;
-    // Steps of the coordinates and of the initial state. The factor -1 selects the last column of
-    // WindowSums::change_times, the times before the step.
+    // Steps of the coordinates and of the initial state, then -1. This -1 multiplies the last
+    // column of WindowSums::change_times, the times before the step.
     Eigen::VectorXd all(n + k + 1);
     all << change, -solve_ldlt(of_initial, gradient + window.products.block(n, 0, k, n) * change),
         -1.0;

@@ -128,8 +128,8 @@ void for_each_force_column(const CommandColumns& c, const DelayedCommand& comman
   if (c.sharpness) visit(*c.sharpness, command.by_sharpness);
 }
 
-/// The row of the log whose force commands act at a time, and the row whose steering command acts
-/// then. The two rows differ if the steering has its own delay.
+/// Rows of the log whose commands act at a time: one for the forces, one for the steering command.
+/// They differ if the steering has its own delay.
 struct ActingRows {
   std::size_t forces;
   std::size_t steering;

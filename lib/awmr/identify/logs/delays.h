@@ -10,9 +10,9 @@ namespace awmr {
 
 /// Adds terms of further_terms() one at a time to the converged fit `settled`, until none improves
 /// the fit. Without them, other estimates would be biased: a latency of the speed, for example,
-/// would increase the mass. Score tests select the candidates. A short fit with each candidate (one
-/// round of settle_noise()) ranks them. The best one is kept if its converged fit lowers AIC by
-/// more than 10.
+/// would increase the mass. Score tests (score_test.h) select the candidates. A short fit with each
+/// candidate (one round of settle_noise()) ranks them. The best one is kept if its converged fit
+/// lowers AIC by more than 10, the usual threshold of a clear difference.
 ///   - The delay of the commands is negative if their time stamps are late.
 ///   - A motor lag is tried in place of the command delay and in addition to it, unless the vehicle
 ///     file gives the lag. A low-pass filter is tried in place of a delay of the speed, the yaw

@@ -358,8 +358,8 @@ struct FamilyComparison {
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  // First comes the axis (surge or yaw) for which score tests predict the larger improvement. Its
-  // wrong resistance may also cause the errors of the other axis.
+  // The axis (surge or yaw) for which score tests predict the larger improvement is first, because
+  // its wrong resistance may also cause the errors of the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};

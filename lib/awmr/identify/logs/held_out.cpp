@@ -106,8 +106,8 @@ struct Change {
   Eigen::Index directions = 0;
 };
 
-/// Computes the change d, its covariance and the p value of X^2 (symbols: predict()). `rows`:
-/// information and score of the tested rows.
+/// Computes the change d, its covariance and the p value of X^2 (symbols of predict()). `rows`:
+/// information and score of the tested rows; `c`, `f`: covariance and factor of the fit.
 Change change_of(const FitEvidence& rows, const Eigen::MatrixXd& c, double f) {
   constexpr double kShown = 1.0 / (kUnknown * kUnknown);
   const SymmetricEigen eigen = symmetric_eigen(rows.information);

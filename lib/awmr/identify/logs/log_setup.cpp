@@ -109,8 +109,8 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
                           const IdentifyOptions& options) {
   LogFitOptions fit;
   fit.vehicle = vehicle;
-  // If the commands were logged too slowly, the rows do not show when a command changed. The fit
-  // therefore estimates the delay of the commands.
+  // In interpolated commands, the time of each change is known only to about one row spacing. The
+  // fit therefore estimates the delay of the commands.
   const bool is_interpolated = std::ranges::any_of(logs, &DrivingLog::has_interpolated_commands);
   fit.terms = requested_terms(options.terms);
   const bool has_delay = std::ranges::find(options.terms, kInputDelayName) != options.terms.end();

@@ -10,9 +10,9 @@
 namespace awmr {
 namespace {
 
-/// Draws a random initial guess of the parameters in `guessed`. Those with a logarithmic coordinate
-/// are multiplied by a factor in [e^-2, e^2]. Exponents are drawn from [0.3, 1.3] and limited to
-/// their range. Terms that only some resistance families have do not change.
+/// Draws a random initial guess of the parameters in `guessed`. Multiplies those with a logarithmic
+/// coordinate by a factor in [e^-2, e^2], about 1/7 to 7. Draws exponents from [0.3, 1.3] and
+/// limits them to their range. Terms that only some resistance families have do not change.
 ///
 /// Every quantity uses one random number, even if it is not in `guessed`. The guess of a quantity
 /// then does not depend on which others are in `guessed`.

@@ -21,9 +21,9 @@ Interval parameter_bounds(const FreeQuantity& quantity, double initial, const Ve
     return {vehicle.yaw_beta_range.lo, vehicle.yaw_beta_range.hi};
   }
   if (quantity.scale == Scale::kLinear) return {0.0, 1e6};
-  // The servo's time constant is limited to kSlowestServo_s. Reason: servo and yaw motion are two
-  // lags in series, with the time constants T and I'z/g3'. Without the limit, a search could
-  // exchange them.
+  // The servo's time constant T is limited to kSlowestServo_s. Reason: servo and yaw motion are two
+  // lags in series. Without the limit, a search could exchange T with the time constant I'z/g3' of
+  // the yaw motion.
   const double most = quantity.is(ParameterId::kSteeringTimeConstant)
                           ? to_coordinate(quantity.scale, kSlowestServo_s)
                           : initial + 10.0;

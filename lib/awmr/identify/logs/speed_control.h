@@ -28,8 +28,8 @@ std::optional<double> speed_per_set_point(const Vehicle& vehicle,
 ///
 ///         tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 ///
-///   - The model does not describe the logs, and `set_point_mps`, the result of
-///     speed_per_set_point(), is not empty.
+///   - The model does not describe the logs (`model-inadequate`), and `set_point_mps`, the result
+///     of speed_per_set_point(), is not empty.
 std::vector<Finding> speed_control_findings(const Vehicle& vehicle,
                                             const std::vector<DrivingLog>& logs,
                                             const LogStage& stage,

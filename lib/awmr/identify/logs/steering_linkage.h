@@ -7,7 +7,7 @@
 ///     sat(L(c), d_max)     if the stop limits the angle: a mechanical stop at the wheels
 ///     L(sat(c, d_max))     if the stop limits the command: the servo or the program clips it
 ///
-/// Only in the second case, the angle may lie beyond d_max.
+/// In the second case, the angle may lie beyond d_max.
 #pragma once
 
 #include <optional>
@@ -40,18 +40,20 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
 /// With forces that are equal left and right, angles of s times the assumed ones have nearly the
 /// same effect as I'z, yaw and sway resistance divided by s. A fit with e assumes that the scale is
 /// right for the mean of left and right, a fit with k that it is right for small commands. It may
-/// instead be right on one side, or at the stop, so ln s has the prior standard deviation sqrt(e^2
-/// + ln(1 + k)^2). This function fits the logs once more with angles of this scale. The changes
-/// Delta of the coordinates add
+/// instead be right on one side, or at the stop. The prior standard deviation of ln s is therefore
+///
+///     sqrt(e^2 + ln(1 + k)^2)
+///
+/// This function fits the logs once more with angles of this scale. The changes Delta of the
+/// coordinates add
 ///
 ///     Delta Delta^T/(1 + D),   D: increase of -2 ln L by this scale, at least 0
 ///
 /// to the covariance, because the logs reduce the variance of ln s by the factor 1/(1 + D).
 void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
-/// True if the fit has a curve of the linkage of more than 5 %. The form of the yaw resistance
-/// follows from the steering angles. With such a curve, whose true form is unknown, it gets no
-/// intervals.
+/// True if the fit has a curve of the linkage of more than 5 %. The yaw resistance then gets no
+/// intervals: its form follows from the steering angles, and the true form of the curve is unknown.
 bool is_much_curved(const LogFit& fit);
 
 /// Withdraws the intervals of the yaw resistance if is_much_curved().

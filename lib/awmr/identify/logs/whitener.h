@@ -142,9 +142,8 @@ class WhitenerGains {
       p00_ = f[0][0] * f[0][0] * p00_ + (1.0 - f[0][0] * f[0][0]) * drift;
       return;
     }
-    // Prediction of P in another form, with drift = sigma_d^2: F P F^T + drift (I - F F^T) = drift
-    // I + F (P
-    //   - drift I) F^T.
+    // Prediction of P in another form. With drift = sigma_d^2 and Q = P - drift I, it is F P F^T +
+    // drift (I - F F^T) = drift I + F Q F^T.
     const double q00 = p00_ - drift;
     const double q11 = p11_ - drift;
     const double a0 = f[0][0] * q00 + f[0][1] * p01_;
