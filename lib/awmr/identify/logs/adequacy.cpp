@@ -88,7 +88,6 @@ std::string possible_causes(const Channels& channels) {
   return causes + bias + (sway.empty() ? "" : "; for the sway speed, " + sway);
 }
 
-/// The model error of a channel, its duration and the sensor noise.
 std::string describe_error(LogChannel channel, const ChannelNoise& noise) {
   const auto& [name, unit] = std::pair(info(channel).name, info(channel).unit);
   const std::string duration = noise.correlation_s < kWindow_s
@@ -98,7 +97,6 @@ std::string describe_error(LogChannel channel, const ChannelNoise& noise) {
                      noise.sensor_std);
 }
 
-/// Effect of the model errors on the intervals.
 std::string describe_effect(const Adequacy& adequacy) {
   if (adequacy.withdraws_intervals) return "The intervals are withdrawn";
   std::string withdrawn;

@@ -42,8 +42,6 @@ void add(const std::string& file, double coordinate, double variance, ByLog& by_
   by_log.weights.push_back(1.0 / variance);
 }
 
-/// Collects the estimates of the quantity `name` from the fits that identify it. `files`: log of
-/// each fit.
 ByLog collect(const std::vector<std::string>& files, const std::vector<LogFit>& fits,
               const std::string& name) {
   ByLog found;

@@ -133,7 +133,6 @@ class WindowCost : public ceres::CostFunction {
   int initial_;
 };
 
-/// Cost function of the weak priors of all coordinates, centred on their initial guess.
 class PriorCost : public ceres::CostFunction {
  public:
   explicit PriorCost(const Evaluator& evaluator) : evaluator_(evaluator) {
@@ -245,8 +244,6 @@ class EndAtLimit : public ceres::IterationCallback {
   bool has_ended_ = false;
 };
 
-/// Sets the stop reason of a search, and whether the search converged and is usable. `stalled`:
-/// EndWithoutProgress::reason().
 void report_end(const ceres::Solver::Summary& summary, bool at_limit, const std::string& stalled,
                 Solved& solved) {
   const bool is_stalled = !stalled.empty() && !at_limit;

@@ -19,7 +19,6 @@
 namespace awmr {
 namespace {
 
-/// The note `changes-between-rows`.
 Finding changes_between_rows_finding(const std::string& file) {
   return {file, 0, Severity::kNote, "changes-between-rows",
           "the commands change between the rows, and the log shows only samples of them; the fit "

@@ -84,8 +84,6 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
-/// Finding `sensor-delay` for every identified latency of a sensor, `sensor-lag` for every low-pass
-/// filter, and `smoothed-channel` for every symmetric smoothing.
 std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const auto& [quantity, value_s, error_s] :
@@ -158,8 +156,6 @@ std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
   return findings;
 }
 
-/// Finding `sway-sensor`, if the sensor of the sideways speed is off the centre of gravity or
-/// turned.
 std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayOffset)) {
@@ -182,8 +178,6 @@ std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& 
   return findings;
 }
 
-/// Finding `steering-delay`, if the steering has a delay in addition to the servo's lag. A negative
-/// delay means late time stamps of the steering commands.
 std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
@@ -203,8 +197,6 @@ std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::strin
   return findings;
 }
 
-/// Finding `servo-rate`, if the fitted rate limit of the steering is below that of the vehicle
-/// file.
 std::vector<Finding> servo_rate_findings(const LogFit& fit, const std::string& file) {
   std::vector<Finding> findings;
   for (const FoundTerm& rate : found_terms(fit, FreeQuantity::Kind::kServoRate)) {
@@ -328,7 +320,6 @@ double sharpness_of(const LogFit& fit) {
   return kDefaultSharpness;
 }
 
-/// Finding `force-saturation`, if large commands give less force than in proportion to small ones.
 std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& file) {
   constexpr std::string_view kWithoutIntervals =
       " (the values get no intervals and parts of the logs are not compared, because the true form "

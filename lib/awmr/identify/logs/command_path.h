@@ -75,7 +75,6 @@ struct CommandPath {
   }
 };
 
-/// Columns of the free quantities of a command path.
 struct CommandColumns {
   std::optional<std::size_t> delay = {};
   std::optional<std::size_t> steering_delay = {};

@@ -32,7 +32,6 @@ struct Wheels {
 
 inline bool is_on(const WheelForce& wheel) { return wheel.value > 0.0 || wheel.value < 0.0; }
 
-/// Computes the wheel forces from the commands `force`.
 Wheels wheels_of(const LinearPlant& plant, const State<double>& s, const SideForces<double>& force);
 
 /// Derivatives of u_dot, v_dot and r_dot with respect to the sum of left and right wheel forces,
@@ -87,7 +86,6 @@ void add_turn_drag(const TurnDrag& drag, double per_mass, LinearRates& out);
 /// to I'z is computed from r_dot.
 void add_side_pull(const LinearPlant& plant, double u_mps, LinearRates& out);
 
-/// Adds the acceleration due to the slope of the ground.
 void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out);
 
 }  // namespace awmr

@@ -191,7 +191,6 @@ void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool 
   std::move(fits.begin() + 1, fits.end(), std::back_inserter(result.others));
 }
 
-/// Names of the free delays, lags, command errors and offsets of a fit.
 std::set<std::string> names_of_terms(const LogFit& fit) {
   std::set<std::string> names;
   for (const FreeQuantity& q : fit.quantities) {
@@ -330,7 +329,6 @@ std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& fir
 
 namespace {
 
-/// The comparison of families in progress.
 struct FamilyComparison {
   const std::vector<DrivingLog>& logs;
   const LogFitOptions& power_law;

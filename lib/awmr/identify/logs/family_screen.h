@@ -8,7 +8,6 @@
 
 namespace awmr {
 
-/// A surge family and a yaw family.
 struct Families {
   Family surge = Family::kPower;
   Family yaw = Family::kPower;

@@ -12,7 +12,6 @@
 
 namespace awmr {
 
-/// The filter of a sensor.
 struct SensorFilter {
   DelayColumn lag;       ///< time constant T, s
   bool is_at_rows;       ///< true: one filter step per row of the log; false: continuous

@@ -44,7 +44,6 @@ double fitted_value(const LogFit& fit, ParameterId id) {
   return i ? fit.quantities[*i].value(fit.coordinates[*i]) : 0.0;
 }
 
-/// Stribeck friction of one axis of a fit.
 struct FoundStribeck {
   std::string_view axis;  ///< "surge." or "yaw.", with which parameter names begin
   std::string_view what;
@@ -53,7 +52,6 @@ struct FoundStribeck {
   double coulomb;               ///< Coulomb friction c
   std::optional<double> speed;  ///< speed scale w_s; empty if not identified
 
-  /// True if the Stribeck friction is more than 5 % of the Coulomb friction.
   bool is_large() const { return force.value > 0.05 * coulomb; }
 };
 

@@ -27,8 +27,6 @@ double largest_command(const LogProblem& problem) {
   return largest;
 }
 
-/// Adds delays of the commands and of the measured channels, and smoothing of channels that
-/// programs often filter.
 void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
@@ -104,8 +102,6 @@ void add_forces(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-/// Adds scale errors of channels that another channel can check: the yaw rate if heading or
-/// position is measured, the speed if position is measured.
 void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const NoiseLevels& measured = problem.model.noise;
   const bool has_position = measured.contains(LogChannel::kX);
@@ -138,9 +134,6 @@ void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
-/// Adds errors of the steering: trim and, if the logs have steering commands, dead band, asymmetry
-/// and curve of the linkage. If the fit already has asymmetry or curve, also adds the scale of the
-/// angles.
 void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   if (!any_log(problem, has_steering_changes)) return;

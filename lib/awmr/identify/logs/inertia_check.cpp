@@ -95,7 +95,6 @@ bool has_steered_force(const DrivingLog& log) {
   return false;
 }
 
-/// True if any command makes a yaw moment.
 bool is_turned(const std::vector<DrivingLog>& logs) {
   return std::ranges::any_of(logs, [](const DrivingLog& log) {
     return has_force_difference(log) || has_steered_force(log);

@@ -28,7 +28,6 @@ bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOption
 /// rows.
 std::vector<DrivingLog> interpolated(const std::vector<DrivingLog>& logs);
 
-/// The warning `interpolated-commands`.
 Finding interpolated_commands_finding(const std::string& file);
 
 }  // namespace awmr

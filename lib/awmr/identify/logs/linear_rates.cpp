@@ -25,7 +25,6 @@ void add_servo(const LinearPlant& plant, const State<double>& s, double command_
   out.steering_by_command = std::abs(command_rad) <= p.steering_max_rad ? free : 0.0;
 }
 
-/// Adds the rates of position and heading.
 void add_kinematics(const State<double>& s, LinearRates& out) {
   const double c = std::cos(s.psi_rad);
   const double d = std::sin(s.psi_rad);

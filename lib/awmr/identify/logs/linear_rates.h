@@ -104,8 +104,6 @@ struct DrivenSlopes {
   double steering = 0.0;
 };
 
-/// Rates of the state, with their partial derivatives with respect to the state, the parameters,
-/// the extra forces and the commands.
 struct LinearRates {
   State<double> rates{};
   StateSlopes by_state{};

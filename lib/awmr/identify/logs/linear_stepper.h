@@ -33,7 +33,6 @@ struct ParameterColumn {
   double factor;  ///< d parameter / d coordinate
 };
 
-/// Integrates the state and its derivatives step by step.
 class LinearStepper {
  public:
   /// `columns`: number of columns of the derivatives; 0: only the state is computed. `parameters`:

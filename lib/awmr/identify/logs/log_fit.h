@@ -17,7 +17,6 @@
 
 namespace awmr {
 
-/// Result of fit_logs().
 struct LogFit {
   std::vector<FreeQuantity> quantities;
   std::vector<double> coordinates;  ///< one per quantity: its value, or the logarithm of it
@@ -49,7 +48,6 @@ struct LogFit {
   /// and `coordinates` are set.
   bool has_changes_between_rows = false;
 
-  /// Standard error of coordinate i.
   double error_of(std::size_t i) const {
     return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
   }

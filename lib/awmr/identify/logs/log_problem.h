@@ -40,7 +40,6 @@ struct LogProblem {
   }
 };
 
-/// The unknowns of a LogProblem.
 struct SearchPoint {
   std::vector<double> coordinates;  ///< one per quantity
   /// All components of the first window, then of the next, ...
@@ -79,13 +78,10 @@ std::vector<WindowErrors> errors_at(const LogProblem& problem, const SearchPoint
 std::vector<WindowSums> sums_at(const LogProblem& problem, const SearchPoint& point,
                                 double block_s = 0.0);
 
-/// Sum of WindowErrors::change_cost.
 double change_cost_of(const std::vector<WindowErrors>& errors);
 
-/// WindowErrors::change_times of all windows.
 std::vector<double> change_times_of(const std::vector<WindowErrors>& errors);
 
-/// True if the simulations of all windows are finite.
 bool all_finite(const std::vector<WindowErrors>& errors);
 bool all_finite(const std::vector<WindowSums>& sums);
 

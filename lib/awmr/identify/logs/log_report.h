@@ -10,7 +10,6 @@
 
 namespace awmr {
 
-/// Input of log_report().
 struct LogReportInput {
   const LogProblem& problem;
   const Solved& solved;

@@ -227,7 +227,6 @@ void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogSt
   if (compared.missed) stage.findings.push_back(in_words(*compared.missed, logs.front().file));
 }
 
-/// The logs with their commands read in another way, and the finding that reports this.
 struct ReadAgain {
   std::vector<DrivingLog> logs;
   Finding finding;

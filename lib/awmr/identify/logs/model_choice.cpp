@@ -126,7 +126,6 @@ Finding measured_steering_finding(const std::string& file) {
 
 namespace {
 
-/// Result of choose_families().
 struct Chosen {
   BestFamily found;
   bool may_have_back_emf = false;  ///< true: the first fit indicates back-EMF

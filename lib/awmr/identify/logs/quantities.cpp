@@ -12,7 +12,6 @@
 namespace awmr {
 namespace {
 
-/// Bounds of the coordinate of a model parameter in the search.
 Interval parameter_bounds(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   if (quantity.id == ParameterId::kSurgeBeta) {
     return {vehicle.surge_beta_range.lo, vehicle.surge_beta_range.hi};
@@ -42,7 +41,6 @@ Interval extra_force_range(const FreeQuantity& quantity) {
   return quantity.may_be_zero() ? Interval{0.0, 1e6} : Interval{-kSteepest_mps2, kSteepest_mps2};
 }
 
-/// Range of the value of a quantity that is not a model parameter.
 Interval range_of(const FreeQuantity& quantity) {
   using Kind = FreeQuantity::Kind;
   constexpr double kLongest_s = 1.0;
@@ -100,7 +98,6 @@ Interval range_of(const FreeQuantity& quantity) {
   return {};
 }
 
-/// Bounds of the coordinate of a quantity.
 Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   if (quantity.kind == FreeQuantity::Kind::kParameter) {
     return parameter_bounds(quantity, initial, vehicle);

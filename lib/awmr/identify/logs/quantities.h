@@ -72,7 +72,6 @@ struct FreeQuantity {
 
   bool is(ParameterId parameter) const { return kind == Kind::kParameter && id == parameter; }
   bool is(ExtraForce one) const { return kind == Kind::kExtraForce && force == one; }
-  /// True for the speed scales of Stribeck friction.
   bool is_stribeck_speed() const {
     return is(ExtraForce::kSurgeStribeckSpeed) || is(ExtraForce::kYawStribeckSpeed);
   }
@@ -113,7 +112,6 @@ struct FreeQuantity {
   double jacobian(double coordinate) const;  ///< d value / d coordinate
 };
 
-/// A model parameter as a free quantity.
 FreeQuantity free_parameter(ParameterId id);
 
 /// Delay of all commands, s; negative if their time stamps are late.
@@ -212,7 +210,6 @@ FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
 FreeQuantity sway_offset();
 FreeQuantity sway_angle();
 
-/// A free quantity with its initial guess.
 struct FreeTerm {
   FreeQuantity quantity;
   double begin;  ///< initial guess of its coordinate

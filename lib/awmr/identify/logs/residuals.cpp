@@ -98,7 +98,7 @@ double pull(const InitialComponent& component, const FitWindow& window, double i
   return (initial - channel_of(window.measured, component.channel)) / component.prior_std;
 }
 
-/// Whitening filters of one channel: one for the errors and one for each of their derivatives.
+/// Whitening filters of the errors of one channel and of their derivatives.
 struct RowWhitener {
   RowWhitener(const ChannelNoise& noise, std::size_t columns)
       : gains(noise), states(noise.is_white() ? 0 : columns) {}
@@ -116,7 +116,6 @@ struct RowWhitener {
   std::vector<WhitenerState> states;
 };
 
-/// Divides a window's samples into blocks of about `block_s` seconds.
 class Blocks {
  public:
   Blocks(const FitWindow& window, double block_s)

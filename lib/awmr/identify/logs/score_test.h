@@ -8,7 +8,6 @@
 
 namespace awmr {
 
-/// Result of a score test.
 struct ScoreTest {
   double value = 0.0;  ///< estimate of the candidate by one Gauss-Newton step from 0
   /// Standard error of `value`: the larger of that by the noise model and that by the scatter of

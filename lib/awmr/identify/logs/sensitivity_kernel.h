@@ -13,11 +13,9 @@
 
 namespace awmr {
 
-/// Number of components of State.
 inline constexpr std::size_t kStateSize = 7;
 /// Number of rates of the state that depend on parameters: those of u, v, r and the steering angle.
 inline constexpr std::size_t kDrivenSize = 4;
-/// Number of stages of the Runge-Kutta method.
 inline constexpr std::size_t kStages = 4;
 
 /// Makes one classical Runge-Kutta step of h_s seconds of S, the derivatives of the state with

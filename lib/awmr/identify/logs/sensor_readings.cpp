@@ -59,7 +59,6 @@ double LogSensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
   return scaled(c, value);
 }
 
-/// Multiplies a reading and its derivatives by the scale error of the sensor (sensor_scale_of()).
 double LogSensors::scaled(LogChannel c, double value) {
   const auto& scale = terms_.scale[at(c)];
   if (!scale) return value;

@@ -103,7 +103,6 @@ std::optional<std::vector<std::size_t>> set_points_of(const Signal& t_s, const S
   return std::nullopt;
 }
 
-/// Replaces each value of the signal by the value at its set-point, the row `places`.
 void hold(const std::vector<std::size_t>& places, Signal& signal) {
   const Signal before = signal;
   for (std::size_t i = 0; i < signal.size(); ++i) signal[i] = before[places[i]];

@@ -32,7 +32,6 @@ std::optional<std::vector<DrivingLog>> with_held_set_points(const std::vector<Dr
 bool are_set_points_held(const std::vector<DrivingLog>& held, const LogFitOptions& power_law,
                          const FamilyFit& first);
 
-/// The warning `interpolated-set-points`.
 Finding interpolated_set_points_finding(const std::string& file);
 
 }  // namespace awmr

@@ -84,8 +84,7 @@ void set_command_term(const FreeQuantity& q, double number, std::size_t i, const
   }
 }
 
-/// Sets the sensor error that the quantity `q` describes, if any. `number`: its value; `i`: its
-/// column.
+/// Does the same for the sensor error that `q` describes, if any.
 void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const FitWindow& window,
                      SensorTerms& sensors) {
   using Kind = FreeQuantity::Kind;

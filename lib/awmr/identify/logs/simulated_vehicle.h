@@ -27,7 +27,6 @@ struct LogModel {
   double longest_step_s = 0.01;  ///< longest integration step
 };
 
-/// Symmetric smoothing of a channel over the rows of the log.
 struct Smoothing {
   SmoothingKernel kernel;
   std::size_t column;   ///< column of the variance of the kernel, s^2

@@ -33,7 +33,6 @@ bool is_stop_reached_in(const FitWindow& window, CommandPath path) {
   return false;
 }
 
-/// True if the stop limits the command, false if it limits the angle.
 bool limits_command(const std::vector<FreeQuantity>& quantities) {
   return std::ranges::any_of(quantities, &FreeQuantity::is_beyond_stop);
 }
@@ -68,7 +67,6 @@ double possible_scale(const LogFit& fit) {
   return std::exp(std::copysign(std::hypot(asymmetry, log_curve), -log_curve));
 }
 
-/// Returns the logs with all steering commands multiplied by `scale`.
 std::vector<DrivingLog> with_scaled_steering(std::vector<DrivingLog> logs, double scale) {
   for (DrivingLog& log : logs) {
     if (!log.steering_command_rad) continue;

@@ -16,7 +16,6 @@
 
 namespace awmr {
 
-/// A change of the commands at an uncertain time.
 struct UncertainChange {
   std::size_t row;  ///< first row with the new commands
   double mean_s;    ///< expected time of the change, relative to the time of the row, s

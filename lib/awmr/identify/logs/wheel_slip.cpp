@@ -5,7 +5,6 @@
 namespace awmr {
 namespace {
 
-/// One side of the vehicle.
 struct Side {
   double SideForces<double>::*force;
   double offset_m;  ///< distance to the left of the centre; the side moves at u - offset_m r

@@ -26,7 +26,6 @@ struct Sample {
   double since_s = 0.0;  ///< time since the window's previous sample of this channel, s; 0: none
 };
 
-/// A window of a log with its samples.
 struct FitWindow {
   LogWindow rows;
   std::shared_ptr<const LogSignals> signals;  ///< commands of the log
