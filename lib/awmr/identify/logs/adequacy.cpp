@@ -93,8 +93,8 @@ std::string describe_error(LogChannel channel, const ChannelNoise& noise) {
   const std::string duration = noise.correlation_s < kWindow_s
                                    ? fmt::format("{:.2g} s", noise.correlation_s)
                                    : fmt::format("more than {:g} s", kWindow_s);
-  return fmt::format("{} {:.3g} {} for {} (noise {:.2g})", name, noise.drift_std, unit, duration,
-                     noise.sensor_std);
+  return fmt::format("{} by {:.3g} {} for {} (sensor noise {:.2g})", name, noise.drift_std, unit,
+                     duration, noise.sensor_std);
 }
 
 std::string describe_effect(const Adequacy& adequacy) {

@@ -55,8 +55,8 @@ struct ChannelNoise {
     return (drift_std > 0.5 * sensor_std && correlation_s >= longest_s) ||
            (drift_std > 1.5 * sensor_std && correlation_s >= 0.5 * longest_s);
   }
-  /// True if of_the_model() is true and the drift is above 2.5 times the sensor noise. Intervals of
-  /// the fit are then not valid.
+  /// True if of_the_model() is true and the drift is above 2.5 times the sensor noise. The model is
+  /// then inadequate.
   bool overwhelms_sensor(double longest_s = 0.5) const {
     constexpr double kMany = 2.5;
     return of_the_model(longest_s) && drift_std > kMany * sensor_std;

@@ -137,7 +137,7 @@ std::vector<Finding> backward_drag_findings(const LogFit& fit, const std::string
   return {{file, 0, Severity::kWarning, "backward-drag",
            fmt::format("the resistance is {:.1f} +- {:.1f} % {} driving backward than forward. The "
                        "values of surge.* are those of forward motion, which simulations and gains "
-                       "use in both directions; drive forward",
+                       "use in both directions, so drive forward only",
                        100.0 * std::abs(excess->value), 100.0 * excess->error,
                        excess->value > 0.0 ? "larger" : "smaller")}};
 }

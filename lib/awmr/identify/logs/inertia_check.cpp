@@ -79,8 +79,8 @@ std::string why_no_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>
   const double times = inertia_over_vehicle(vehicle, *inertia->value, *mass->value);
   return fmt::format(
       "the fitted ratio of yaw inertia to mass, I'z/m', is {:.3g} times Iz/m of the vehicle "
-      "file, which no distribution of its mass can give: a unit or a sign is wrong{}, or a "
-      "moment outside the model turns the vehicle",
+      "file. No distribution of mass within its size can give this: a unit or a sign is wrong{}, "
+      "or a moment outside the model turns the vehicle",
       times, speed_unit_hint(logs, times));
 }
 

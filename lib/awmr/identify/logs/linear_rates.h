@@ -46,7 +46,7 @@ class LinearResistance {
   ResistanceSlopes at_rest_speed_;
 };
 
-/// Vehicle model with precomputed reciprocals, because a fit evaluates its rates millions of times.
+/// Vehicle model with precomputed reciprocals, because a fit evaluates its rates very often.
 /// linear_rates() leaves out the friction at rest, which add_friction() adds.
 struct LinearPlant {
   /// `by_back_emf`: true to compute the derivatives with respect to k_e even if k_e is 0.

@@ -157,7 +157,7 @@ std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::str
     if (std::ranges::find(found, name) != found.end()) continue;
     findings.push_back({file, 0, Severity::kError, "not-identifiable",
                         fmt::format("{} cannot be identified: other terms describe these logs "
-                                    "better and replace it (/estimates lists them)",
+                                    "better and replace it (/estimates of model.json lists them)",
                                     name)});
   }
   return findings;
