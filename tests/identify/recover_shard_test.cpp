@@ -217,9 +217,10 @@ TEST_F(RecoverShards, DamagedTablesAreNamed) {
     expect(first_run(run), std::string("row 1 has run ") + run + " instead of 1");
   }
   for (const char* cell : {"nan", "inf", "1e308", "", "x", "0x1"}) {
-    expect(with(cell), "recovery.csv:2:1: is not a run of a recovery");
+    expect(with(cell), "recovery.csv:2:1: is not a valid row for these columns");
   }
-  expect(table.substr(0, row + 2) + "2" + table.substr(row + 3), "recovery.csv:2:1: is not a run");
+  expect(table.substr(0, row + 2) + "2" + table.substr(row + 3),
+         "recovery.csv:2:1: is not a valid row");
   expect("sum" + table.substr(3), "recovery.csv:1:1: these are not the columns");
   expect("", "recovery.csv:1:1: these are not the columns");
   change(second, table);

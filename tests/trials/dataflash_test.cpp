@@ -93,7 +93,7 @@ TEST(Dataflash, RefusesMalformedContent) {
       {dataflash_format(10, 0, "RCOU", "QHH", "TimeUS,C1,C3"), "declares 0 bytes"},
       {dataflash_format(10, 15, "RCOU", "Q?H", "TimeUS,C1,C3"), "unknown kind '?'"},
       {formats() + dataflash_format(10, 15, "RCOU", "QHH", "TimeUS,C1,C4"),
-       "a second, different format"},
+       "a second definition (FMT record)"},
       {formats() + imu(~std::uint64_t{0}, 0, 1.0F), "an invalid time"}};
   for (const auto& [bytes, words] : cases) {
     const auto signals = read(bytes);

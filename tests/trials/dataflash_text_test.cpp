@@ -124,7 +124,9 @@ TEST(DataflashText, RefusesMalformedContentWithItsLine) {
       {"FMT, 10, 15, RCOU, Q?H, TimeUS,C1,C3\n", "unknown kind '?'"},
       {"FMT, 300, 15, RCOU, QHH, TimeUS,C1,C3\n", "a.log:1: invalid format line"},
       {"FMT, 10\n", "a.log:1: invalid format line"},
-      {kFormats + "FMT, 10, 15, RCOU, QHH, TimeUS,C1,C4\n", "a.log:8: a second, different format"},
+      {kFormats + "FMT, 10, 15, RCOU, QHH, TimeUS,C1,C4\n",
+       "a.log:8: a second definition (FMT "
+       "line)"},
       {kFormats + "RCOU, 99999999999999999999, 1, 2\n", "an invalid time"},
       {kFormats + "RCOU, -5, 1, 2\n", "a.log:8: a record of RCOU has an invalid time"},
       {kFormats + "RCOU, 1000, 1500, full\n", "a.log:8: RCOU.C3 is not a number: full"}};

@@ -370,7 +370,7 @@ TEST(LogConsistency, BlamesReversedWheelOdometryInsteadOfTheForces) {
   ASSERT_EQ(alone.size(), 1U);
   EXPECT_EQ(alone[0].column, "force_left");
   EXPECT_THAT(alone[0].message, HasSubstr("one side is reversed"));
-  EXPECT_THAT(alone[0].remedy, HasSubstr("find out which is true"));
+  EXPECT_THAT(alone[0].remedy, HasSubstr("find out which column is wrong"));
 }
 
 TEST_P(AWrongTurn, IsNamedInTheFirstTenSeconds) {

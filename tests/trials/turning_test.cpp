@@ -146,7 +146,7 @@ TEST(TurningTrial, RefusesRunsThatTurnBothWaysOrContradictThemselves) {
   EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,0.5,0.2,0.1,0.3\n"),
               ElementsAre(AllOf(StartsWith("3:3: "), HasSubstr("is 0.2"))));
   EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,,0.2,0.1,0.3\n0,,0.2,0.1,\n"),
-              ElementsAre(HasSubstr("both or neither")));
+              ElementsAre(HasSubstr("both forces or neither")));
   EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,,,0.1,0.3\n"),
               ElementsAre(HasSubstr("no yaw rate")));
   EXPECT_THAT(faults_of(kReadTurning, header + steered + "0,,0.2,0.3,0.1\n"),

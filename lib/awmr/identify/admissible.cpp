@@ -37,12 +37,11 @@ std::string refusal_reason(double value, const NumberRule& rule) {
                      rule.min, rule.max);
 }
 
-/// Reason why the tables do not determine m' (mass over F_max): the upper end of its 95 % interval
-/// is more than 10,000 times the lower end. Samples from such an interval cannot be simulated.
-/// Empty if the tables determine m', and for any other parameter. Empty also for an m' from logs,
-/// because only a disagreement of several logs makes its interval so wide.
+/// Reason why the tables do not determine m' (mass over F_max): its 95 % interval is so wide
+/// (kMaxOpen) that vehicles drawn from it cannot be simulated. Empty for any other parameter, and
+/// for an m' from logs, because only a disagreement of several logs makes that interval so wide.
 std::string why_open(ParameterId id, const Estimate& estimate) {
-  constexpr double kMaxOpen = 1e4;  // largest accepted ratio of the interval's ends
+  constexpr double kMaxOpen = 1e4;  // largest accepted ratio of the upper end to the lower end
   const auto& ci = estimate.ci95;
   const bool is_of_logs = estimate.method == name_in(kEstimatorNames, Estimator::kTrajectory);
   if (id != ParameterId::kMassNorm || is_of_logs || !ci || !(ci->lo > 0.0)) return {};

@@ -16,7 +16,7 @@ namespace {
 /// 95 % interval of the cornering stiffness c of a tyre, 1/rad: the lateral force is c times the
 /// load of the tyre times its slip angle in rad.
 constexpr Interval kTyreStiffness{0.5, 16.0};
-/// Half of the width of a 95 % interval of the normal distribution, in standard deviations.
+/// Half width of a 95 % interval of the normal distribution, in standard deviations.
 constexpr double kNormal95 = 1.959964;
 /// This quantile of a log's speeds is taken as its highest speed, because the maximum itself could
 /// be a measurement error.

@@ -1,5 +1,5 @@
-/// Default sway resistance, for models without a value from the vehicle file or a log. It is the
-/// value of common tyres; its uncertainty is the spread between tyres. Private to identify/.
+/// Default sway resistance, for models without a value from the vehicle file or a log. The value is
+/// that of common tyres, and its 95 % interval is the spread between tyres. Private to identify/.
 ///
 /// A tyre's lateral force is its cornering stiffness c times its load m g times its slip angle. At
 /// the forward speed u and the lateral speed v the slip angle is v/u. The sway resistance

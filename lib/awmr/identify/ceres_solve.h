@@ -15,7 +15,7 @@
 
 namespace awmr {
 
-/// Solver options for small problems: iterates until the parameters no longer change.
+/// Solver options for small problems: iterates until the parameters stop changing.
 inline ceres::Solver::Options exact_options() {
   silence_ceres();
   ceres::Solver::Options options;

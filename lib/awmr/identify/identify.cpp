@@ -26,8 +26,8 @@ bool asks_for_other_family(const IdentifyOptions& options) {
          options.yaw_family.family != Family::kPower;
 }
 
-/// Error if back-EMF is given or requested and there is a surge or turning table: steady runs
-/// determine only the sum of back-EMF and resistance.
+/// Error if back-EMF (loss of motor force with the speed) is given or requested and there is a
+/// surge or turning table: steady runs determine only the sum of back-EMF and resistance.
 Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
                       const IdentifyOptions& options) {
   const bool is_requested =
@@ -37,8 +37,9 @@ Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
   return input_error(
       ErrorCode::kNotIdentified, data.surge ? data.surge->file : data.turning->file,
       fmt::format(
-          "steady runs cannot separate back-EMF ({}) from resistance; identify this "
-          "vehicle from logs ({}) that drive and coast",
+          "steady runs cannot separate back-EMF ({}) from resistance; identify this vehicle "
+          "from logs ({}) with driven and coasting sections, and leave out the surge and "
+          "turning tables",
           is_requested
               ? option_text(fmt::format("fit {}", info(ParameterId::kBackEmf).name))
               : fmt::format("back_emf_s_per_m {:g} in the vehicle file", *vehicle.back_emf_s_per_m),
@@ -106,8 +107,8 @@ std::optional<ErrorModel> noise_of_tables(const IdentifyOptions& options) {
   return ErrorModel::kLogForce;
 }
 
-/// Options of a table fit. If the method is `trajectory`, which fits logs, the tables are fitted by
-/// method_of_tables().
+/// Options of a table fit. The method `trajectory` fits logs only, so method_of_tables() then
+/// chooses the method for the tables.
 SubjectOptions subject_options(const IdentifyOptions& options, Method method,
                                const FamilyChoice& family) {
   const bool asks_for_noise = options.noise || options.method == Method::kNonlinear;
@@ -135,8 +136,9 @@ void record(Step& step, Model& model) {
   std::move(step.findings.begin(), step.findings.end(), std::back_inserter(model.record.findings));
 }
 
-/// Fits the surge or yaw law and, if the runs determine it, sets it in the model. `contradiction`:
-/// finding that the runs do not agree with any such law, so that its parameters get no intervals.
+/// Fits the surge or yaw law and, if the runs determine the law, sets it in the model.
+/// `contradiction`: finding that no such law agrees with the runs; the parameters then get no
+/// intervals.
 SubjectFit identify_law(const Subject& subject, const SubjectOptions& options,
                         std::optional<Finding> contradiction, MainValues& values) {
   SubjectFit fit = fit_subject(subject, options);

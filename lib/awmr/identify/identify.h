@@ -17,12 +17,13 @@ struct Identification {
 };
 
 /// Identifies the model of a vehicle. `findings`: findings from reading the data, which come first
-/// in the model's record. A parameter that the data do not identify is not an error: it gets no
-/// value and the finding `not-identifiable`. It is listed in `refused` if it was requested or the
-/// data should measure it (refuse_what_is_missing()). Errors (input): contradictory options, such
-/// as a robust loss with the log-linear method; an option without the trials that it needs; a
-/// requested parameter or family that the vehicle cannot have; back-EMF, given or requested,
-/// together with a surge or turning table; and the errors of run_log_stage() (log_stage.h).
+/// in the model's record. If the data do not identify a parameter, this is not an error: the
+/// parameter gets no value and the finding `not-identifiable`. `refused` lists it if the user
+/// requested it or the data should measure it (refuse_what_is_missing() in refusals.h). Errors
+/// (input): contradictory options, such as a robust loss with the log-linear method; an option
+/// without the trials that it needs; a requested parameter or family that the vehicle cannot have;
+/// back-EMF, given or requested, together with a surge or turning table; and the errors of
+/// run_log_stage() (log_stage.h).
 Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options, std::vector<Finding> findings);
 
@@ -30,8 +31,8 @@ Result<Identification> identify(const Vehicle& vehicle, const TrialData& data,
 /// above.
 Result<Identification> identify(const Trials& trials, const IdentifyOptions& options);
 
-/// Half width of the 95 % interval of the assumed sway resistance (`assumed-sway`), as a factor >
-/// 1: the interval is from value/factor to value times factor. Excludes the uncertainty of m'.
+/// Uncertainty of the assumed sway resistance (`assumed-sway`), as a factor > 1: the 95 % interval
+/// is from value/factor to value times factor. Excludes the uncertainty of m'.
 double assumed_sway_factor();
 
 }  // namespace awmr

@@ -20,9 +20,8 @@ Estimate exponent_of_family(Family family) {
   return given(1.0, fmt::format("family {}", name_of(family)));
 }
 
-/// Estimate of a multiple of m', factor * m': m' itself with the factor 1, I'z with the factor
-/// Iz/m. `log_value`: ln m'. The uncertainty is that of the last number of `posterior`, which is ln
-/// m'.
+/// Estimate of factor * m': the factor is 1 for m' itself and Iz/m for I'z. `log_value`: ln m'. The
+/// uncertainty comes from ln m', the last number of `posterior`.
 Estimate from_last(const Posterior& posterior, double log_value, double factor, Source source,
                    std::string method) {
   Estimate estimate{factor * std::exp(log_value), {}, {}, source, std::move(method)};
@@ -163,8 +162,8 @@ void set_given(const Vehicle& vehicle, Model& model) {
   if (vehicle.back_emf_s_per_m) {
     model[ParameterId::kBackEmf] = given(*vehicle.back_emf_s_per_m, "vehicle");
   }
-  // A vehicle without steering has no servo. The servo's time constant gets an arbitrary given
-  // value, so that no fit estimates it.
+  // A vehicle without steering has no servo. Its servo time constant is set to an arbitrary given
+  // value, so that no fit estimates the time constant.
   constexpr double kAny_s = 1.0;
   model[ParameterId::kSteeringTimeConstant] =
       given(vehicle.has_steering() ? vehicle.steering_time_constant_s : kAny_s, "vehicle");
@@ -186,7 +185,8 @@ void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values) 
 }
 
 void set_mass(const MassResult& mass, const SubjectFit& surge, MainValues& values) {
-  // Only for the power law: in the other families b1 has no meaning without c1/a1 or q1/a1.
+  // Only for the power law: in the other families b1 has no meaning without the ratio c1/a1
+  // (Coulomb) or q1/a1 (quadratic term).
   const bool power_alone = mass.alone && mass.alone->family == Family::kPower;
   if (power_alone && mass.alone->beta_variance > 0.0) set_beta_of_curve(*mass.alone, values.model);
   if (mass.joint) {

@@ -16,9 +16,10 @@
 namespace awmr {
 
 /// Covariance of all identified parameters, assembled from independent fits. Each fit is a block of
-/// estimated numbers with its own covariance, for example the coordinates of the surge fit with ln
-/// m'. Every parameter is a function of these numbers. The covariance of the parameters is C = G B
-/// G^T. B has the blocks' covariances on its diagonal, G the gradient of each parameter in a row.
+/// estimated numbers with its own covariance, for example ln a1, b1 and ln m' from surge runs and
+/// coast-downs. Every parameter is a function of these numbers. The covariance of the parameters is
+/// C = G B G^T. B is block diagonal, with the covariance of each fit. Each row of G is the gradient
+/// of one parameter.
 class JointCovariance {
  public:
   /// Derivatives of one parameter by the estimated numbers. Key: index of a number, counted over
@@ -57,9 +58,10 @@ void set_given(const Vehicle& vehicle, Model& model);
 /// Sets the parameters and the family of a resistance law. Precondition: `fit.chosen` is set.
 void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
 
-/// Sets m' from coast-downs, and I'z from m'. Without a surge law, sets only b1, from a power-law
-/// fit of the coast-down curves. If the surge law is inadequate, the values get no intervals.
-/// Precondition: set_law() was called with the surge fit, if there is one.
+/// Sets m' from coast-downs, and I'z from m'. Without a surge law, sets only the exponent b1, from
+/// a power-law fit of the coast-down curves. If no surge law describes the surge runs
+/// (`SubjectFit::is_inadequate`), the values get no intervals. Precondition: set_law() was called
+/// with the surge fit, if there is one.
 void set_mass(const MassResult& mass, const SubjectFit& surge, MainValues& values);
 
 /// Sets the values, the families and the covariance that the logs determine.

@@ -62,9 +62,9 @@ inline std::string title_of(Loss loss) {
 struct FamilyChoice {
   /// Absent: the family with the smallest AICc (tables) or AIC (logs).
   std::optional<Family> family = Family::kPower;
-  /// True if the user selected the family. If false, `family` is only a default: other families are
-  /// fitted to logs that suggest a missing term, and one that is significantly better replaces the
-  /// power law.
+  /// True if the user selected the family. If false, `family` is only a default. The fit then tries
+  /// other families on logs that suggest a missing term, and a significantly better family replaces
+  /// the power law.
   bool requested = false;
 };
 
@@ -88,7 +88,7 @@ struct IdentifyOptions {
   /// nonlinear if another family or a robust loss is requested; else log-linear.
   std::optional<Method> method = {};
   /// Error model of the nonlinear table fit. If absent and `method` is nonlinear: an error of the
-  /// time if every run was timed, else of the speed. If absent and `method` is not nonlinear: a
+  /// time if every run was timed, else of the speed. If absent and `method` is another one: a
   /// relative error of the force.
   std::optional<ErrorModel> noise = {};
   FamilyChoice surge_family = {};
@@ -112,7 +112,7 @@ struct IdentifyOptions {
   int starts = 6;
   int bootstrap = 0;  ///< logs: number of bootstrap resamples, e.g. 1000; 0: no bootstrap
   /// Logs: time limit of all searches together, s; 0: none. A fit that has not converged by then is
-  /// refused. With or without this limit, the number of integration steps is limited.
+  /// refused. The number of integration steps has its own limit, also for 0.
   double time_limit_s = 0.0;
   /// Number of threads; 0: one per core. The result does not depend on it.
   int threads = 0;

@@ -105,8 +105,8 @@ bool is_shown(ParameterId id, const DrivingLog& log) {
   }
 }
 
-/// True if it is an error that the data do not identify `id`. This is so if the user named the
-/// parameter, or if a table or log should measure it and it has no other value.
+/// True if a missing value of `id` is an error: the user named the parameter, or a table or log
+/// should measure it and vehicle.json does not give it.
 bool is_required(ParameterId id, const TrialData& data, const IdentifyOptions& options,
                  const Estimate& estimate) {
   if (!options.requested.empty()) return true;

@@ -29,13 +29,13 @@ struct Reasons {
   std::map<ParameterId, std::string> logs;
 };
 
-/// Adds the finding `not-identifiable` for every parameter without a value. Parameters that the
-/// vehicle lacks get no finding. If the logs do not identify a requested parameter whose value was
-/// given or assumed, that value is kept and the finding reports this. The finding is an error if
-/// the parameter is required, else a note. If `options` name parameters, these are required. If
-/// they name none, a parameter is required if a table measures it, or if a log measures it and
-/// vehicle.json does not give it. The sway resistance is then never required. Returns the required
-/// parameters that the data do not identify.
+/// Adds the finding `not-identifiable` for every parameter of the vehicle that has no value. Adds
+/// it also for a requested parameter that has a given or assumed value but is not identified by the
+/// logs; the model keeps that value. The finding is an error if the parameter is required, else a
+/// note. Required are the parameters that `options` name. If they name none, a parameter is
+/// required if a table measures it, or if a log measures it and vehicle.json does not give it; the
+/// sway resistance is then never required. Returns the required parameters that the data do not
+/// identify.
 std::vector<ParameterId> refuse_what_is_missing(const TrialData& data, const Reasons& reasons,
                                                 const std::vector<ParameterId>& requested,
                                                 const IdentifyOptions& options, Model& model);

@@ -1,6 +1,6 @@
-/// Tolerance for comparing two values of the same quantity in a table row. The printed value is a
-/// number in the file, such as a speed; the timed value is computed as distance over elapsed time.
-/// Private to this folder. The two values agree if
+/// Tolerance for comparing two values of the same quantity in a table row. Private to this folder.
+/// The printed value is a number in the file, such as a speed. The timed value is distance over
+/// elapsed time. The two values agree if
 ///
 ///     |printed - timed| <= rounding(printed) + timed (stop_watch/elapsed + course)
 ///
@@ -24,8 +24,8 @@
 namespace awmr {
 
 /// Returns the value of one unit in the last decimal place of a column, in awmr's unit of the
-/// column: 0.01 for speeds such as 1.25 m/s. If a formula computes the column, the last place of
-/// the computed values is used. `mappings`: column mappings used to read the table.
+/// column: 0.01 for speeds such as 1.25 m/s. If a formula computes the column, uses the computed
+/// values. `mappings`: column mappings used to read the table.
 double last_place(const CsvTable& table, std::string_view column,
                   std::span<const ColumnMapping> mappings);
 

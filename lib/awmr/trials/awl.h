@@ -35,8 +35,8 @@ struct AwlLog {
 /// first 8 KiB.
 bool is_awl(std::string_view bytes);
 
-/// Reads all complete rows of a file. Each row has its own checksum, so rows after damaged bytes
-/// are found, too. Adds these findings, each with the places in the file:
+/// Reads all complete rows of a file. Each row has its own checksum, so the function finds rows
+/// after damaged bytes, too. Adds these findings, each with the places in the file:
 ///   `rows-lost`          missing row numbers
 ///   `log-damaged`        bytes that are not a row
 ///   `log-truncated`      the file ends inside a row

@@ -33,8 +33,8 @@ constexpr std::size_t kMaxDamagedHeaders = 1000;
 /// The first header of a log begins within this number of bytes.
 constexpr std::size_t kHeaderWithin = 4 * kLogHeaderBytes;
 
-/// True if the name of a column has only letters, digits and _. Other characters are not allowed,
-/// because the name becomes a cell of a CSV header.
+/// True if the name of a column has only letters, digits and _. Other characters could damage the
+/// CSV header that the name goes into.
 bool is_plain(std::string_view name) {
   constexpr std::string_view kAllowed =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
@@ -128,8 +128,8 @@ std::uint32_t sequence_of(std::string_view bytes, std::size_t offset) {
   return number_in<std::uint32_t>(bytes.substr(offset + kLogRowCovered));
 }
 
-/// Adds the complete row at the offset `at` to `scan`. If row numbers are missing before it, adds
-/// this gap, too. `after_header`: true if a header precedes the row, which then begins a run.
+/// Adds the complete row at the offset `at` to `scan`, and a gap if row numbers before this row are
+/// missing. `after_header`: true if a header precedes the row, which then begins a run.
 void add_row(std::string_view bytes, std::size_t at, bool after_header, Scan& scan) {
   const std::uint32_t sequence = sequence_of(bytes, at);
   const double t_s = time_of(bytes, at, scan.layout);
@@ -180,8 +180,8 @@ Status add_header(std::string_view json, std::size_t at, const std::string& file
   return {};
 }
 
-/// If damaged bytes at the end of the file are fewer than the bytes of a row, counts them as an
-/// incomplete row. They are then not reported as damage.
+/// Counts damaged bytes at the end of the file as an incomplete row, not as damage, if they are
+/// fewer than the bytes of a row.
 void note_end(std::string_view bytes, Scan& scan) {
   if (scan.damaged.empty() || scan.damaged.back().end != bytes.size()) return;
   const std::size_t size = bytes.size() - scan.damaged.back().begin;

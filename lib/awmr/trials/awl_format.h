@@ -57,7 +57,8 @@ struct Damage {
 struct Lost {
   std::size_t count = 0;  ///< number of missing rows
   double before_s = 0.0;  ///< t_s of the row after the gap
-  /// True: the file is damaged at the gap. False: the chip did not write the rows.
+  /// True: the file is damaged at the gap. False: the chip did not write the rows, because it had
+  /// no room to buffer them.
   bool is_damaged = false;
 };
 

@@ -26,8 +26,9 @@ constexpr double kSignificance = 5.0;
 constexpr double kMinScale = 0.03;
 constexpr double kMinOffset_rad = 0.0175;
 
-/// Divides the log into about `count` windows of 1 to 5 s. In a longer window, the noise of the
-/// first and last reading matters less, but errors by sideslip and heading accumulate.
+/// Divides the log into about `count` windows of 1 to 5 s. In a shorter window, the noise of the
+/// first and last reading matters more. In a longer window, errors by sideslip and heading
+/// accumulate.
 std::vector<LogWindow> calibration_windows(const DrivingLog& log, double count = 20.0) {
   constexpr double kShortest_s = 1.0;
   constexpr double kLongest_s = 5.0;
@@ -41,8 +42,8 @@ struct Regression {
   double scatter = 0.0;  ///< standard deviation of the residuals without outliers
 };
 
-/// Indices of the residuals that are not outliers, that is, within four standard deviations. The
-/// standard deviation is estimated from the median of the magnitudes.
+/// Indices of the residuals within four standard deviations; the others are outliers. Estimates the
+/// standard deviation from the median of the magnitudes, which outliers hardly change.
 std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
   std::vector<double> sizes(residuals.data(), residuals.data() + residuals.size());
   for (double& size : sizes) size = std::abs(size);
@@ -54,9 +55,9 @@ std::vector<Eigen::Index> usual_rows(const Eigen::VectorXd& residuals) {
   return rows;
 }
 
-/// Fits y = X k by least squares in three rounds. Outliers are removed before the second and the
-/// third round. Empty if X is rank-deficient, or if at most twice as many rows are left as there
-/// are coefficients.
+/// Fits y = X k by least squares in three rounds, without outliers in the second and the third
+/// round. Empty if X is rank-deficient, or if the remaining rows are at most twice as many as the
+/// coefficients.
 std::optional<Regression> regression(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   constexpr int kRounds = 3;
   Regression found;
@@ -127,8 +128,8 @@ std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor
   if (windows.size() < kMinWindows) return std::nullopt;
   std::vector<double> psi = log[LogChannel::kHeading]->value;
   for (double& heading : psi) heading *= heading_factor;
-  // The complex equation of the fit is split into real and imaginary parts. A term k a with k = p +
-  // i q gives Re(k a) = p Re a - q Im a and Im(k a) = p Im a + q Re a.
+  // The complex equation of the fit becomes two real equations. A term k a with k = p + i q gives
+  // Re(k a) = p Re a - q Im a and Im(k a) = p Im a + q Re a.
   constexpr Eigen::Index kTerms = 4;
   Eigen::MatrixXd left(2 * static_cast<Eigen::Index>(windows.size()), 2 * kTerms);
   Eigen::VectorXd right(left.rows());
@@ -216,7 +217,8 @@ std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
 /// (calibration_checks.h). Without a heading, psi is the integral of the yaw rate. Empty if a
 /// channel is missing, with fewer than 15 windows in motion, or if the windows do not determine k.
 std::optional<Calibration> course_over_heading(const DrivingLog& log) {
-  // Windows with a displacement below this fraction of the longest one are not used.
+  // Leaves out windows with a displacement below this fraction of the longest displacement, because
+  // noise makes their direction uncertain.
   constexpr double kMoving = 0.3;
   constexpr double kWindows = 60.0;
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed}) {
@@ -368,7 +370,7 @@ std::vector<Finding> calibration_findings(const DrivingLog& log,
   if (auto rate = rate_mismatch(log, mappings)) {
     findings.push_back(*std::move(rate));
   } else if (auto turn = turn_mismatch(log, mappings)) {
-    // The comparisons below use the heading, so they are skipped if its scale is wrong.
+    // The comparisons below use the heading, so its wrong scale would also make them report errors.
     return {*std::move(turn)};
   }
   const auto course = course_fit(log);

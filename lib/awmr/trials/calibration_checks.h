@@ -3,8 +3,8 @@
 /// vehicle.
 ///
 /// The log is divided into windows [t0, t1] of a twentieth of its length (1 to 5 s). In each window
-/// the displacement of the position p = x + i y is compared with the integral of the speed u along
-/// the heading psi. The complex factors k, k_b, k_c and k_d are fitted to all windows. The terms
+/// the check compares the displacement of the position p = x + i y with the integral of the speed u
+/// along the heading psi. It fits the complex factors k, k_b, k_c and k_d to all windows. The terms
 /// with k_b, k_c and k_d absorb effects that would otherwise look like an error of k. With the yaw
 /// rate r,
 ///
@@ -26,9 +26,9 @@
 ///     |p(t1) - p(t0)|^2 = s^2 |a|^2 + 2 s Re(k_b* a b*) + |k_b|^2 |b|^2 + 2 s k_c Im(a c*)
 ///                         + 2 s k_d Re(a d*) + n
 ///
-/// The change of heading is compared with the integral of the yaw rate in the same way, with other
-/// factors. k is here the ratio of the heading's scale to the yaw rate's scale. k_0 corrects an
-/// offset of the yaw rate, and k_1 is the latency between the two channels:
+/// A second check compares the change of heading with the integral of the yaw rate. Here k is the
+/// ratio of the heading's scale to the yaw rate's scale, k_0 corrects an offset of the yaw rate,
+/// and k_1 is the latency between heading and yaw rate:
 ///
 ///     psi(t1) - psi(t0) = k int r dt + k_0 (t1 - t0) + k_1 (r(t1) - r(t0))
 ///
@@ -65,10 +65,10 @@ std::optional<Calibration> heading_offset_rad(const DrivingLog& log);
 
 /// Returns the warnings `heading-offset` (heading_offset_rad() is not empty) and `scale-mismatch`
 /// (the scales of two channels differ by more than 3 % and by more than five standard errors). If
-/// heading and yaw rate differ, `scale-mismatch` names the one that disagrees with the positions,
-/// or both if the positions do not decide. The finding also names both if heading and yaw rate
-/// agree with each other, but not with the positions. `mappings`: column mappings used to read the
-/// log.
+/// heading and yaw rate differ, `scale-mismatch` names the channel that disagrees with the
+/// positions, or both channels if the positions do not decide. The finding also names both channels
+/// if heading and yaw rate agree with each other, but not with the positions. `mappings`: column
+/// mappings used to read the log.
 std::vector<Finding> calibration_findings(const DrivingLog& log,
                                           std::span<const ColumnMapping> mappings);
 

@@ -120,9 +120,10 @@ bool all_equal(std::span<const double> values) {
 
 /// Returns the limit of the deviation |off| (off_median()) above which a reading is a spike. It is
 /// the largest of these values:
-///   - 7 standard deviations of the noise, times 1 + 5/sqrt(n), which allows for the estimation
-///     error. The standard deviation is the 75 % quantile of |off|, divided by 1.04. The quantile
-///     is that of n readings: all but those in the middle of five equal ones (an encoder at rest);
+///   - 7 standard deviations of the noise, times 1 + 5/sqrt(n), because n readings give the
+///     standard deviation only approximately. The standard deviation is the 75 % quantile of |off|,
+///     divided by 1.04. The quantile leaves out readings in the middle of five equal readings (an
+///     encoder at rest);
 ///   - three times the 80 % quantile of the change between readings, because motion can change
 ///     sharply;
 ///   - a tenth of the range between the 2 % and the 98 % quantile of the values;
@@ -149,8 +150,9 @@ double spike_limit(std::span<const double> value, std::span<const double> off, d
 }
 
 /// True if reading `k` is near the straight line through two readings on one side (-1: before, 1:
-/// after). Reading `k` is then a sharp change of motion, not a spike. The first of the two is the
-/// nearest reading that is not itself a possible spike, the second is its neighbour.
+/// after). Reading `k` is then a sharp change of motion, not a spike. The first of these two
+/// readings is the nearest reading that is not itself a possible spike; the second is the next
+/// reading beyond.
 bool is_reached_from(std::span<const double> value, std::span<const double> off, double limit,
                      std::size_t k, std::ptrdiff_t side) {
   const auto rows = static_cast<std::ptrdiff_t>(value.size());
@@ -211,9 +213,9 @@ std::vector<RowSpan> equal_runs(std::span<const double> value) {
 }
 
 /// Returns the time, s, during which the command in `run` differs by more than `notable` from its
-/// value at the start of `run`. Means over 0.3 s are compared, because a speed controller changes
-/// its command in every row, although the mean stays about the same. The last 0.3 s of the run do
-/// not count.
+/// value at the start of `run`. Compares means over 0.3 s, because a speed controller changes its
+/// command in every row, although the mean stays about the same. Leaves out the last 0.3 s of the
+/// run.
 double changed_s(std::span<const double> t_s, std::span<const double> activity, const RowSpan& run,
                  double notable) {
   constexpr double kMean_s = 0.3;
@@ -238,8 +240,8 @@ double changed_s(std::span<const double> t_s, std::span<const double> activity, 
 ///   - it is constant for at least eight times as many rows as the 90 % quantile of all constant
 ///     spans;
 ///   - the command changed for 0.3 s or more in this time.
-/// Two cases are not stuck: a value near 0 (the vehicle rests), and a value that stays constant so
-/// long more than once (a set-point).
+/// Not stuck are values near 0 (the vehicle rests), and values that stay constant so long more than
+/// once (set-points).
 void find_stuck(std::span<const double> t_s, std::span<const double> value,
                 std::span<const double> activity, ChannelQuality& quality) {
   const std::vector<RowSpan> runs = equal_runs(value);
@@ -268,14 +270,14 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
         notable > 0.0 && changed_s(t_s, activity, run, notable) >= kMinChanged_s;
     if (!is_notable) continue;
     quality.stuck.push_back(run);
-    // The first reading of a stuck run is valid; the repetitions after it are not measurements.
+    // The first reading of a stuck run is valid; the repetitions after it are no measurements.
     for (std::size_t i = run.begin + 1; i < run.end; ++i) quality.fresh[i] = false;
   }
 }
 
 /// Finds saturation of the sensor. Criterion: the largest or the smallest value of the channel
 /// occurs at least four times as often as any value between these two. It must occur in at least 8
-/// rows and 0.5 % of the rows. Rows without a command do not count, because a vehicle at rest also
+/// rows and 0.5 % of the rows. Leaves out rows without a command, because a vehicle at rest also
 /// repeats a value.
 void find_saturation(std::span<const double> all, std::span<const double> activity,
                      ChannelQuality& quality) {

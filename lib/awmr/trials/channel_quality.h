@@ -27,9 +27,9 @@ struct ChannelQuality {
   double quantum = 0.0;             ///< resolution, in the unit of the values; 0: not detected
   std::vector<std::size_t> spikes;  ///< rows with a spike: the value jumps away and back
   std::vector<RowSpan> stuck;       ///< rows with one repeated value while the command changed
-  /// Number of rows in which the value is at the end of the sensor's range.
+  /// Number of rows in which the value is at an end of the sensor's range.
   std::size_t saturated = 0;
-  /// Value at the end of the sensor's range where it is saturated.
+  /// Value at this end of the range, in the unit of the values.
   double saturated_at = 0.0;
 };
 
@@ -39,20 +39,20 @@ struct ChannelQuality {
 ChannelQuality find_repeats(std::span<const double> value);
 
 /// Returns the resolution of readings that were written only when they had changed; 0 for other
-/// readings. Criterion: no reading equals the one before it, and most differ from it by one step of
+/// readings. Criterion: no reading equals the reading before it, and most changes are one step of
 /// the resolution. (Readings at regular times that change so little would sometimes stay the same.)
-/// Needs at least 30 changes. Two zeros in a row are accepted, because a logger may write -0 after
-/// 0 as a changed value.
+/// Needs at least 30 changes. Accepts two zeros in a row, because a logger may write -0 after 0 as
+/// a changed value.
 double resolution_of_changes(std::span<const double> readings);
 
 /// Checks the readings `value` at the ascending times `t_s`. `activity`: the command that moves the
 /// signal, by row, in any unit. A signal that is constant while `activity` changes is stuck.
 ///
 /// The value of a slow sensor changes only at multiples of the sensor's sample interval, which is
-/// two rows or more. Only rows with a new reading are measurements. The value of a
-/// coarse sensor can change in any row, mostly by one step of the resolution. Each of its rows is a
+/// two rows or more. Only rows with a new reading are measurements. The value of a coarse sensor
+/// can change in any row, mostly by one step of the resolution. Each row of a coarse sensor is a
 /// measurement, because an unchanged value means that the signal did not reach the next step. Rows
-/// with spikes, stuck values (except the first one) or saturated values are not measurements.
+/// with spikes, stuck values (except the first row) or saturated values are not measurements.
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity);
 

@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Minimum number of rows of a curve: two determine the initial speed and the deceleration, one
-/// more checks them.
+/// Minimum number of rows of a curve: two rows determine the initial speed and the deceleration,
+/// and a third row checks them.
 constexpr std::size_t kShortestCurve = 3;
 
 bool is_curve(const TrialReader& reader) { return reader.has("t_s") && reader.has("speed_mps"); }
@@ -47,7 +47,8 @@ void check_coastdown_columns(TrialReader& reader) {
   if (is_curve(reader) || is_stop_time(reader) || is_binned(reader)) return;
   if (reader.has("from_mps") || reader.has("to_mps")) {
     reader.header_fault(ErrorCode::kMissing,
-                        "speed bins need from_mps, to_mps and elapsed_s; add the missing ones");
+                        "speed bins need from_mps, to_mps and elapsed_s; add the missing "
+                        "columns");
     return;
   }
   const bool meant_curve = reader.has("t_s") || reader.has("speed_mps");

@@ -171,8 +171,8 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
                        (*time)->meaning + "; it is also read without a mapping"});
   }
   if (!guesses.empty()) return;
-  // A column named by a unit alone counts as time only if its values rise in every row, which those
-  // of a speed do not: `ms` may also mean m/s.
+  // A column with only a unit as its name counts as time only if its values rise in every row.
+  // Speeds do not, and `ms` may also mean m/s.
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const Words words = words_of(sample.names[i]);
     const auto unit = unit_in(words, Dimension::kTime);
@@ -201,8 +201,8 @@ void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& gues
   for (ColumnGuess& guess : guesses) {
     const auto source = source_of(guess, sample);
     if (!source) continue;
-    // Returns the values of one of awmr's columns. For the column of this guess, they come from the
-    // guess's source column; for any other column, from the source column of its first guess.
+    // Returns the values of one of awmr's columns: those of the source column of this guess, or for
+    // any other column, those of the source column of its first guess.
     const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {
       if (column == guess.column) return sample.values[*source];
       for (const ColumnGuess& other : guesses) {
@@ -225,8 +225,8 @@ void withdraw_constants(const FileSample& sample, std::vector<ColumnGuess>& gues
   }
 }
 
-/// Sorts the guesses for one column by confidence. If several are kLikely and none is kSure, the
-/// user must choose, so the kLikely ones become kUnsure.
+/// Sorts the guesses for one column by confidence. If several guesses are kLikely and none is
+/// kSure, the user must choose, so the kLikely guesses become kUnsure.
 void settle(std::span<ColumnGuess> guesses) {
   std::stable_sort(guesses.begin(), guesses.end(), [](const ColumnGuess& a, const ColumnGuess& b) {
     return a.confidence < b.confidence;

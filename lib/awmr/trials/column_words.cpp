@@ -129,8 +129,8 @@ const std::vector<Unit>& units() {
   return kUnits;
 }
 
-/// True if the name consists only of a unit, and this unit identifies the quantity: `kmh` and
-/// `km/h` are speeds, `dps` is a yaw rate.
+/// True if the name is only a unit that identifies the quantity: `kmh` and `km/h` are speeds, `dps`
+/// is a yaw rate.
 bool is_unit_alone(const Rule& rule, const Words& words) {
   static const std::set<std::string> kOnlyOne{"speed_mps", "yaw_rate_radps", "elapsed_s", "t_s"};
   if (kOnlyOne.count(rule.column) == 0 || words.size() > 2) return false;
@@ -177,7 +177,6 @@ std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
                                       const Words& words) {
   for (const Rule& rule : rules_of(kind)) {
     if (rule.column != column) continue;
-    // A column may be named by its unit alone, such as `kmh` or `ms`.
     if (is_unit_alone(rule, words) || fits(rule, words)) return rule.dimension;
   }
   return std::nullopt;

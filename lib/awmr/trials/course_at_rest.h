@@ -17,10 +17,10 @@ struct CourseAtRest {
 };
 
 /// Finds the rows with an invalid heading. If the heading jumps by more than 20 deg during a rest,
-/// or at its beginning or end, the headings of all rows at rest are invalid. One kind of rest does
-/// not count: the headings before and after it differ by more than 20 deg, so the vehicle may have
-/// been turned by hand. `present`: the rows with a heading, ascending. `speed_mps` and
-/// `heading_rad` have one value per row; the heading may wrap.
+/// or at its beginning or end, the headings of all rows at rest are invalid. Exception: if the
+/// headings before and after a rest differ by more than 20 deg, somebody may have turned the
+/// vehicle by hand, so this rest does not show a jump. `present`: the rows with a heading,
+/// ascending. `speed_mps` and `heading_rad` have one value per row; the heading may wrap.
 CourseAtRest course_at_rest(std::span<const double> speed_mps, std::span<const double> heading_rad,
                             std::span<const std::size_t> present);
 

@@ -71,7 +71,7 @@ struct Span {
   double end_s = 0.0;
 };
 
-/// Checks that the files overlap in time. Errors: a file begins after another has ended.
+/// Error if a file begins after another file has ended.
 Status check_spans(const std::vector<Span>& spans) {
   if (spans.empty()) return {};
   const auto last = std::max_element(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
@@ -93,8 +93,9 @@ void note_zero_starts(const std::vector<Span>& spans, std::vector<CsvNote>& note
       std::all_of(spans.begin(), spans.end(), [](const Span& span) { return span.begin_s == 0.0; });
   if (!all_at_zero) return;
   notes.push_back({0, "one-clock",
-                   "the times of all files begin at exactly 0 and are used as times of one clock: "
-                   "if each file counts from its own first row, its signals are shifted in time"});
+                   "the times of all files begin at exactly 0, and awmr takes them as times of "
+                   "one clock. If each file counts from its own first row, correct the times; "
+                   "otherwise its signals are shifted"});
 }
 
 /// Returns a column of a table as a topic, with the rows that have a value.
@@ -110,8 +111,7 @@ Topic topic_of(const CsvTable& table, const std::string& column, std::size_t pla
   return topic;
 }
 
-/// Checks the times of a table. Errors: a time that does not fit into 64-bit nanoseconds (9e9 s,
-/// the year 2255 in clock time).
+/// Error if a time does not fit into 64-bit nanoseconds (9e9 s, the year 2255 in clock time).
 Status check_time(const CsvTable& table) {
   constexpr double kMax_s = 9e9;
   for (std::size_t row = 0; row < table.rows(); ++row) {

@@ -96,8 +96,10 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
       const auto [known, is_new] = formats.try_emplace(defined, *std::move(format));
       if (!is_new && known->second.definition != record) {
         return input_error(ErrorCode::kBrokenFile, file,
-                           fmt::format("byte {}: a second, different format of {}", offset,
-                                       printable(known->second.name)));
+                           fmt::format("byte {}: a second definition (FMT record) of {} "
+                                       "differs from the first; give each log as a file of its "
+                                       "own",
+                                       offset, printable(known->second.name)));
       }
     } else if (const dataflash::Format& format = formats.at(type); format.name == "FMTU") {
       mark_instance(record, format, formats);

@@ -132,7 +132,9 @@ Status define(const Cells& cells, const std::string& file, int line, NamedFormat
   const auto [known, is_new] = formats.try_emplace(std::string(cells[3]), *std::move(format));
   if (is_new || known->second.definition == *record) return {};
   return error_at(file, line,
-                  fmt::format("a second, different format of {}", printable(known->second.name)));
+                  fmt::format("a second definition (FMT line) of {} differs from the first; "
+                              "give each log as a file of its own",
+                              printable(known->second.name)));
 }
 
 /// Identifies a topic (one signal source): name of the record type, and number of the sensor.
@@ -248,7 +250,7 @@ bool is_dataflash_text(std::string_view bytes) {
 
 Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& file,
                                     const Wanted& wanted) {
-  // A last line without a line end may be incomplete, so it is not read.
+  // Leaves out a last line without a line end, because this line may be incomplete.
   const std::string_view whole = bytes.substr(0, bytes.rfind('\n') + 1);
   AWMR_ASSIGN_OR_RETURN(TextContents contents, text_contents(whole, file));
   if (whole.size() < bytes.size()) {

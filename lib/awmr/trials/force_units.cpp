@@ -24,9 +24,10 @@ constexpr std::array<FullScale, 5> kFullScales{{{100.0, "percent"},
 // A force counts as full power if it differs from full power by at most this fraction.
 constexpr double kEndOfScale = 0.005;
 // Assumption: the largest force in the trials of a vehicle is at least this fraction of full power.
+// A smaller fraction would leave more scales possible.
 constexpr double kMinShare = 0.2;
-// Forces that exceed F'max by at most this factor are taken as multiples of a force that is a
-// little smaller than F_max.
+// Forces of up to this factor times F'max count as multiples of a force that is a little smaller
+// than F_max.
 constexpr double kPlainlyBeyond = 1.05;
 
 constexpr ForceUnit kMicroseconds{

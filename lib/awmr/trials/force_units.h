@@ -26,8 +26,8 @@
 
 namespace awmr {
 
-/// A force that exceeds the limit F'max by at most this factor counts as within the limit, because
-/// the excess may be due to rounding.
+/// A force of up to this factor times the limit F'max counts as within the limit, because the
+/// excess may be due to rounding.
 inline constexpr double kForceRounding = 1.01;
 
 /// Range of the pulse lengths of a servo or a motor driver, us.
@@ -81,7 +81,7 @@ struct ThrustUnits {
   std::vector<UnitFix> unit_fixes;
 };
 /// Returns the possible units of tau_speed. `thrust`: range of the column. `wheels`: range of the
-/// wheel forces in the other tables, if it exceeds F'max. This range then decides the unit.
+/// wheel forces in the other tables, if they exceed F'max; these forces then decide the unit.
 ThrustUnits thrust_units(const ForceSpan& thrust, const std::optional<ForceSpan>& wheels,
                          const Vehicle& vehicle);
 

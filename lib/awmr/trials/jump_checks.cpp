@@ -15,7 +15,7 @@ namespace {
 /// change is the quantile kQuantile of all changes per second, times the time between the readings.
 constexpr double kTimes = 10.0;
 constexpr double kQuantile = 0.95;
-/// Smallest jump of the position that is reported, in vehicle lengths. A smaller one may be a
+/// Smallest jump of the position that is reported, in vehicle lengths. A smaller jump may be a
 /// correction by the position receiver.
 constexpr double kVehicleLengths = 4.0;
 constexpr double kMinTurn_rad = 1.0;
@@ -48,9 +48,9 @@ double common_rate(const std::vector<Move>& moves) {
   return quantile(std::move(rates), kQuantile);
 }
 
-/// Returns the first jump: a change of more than kTimes times the usual change, after which the
-/// signal does not return. The changes before and after it are not that large. `least`: smallest
-/// change that counts as a jump. Empty without a jump, or with fewer than kMin changes.
+/// Returns the first jump: a single change of more than kTimes times the usual change, after which
+/// the signal does not return. `least`: smallest change that counts as a jump. Empty without a
+/// jump, or with fewer than kMin changes.
 std::optional<Move> jump_in(const std::vector<Move>& moves, double least, const Size& size) {
   if (moves.size() < kMin) return std::nullopt;
   const double rate = common_rate(moves);

@@ -14,9 +14,9 @@ namespace awmr {
 ///     T dF'/dt = c - F',   F'(t + h) = c + (F'(t) - c) exp(-h/T)
 ///     mean over [t, t + h] = mean of c - (T/h) (F'(t + h) - F'(t))
 ///
-/// The computation starts with F' = c before the first requested row: 40 T plus the longest delay
-/// earlier, or at the log's first row. Commands before that time change the result by less than
-/// rounding does. With T = 0, F' = c at all times.
+/// The computation starts with F' = c, 40 T plus the longest delay before the first requested row,
+/// or at the log's first row. Commands before that time change the result by less than rounding
+/// does. With T = 0, F' = c at all times.
 class LaggedForces {
  public:
   /// Covers the rows [begin, end) of the log, and command delays from -1 to 1 s. The log must

@@ -71,7 +71,7 @@ void check_log_columns(TrialReader& reader, bool has_steering) {
   }
   if (reader.has("latitude_deg") != reader.has("longitude_deg")) {
     reader.header_fault(ErrorCode::kMissing,
-                        "latitude_deg and longitude_deg belong together: add the other one");
+                        "latitude_deg and longitude_deg belong together: add the missing column");
   }
   if (reader.has("latitude_deg") && (reader.has("x_m") || reader.has("y_m"))) {
     reader.header_fault(ErrorCode::kConflict,
@@ -332,8 +332,8 @@ std::vector<double> last_speeds(const TrialReader& reader, RowSpan rows) {
   return speeds;
 }
 
-/// Removes from `present`, the rows with a heading, those whose heading is invalid because the
-/// vehicle rests (course_at_rest.h). In these rows, replaces the heading by the next valid one.
+/// Removes rows from `present`, the rows with a heading: those whose heading is invalid because the
+/// vehicle rests (course_at_rest.h). In these rows, replaces the heading by the next valid heading.
 /// Adds the finding `course-at-rest`.
 void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> speed_mps,
                               std::vector<double>& heading_rad, std::vector<std::size_t>& present,
@@ -358,7 +358,7 @@ void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> spe
 DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,
                   std::vector<Finding>& findings) {
   DrivingLog log = commands_of(reader, rows);
-  // The times of a joined log are not evenly spaced, so they are not checked for rounding.
+  // The times of a joined log are unequal anyway, so their spacing does not show rounding.
   if (!log.joined) replace_rounded_times(log.t_s, log.file, log.line.front(), findings);
   if (reader.has("latitude_deg")) add_geographic(reader, rows, log, findings);
   if (!reader.faults().empty()) return log;

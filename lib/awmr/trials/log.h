@@ -52,8 +52,8 @@ struct DrivingLog {
   /// True: rows were inserted between the rows of the file. Their commands are interpolated, and
   /// they have no measurements.
   bool has_interpolated_commands = false;
-  /// True: commands are set-points that stay constant until the next one. Commands that the logger
-  /// had interpolated were replaced by such set-points.
+  /// True: commands are set-points, each constant until the next set-point. They replace commands
+  /// that the logger had interpolated.
   bool has_held_set_points = false;
   /// By row: standard deviation, s, of the time at which the commands changed to those of the row.
   /// A log shows commands only at its rows, so this time can be uncertain. 0: the time is known.
@@ -95,7 +95,7 @@ bool has_force_difference(const DrivingLog& log);
 bool has_steering_changes(const DrivingLog& log);
 
 /// A time step of more than this many median time steps is a gap. The commands during a gap are
-/// unknown, so the log is not simulated across it.
+/// unknown, so no simulation of the log crosses the gap.
 inline constexpr double kGapSteps = 10.0;
 
 }  // namespace awmr

@@ -54,9 +54,8 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   }
 }
 
-/// Returns, for each row, the command that moves a channel, in an arbitrary unit. For heading and
-/// yaw rate, it is about the yaw moment of force difference and steering; for other channels, the
-/// thrust.
+/// Returns, for each row, the command that moves a channel, in an arbitrary unit. Heading and yaw
+/// rate: about the yaw moment, from force difference and steering. Other channels: the thrust.
 std::vector<double> activity_for(LogChannel channel, const DrivingLog& log) {
   const bool turning = channel == LogChannel::kHeading || channel == LogChannel::kYawRate;
   std::vector<double> activity(log.rows());
@@ -93,8 +92,8 @@ ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel chann
   return quality;
 }
 
-/// True if at least 80 % of the time spans between successive `rows` are about equal. They are
-/// equal if the readings come from a slow sensor, or if only the rows of a gap lack a reading.
+/// True if at least 80 % of the time spans between successive `rows` are about equal. This is so
+/// for a slow sensor, or if only the rows of a gap lack a reading.
 bool are_regular(const std::vector<double>& t_s, const std::vector<std::size_t>& rows) {
   constexpr double kAbout = 1.5;  // time spans that differ by less than this factor count as equal
   constexpr double kMost = 0.8;
@@ -114,8 +113,8 @@ void note_changes_only(LogChannel channel, const DrivingLog& log,
   const ChannelInfo& about = info(channel);
   findings.push_back(
       {log.file, 0, Severity::kNote, "only-changes",
-       fmt::format("{} has {} values in {} rows; each differs from the one before it, mostly by "
-                   "the resolution of {:.3g}. In rows without a value, it is taken as unchanged",
+       fmt::format("{} has {} values in {} rows; each differs from the one before it, mostly "
+                   "by the resolution of {:.3g}. awmr uses each value until the next one",
                    about.column, rows.size(), log.rows(), resolution / about.to_si)});
 }
 
@@ -125,8 +124,8 @@ std::vector<std::size_t> rows_between(std::size_t first, std::size_t last) {
   return rows;
 }
 
-/// Fills gaps: in each row that is not in `rows`, replaces the value by that of the last row before
-/// it that is in `rows`. Values before the first of `rows` stay unchanged.
+/// Fills gaps: gives each row that is not in `rows` the value of the last row in `rows` before it.
+/// Leaves values before the first of `rows` unchanged.
 std::vector<double> held_between(const std::vector<std::size_t>& rows, std::vector<double> values) {
   auto next = rows.begin();
   for (std::size_t i = rows.front() + 1; i < values.size(); ++i) {

@@ -22,8 +22,8 @@ Measured measured_of(LogChannel channel, const DrivingLog& log,
                      const std::vector<std::size_t>& rows, std::vector<double> values,
                      std::vector<Finding>& findings);
 
-/// Marks both x and y of a row as measurements if at least one of them changed, because a position
-/// receiver updates both together. No effect if both are as fast as the log.
+/// Marks both x and y of a row as measurements if x or y changed, because a position receiver
+/// updates both together. No effect if x and y are as fast as the log.
 void join_position(DrivingLog& log);
 
 /// Adds the note `held-samples` for each channel that is slower than the log.
@@ -31,8 +31,8 @@ void note_held(const DrivingLog& log, std::vector<Finding>& findings);
 
 /// Adds the warning `command-held` if the command `column` gets no new value for a second or more,
 /// and for more than ten times its mean interval. The log then repeats the old command, although
-/// the vehicle may have stopped. `rows`: the rows in which the file has a value. If these are all
-/// rows, nothing is added.
+/// the vehicle may have stopped. `rows`: the rows in which the file has a value. Adds nothing if
+/// these are all rows.
 void note_stale_command(std::string_view column, const DrivingLog& log,
                         const std::vector<std::size_t>& rows, std::vector<Finding>& findings);
 

@@ -19,8 +19,8 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
   // If the unit of t_s is wrong, the windows are not one second long, and no sign can be checked.
   if (!found.empty() && found.front().column == "t_s") return found;
   for (Contradiction& one : sign_contradictions(evidence)) found.push_back(std::move(one));
-  // Positions in a wrong unit can look like a jump. Therefore jumps are checked only if no other
-  // contradiction was found.
+  // Positions in a wrong unit can look like a jump, so jumps count only if there is no other
+  // contradiction.
   if (found.empty()) {
     if (auto jump = jump_contradiction(evidence)) found.push_back(*std::move(jump));
   }

@@ -1,11 +1,11 @@
-/// Checks a driving log for wrong units and signs and for swapped left and right forces, before
-/// anything is fitted. The channels are compared with each other, with the commands and with the
-/// vehicle file.
+/// Checks a driving log for wrong units and signs and for swapped left and right forces, before any
+/// fit. The check compares the channels with each other, with the commands and with the vehicle
+/// file.
 ///
-/// From the vehicle file: sample_time_s is compared with the row spacing, wheel_force with the
-/// forces, the steering stop with the steering angles. The other comparisons need no model of the
-/// vehicle. All but one are made over windows of one second. The exception is the change of a
-/// reading, which is compared between two successive readings:
+/// From the vehicle file, it compares sample_time_s with the row spacing, wheel_force with the
+/// forces, and the steering stop with the steering angles. The other comparisons need no model of
+/// the vehicle. They use windows of one second, except that a jump is a change between two
+/// successive readings:
 ///
 ///     change of heading      with   integral of the yaw rate
 ///     distance of positions  with   integral of the speed
@@ -40,9 +40,9 @@ struct Contradiction {
 };
 
 /// Returns the columns with a wrong unit or sign; empty if all channels agree. `mappings`: column
-/// mappings used to read the log; the corrections name the file's columns as these mappings do. A
-/// comparison is skipped if its signals are weak (a straight drive, a vehicle at rest) or if the
-/// log has too few windows.
+/// mappings used to read the log; the corrections name the file's columns as these mappings do.
+/// Skips a comparison if its signals are weak (a straight drive, a vehicle at rest) or if the log
+/// has too few windows.
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 

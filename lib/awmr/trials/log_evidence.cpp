@@ -18,7 +18,7 @@ namespace {
 constexpr double kResponse_s = 0.2;
 /// Adds the means of the commands to `sums`. The vehicle responds in the window to commands that
 /// were logged kResponse_s earlier. If the log has the steering angle instead of the steering
-/// command, the commands in the window are used.
+/// command, uses the commands in the window itself.
 void add_commands(const DrivingLog& log, const Vehicle& vehicle, const LogWindow& window,
                   EvidenceWindow& sums) {
   const double delay_s = log.steering_command_rad ? kResponse_s : 0.0;
@@ -91,9 +91,9 @@ bool has_readings(const DrivingLog& log, std::size_t row) {
       });
 }
 
-/// Moves the ends of the windows to rows with new readings, because a repeated value was measured
-/// earlier than the time of its row. An end moves forward into the next window, or back if no new
-/// reading follows there. A window that loses more than half its rows is dropped.
+/// Moves the ends of the windows to rows with new readings, because the sensor measured a repeated
+/// value before the time of its row. An end moves forward into the next window, or back if no new
+/// reading follows there. Drops a window that loses more than half its rows.
 std::vector<LogWindow> between_readings(const std::vector<LogWindow>& windows) {
   std::vector<LogWindow> moved;
   for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -164,7 +164,7 @@ Evidence evidence_of(const DrivingLog& log, const Vehicle& vehicle,
 std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<const double> y) {
   constexpr int kMinPairs = 10;
   constexpr double kLargestSpread = 0.6;
-  // Pairs (x, y) with a smaller |x| are skipped, because the vehicle is at rest.
+  // Skips pairs (x, y) with a smaller |x|, because the vehicle is then at rest.
   constexpr double kSmallest = 1e-9;
   std::vector<double> sizes;
   for (const double value : x) sizes.push_back(std::abs(value));

@@ -41,8 +41,8 @@ struct Evidence {
   const Vehicle& vehicle;
   std::span<const ColumnMapping> mappings;  ///< column mappings used to read the log
   std::vector<EvidenceWindow> windows;      ///< consecutive windows without overlap
-  /// Windows for robust_ratio(), which needs twenty. If `windows` has fewer, this list also has
-  /// windows shifted by thirds of their length. A log of ten seconds then suffices to detect a
+  /// Windows for robust_ratio(), which needs twenty windows. If `windows` has fewer, this list also
+  /// has windows shifted by thirds of their length. A log of ten seconds then suffices to detect a
   /// wrong unit.
   std::vector<EvidenceWindow> overlapping;
 
@@ -85,9 +85,9 @@ std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<con
 /// Coefficients of a linear regression of the yaw rate on the yaw moments tau_steering (of the
 /// steering) and tau_diff (of the force difference), as in EvidenceWindow:
 ///     yaw rate = steering * tau_steering + sides * tau_diff
-/// A coefficient whose magnitude is below five standard errors is set to 0. With fewer than 10
-/// windows, both coefficients are 0. If the moments are so correlated that a joint fit cannot
-/// separate their effects, each is fitted alone.
+/// A coefficient whose magnitude is below five standard errors is 0. With fewer than 10 windows,
+/// both coefficients are 0. If the moments are so correlated that a joint fit cannot separate their
+/// effects, each coefficient comes from a fit of its own.
 struct MomentShares {
   double steering = 0.0;  ///< 1/(m s)
   double sides = 0.0;     ///< 1/(m s)

@@ -10,7 +10,8 @@ namespace awmr {
 
 /// Returns `path` itself if it is a file. For a directory, returns its bags (`.db3`) if there are
 /// any, else its tables (`.csv`), sorted by name. Errors (input): those of list_directory(); a
-/// directory without either; an entry of these names that is not a regular file.
+/// directory without bags and tables; an entry with one of these extensions that is not a regular
+/// file.
 Result<std::vector<std::filesystem::path>> files_of(const std::filesystem::path& path);
 
 }  // namespace awmr

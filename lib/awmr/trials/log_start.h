@@ -13,11 +13,10 @@ double largest_measured(const DrivingLog& log, LogChannel channel);
 /// readings of speed or yaw rate is above 5 % of the largest reading.
 bool begins_in_motion(const DrivingLog& log);
 
-/// Only if the log begins at rest and its first row commands a force: adds a row one median time
-/// step before the first one, with forces 0 and without measurements. The forces before the log
-/// were 0, because the vehicle was at rest. Without this row, a simulation with motor lag or
-/// command delay would use the first command also for the time before the log. No effect in a log
-/// without a speed.
+/// If the log begins at rest and its first row commands a force, adds a row with forces 0 and
+/// without measurements, one median time step before the first row. Without this row, a simulation
+/// with motor lag or command delay would use the first command also for the time before the log, in
+/// which the vehicle was at rest. No effect in a log without a speed.
 void add_row_of_rest(DrivingLog& log);
 
 }  // namespace awmr

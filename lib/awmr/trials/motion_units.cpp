@@ -51,8 +51,8 @@ bool heading_spans_radians(const DrivingLog& log) {
   return most - least < 2.0 * pi<double>() + 0.1;
 }
 
-/// If turning_rate() is below this value, the column is taken as rad/s. In deg/s, the vehicle would
-/// turn at less than 2 deg/s, that is, hardly at all.
+/// Below this value of turning_rate(), the yaw rate counts as rad/s, because at less than 2 deg/s
+/// the vehicle would hardly turn.
 constexpr double kSlowTurn = 2.0;
 /// Typical yaw rate while turning: the 75 % quantile over windows, in the unit of the column.
 double turning_rate(const Evidence& evidence) {
@@ -91,7 +91,7 @@ std::optional<double> turned_over_rate(const Evidence& evidence) {
   const double size = std::abs(ratio->ratio);
   if (agree(size)) return std::nullopt;
   // A large gyro bias changes the ratio of the signals, but not the ratio of their deviations from
-  // the medians. The medians are therefore subtracted first.
+  // the medians.
   const auto without_bias = robust_ratio(centred(rate), centred(turned));
   if (without_bias && agree(without_bias->ratio)) return std::nullopt;
   return size;
@@ -132,8 +132,8 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
 }
 
 /// Ratio of the yaw rate to that of wheels that roll without sliding, u tan(d)/(2 l_f). u: speed;
-/// d: steering angle; 2 l_f: about the wheelbase. Windows with clearly different forces left and
-/// right are not used.
+/// d: steering angle; 2 l_f: about the wheelbase. Leaves out windows with clearly different forces
+/// left and right, because such forces turn the vehicle, too.
 std::optional<double> rate_over_rolling(const Evidence& evidence) {
   // Forces left and right count as equal if the yaw moment of their difference is at most this
   // fraction of the yaw moment of the steering.
@@ -202,8 +202,8 @@ std::string words_of_wheel(double ratio, const Vehicle& vehicle) {
 ///
 ///     mean = 12 sigma^2,   lower quartile = 12 sigma^2 ln(4/3)
 ///
-/// Acceleration of the vehicle makes some of the sums larger. The lower quartile is used, because
-/// it changes least. Returns 0 with fewer than three measurements.
+/// Acceleration of the vehicle makes some of the sums larger, and changes the lower quartile least.
+/// Returns 0 with fewer than three measurements.
 double position_variance_m2(const DrivingLog& log) {
   const Measured& x = *log[LogChannel::kX];
   const Measured& y = *log[LogChannel::kY];
@@ -224,9 +224,9 @@ double position_variance_m2(const DrivingLog& log) {
 
 /// Ratio of the distance between the first and the last position of a window to the integral of the
 /// speed, as a robust ratio over all windows. Noise makes the distance longer: with the standard
-/// deviation sigma of each coordinate, the expected square is true distance^2 + 4 sigma^2.
-/// Therefore 4 sigma^2 is subtracted from the square. Empty if the median distance in the faster
-/// half of the windows is below twice that of noise alone.
+/// deviation sigma of each coordinate, the expected square is true distance^2 + 4 sigma^2. The
+/// function therefore subtracts 4 sigma^2 from the square. Empty if the median distance in the
+/// faster half of the windows is below twice that of noise alone.
 std::optional<RobustRatio> moved_over_driven(const Evidence& evidence) {
   // Smallest accepted ratio of the median squared distance to that of noise alone.
   constexpr double kClear = 4.0;

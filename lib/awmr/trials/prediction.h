@@ -37,8 +37,8 @@ struct ChannelPrediction {
 struct PredictionOptions {
   double horizon_s = 10.0;   ///< maximum length of a window, s
   double motor_lag_s = 0.0;  ///< time constant of the motors, s, >= 0
-  /// Maximum number of measurements in a series. If there are more, only every n-th is kept. 0: no
-  /// series.
+  /// Maximum number of measurements in a series; of more measurements, the series has every n-th.
+  /// 0: no series.
   std::size_t most_in_series = 0;
 };
 

@@ -78,8 +78,7 @@ Result<CsvTable> table_of_sysid(std::string_view bytes, const std::string& file,
                           columns, mappings);
 }
 
-/// Appends the signals of the next file of a split bag. Messages of a topic that `all` already has
-/// are appended to that topic.
+/// Appends the signals of the next file of a split bag; topics with the same name become one topic.
 void append(Signals part, Signals& all) {
   std::vector<std::size_t> places;
   for (const std::string& name : part.header) {

@@ -27,9 +27,9 @@ struct TrialOptions {
   /// Column mappings; load_trials() appends those of the vehicle file.
   std::vector<ColumnMapping> columns;
   Preference preference = Preference::kPrinted;
-  /// True: trials that contradict themselves or the vehicle file (log_consistency.h,
-  /// table_consistency.h) are accepted with a warning instead of refused. For vehicles that are
-  /// outside the plausible ranges of these checks.
+  /// True: accepts trials that contradict themselves or the vehicle file (log_consistency.h,
+  /// table_consistency.h), with a warning. For vehicles outside the plausible ranges of these
+  /// checks.
   bool as_is = false;
   /// False: the vehicle has no steering, so a log needs no steering column.
   bool has_steering = true;

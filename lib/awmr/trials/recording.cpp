@@ -156,8 +156,8 @@ std::string Recording::damage_of(const std::string& line) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string_view text = cells[i].text;
     if (!is_number_[i] || is_number(cells[i], header_.delimiter)) continue;
-    // A cell without digits, such as "nan", is not a sign of damage. The line is kept as a row, and
-    // the reader of the log later reports the cell.
+    // A cell without digits, such as "nan", is no sign of damage. The line stays a row, and the
+    // reader of the log later reports the cell.
     if (std::any_of(text.begin(), text.end(), is_digit)) {
       return fmt::format("its cell {} is \"{}\", which is not a number", header_.names[i],
                          shortened(text, 40));

@@ -21,8 +21,8 @@ namespace {
 /// Fewest equal rows for a part in common, except exact copies.
 constexpr std::size_t kMinEqual = 50;
 constexpr double kNearlyAll = 0.95;  ///< minimum fraction of equal rows within the part in common
-/// A row that occurs in the first log more often than this is not used to find the time offset
-/// between the two logs. It would agree at many offsets.
+/// A row that occurs in the first log more often than this would agree at many time offsets, so it
+/// does not help to find the offset between the two logs.
 constexpr std::size_t kMaxAlike = 8;
 constexpr std::size_t kMinCurve = 20;
 
@@ -151,8 +151,8 @@ bool is_copy(const DrivingLog& a, const DrivingLog& b, const std::vector<Pair>& 
   return std::abs(b.t_s.back() - b.t_s.front() - span_s) <= 1e-6 * span_s;
 }
 
-/// Extends the part in common over further equal rows at both ends. Rows in which no measurement
-/// changes (at rest, or the first row of a log) were not compared before.
+/// Extends the part in common over further equal rows at both ends: rows in which no measurement
+/// changes (at rest, or the first row of a log).
 CommonPart extended(CommonPart part, const RoundedRows& of_a, const RoundedRows& of_b) {
   while (part.a_begin > 0 && part.b_begin > 0 &&
          of_a.rows[part.a_begin - 1] == of_b.rows[part.b_begin - 1]) {
@@ -232,8 +232,8 @@ void check_repeated_curves(const std::vector<CoastCurve>& curves, std::vector<Fa
       if (!is_copy(curves[k], curves[i])) continue;
       faults.push_back(
           {ErrorCode::kGivenTwice, curves[i].file,
-           fmt::format("the coast-down from line {} is the same recording as that from "
-                       "line {} of {}, so it would count twice; remove one of the two",
+           fmt::format("the coast-down from line {} is the same recording as that from line {} "
+                       "of {}, so it would count twice; remove one of the two recordings",
                        curves[i].line, curves[k].line, curves[k].file)});
       break;
     }

@@ -2,12 +2,12 @@
 /// recording that counts twice makes confidence intervals too narrow, by a factor of up to sqrt(2).
 /// Private to this folder.
 ///
-/// Two logs are compared in the commands and measured channels that both have. Each quantity is
-/// rounded to the coarser of its two resolutions. Copies with fewer digits, fewer columns, other
-/// names or another time origin are therefore found too. Only rows in which a measurement changes
-/// are compared. The test first finds the time offset between the logs with which most of them
-/// agree. The logs have a part in common if at least 50 of these rows agree, and at least 95 % of
-/// those between the first and the last that agree. Exact copies are found at any length.
+/// The test compares the commands and measured channels that both logs have, each rounded to the
+/// coarser of its two resolutions. It therefore also finds copies with fewer digits, fewer columns,
+/// other names or another time origin. It compares only rows in which a measurement changes, with
+/// the time offset for which most of these rows agree. The logs have a part in common if at least
+/// 50 rows agree, and at least 95 % of the rows between the first and the last row that agree. The
+/// test finds exact copies of any length.
 #pragma once
 
 #include <vector>
@@ -17,9 +17,9 @@
 
 namespace awmr {
 
-/// Adds a fault (kGivenTwice) for each log that has a part in common with an earlier one. Logs that
-/// agree only at their beginning are accepted: they are separate simulations that started with the
-/// same commands.
+/// Adds a fault (kGivenTwice) for each log that has a part in common with an earlier log. Accepts
+/// logs that agree only at their beginning, because simulations that start with the same commands
+/// do so.
 void check_repeated_logs(const std::vector<DrivingLog>& logs, std::vector<Fault>& faults);
 
 /// Adds a fault (kGivenTwice) for each curve of 20 speeds or more that repeats an earlier one

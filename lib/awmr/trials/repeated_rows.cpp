@@ -13,7 +13,8 @@
 namespace awmr {
 namespace {
 
-/// k repeated rows are reported if the probability of k or more repeats by chance is at most this.
+/// The check reports k repeated rows if the probability of k or more repeats by chance is at most
+/// this.
 constexpr double kChance = 0.01;
 /// Minimum degrees of freedom for an estimate of the scatter from rows with equal settings.
 constexpr int kMinDifferences = 3;

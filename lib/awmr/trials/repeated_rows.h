@@ -1,7 +1,7 @@
 /// Detects copied rows in a table of runs. Copies make confidence intervals too narrow. Private to
 /// this folder.
 ///
-/// A row repeats an earlier one if all settings (forces, angle, distance, turns) and the reading
+/// A row repeats an earlier row if all settings (forces, angle, distance, turns) and the reading
 /// (time or speed) are the same to the last digit. Separate runs may also agree by chance: two
 /// readings with standard deviation s, rounded to multiples of q, are the same with probability
 ///
@@ -9,8 +9,8 @@
 ///
 /// (averaged over the position of the mean between two multiples of q; 0.28 q/s for q << s, nearly
 /// 1 for q >> s). m is the number of different earlier readings with the settings of a row. The row
-/// repeats one of them by chance with probability at most m p. The sum of m p over the table is L,
-/// the expected number of repeats by chance. k repeated rows are reported if
+/// repeats one of these readings by chance with probability at most m p. The sum of m p over the
+/// table is L, the expected number of repeats by chance. The check reports k repeated rows if
 ///
 ///     P(k or more) = sum over j >= k of L^j exp(-L)/j! <= 1/100
 ///

@@ -25,8 +25,8 @@ std::optional<std::size_t> first_fresh(const LogWindow& window, LogChannel chann
 }
 
 /// Rate of change of a channel at the start of the window, in the channel's unit per second. It is
-/// the slope of the least-squares line through the first measurement and those within 0.5 s after
-/// it. Empty with fewer than two measurements.
+/// the slope of the least-squares line through the first measurement and the measurements within
+/// 0.5 s after it. Empty with fewer than two measurements.
 std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
   constexpr double kSpan_s = 0.5;
   const auto first = first_fresh(window, channel, window.begin);
@@ -55,8 +55,8 @@ std::optional<double> first_slope(const LogWindow& window, LogChannel channel) {
 }
 
 /// True if the vehicle probably moves backward at the start of the window: the mean force in the
-/// second before it is negative. For the first window of a log, the mean force in its first half
-/// second is used.
+/// second before it is negative. For the first window of a log: the mean force in its first half
+/// second is negative.
 bool moves_backward(const LogWindow& window) {
   constexpr double kBefore_s = 1.0;
   constexpr double kAfter_s = 0.5;
@@ -88,10 +88,10 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
   for (std::size_t row = 1; row <= log.rows(); ++row) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > kGapSteps * step_s) {
       piece_end = row;
-      // Windows of equal length leave no short remainder. One step is subtracted from the span, so
-      // that the row added by add_row_of_rest() does not make a further window. The number of
-      // windows is limited to the number of rows, because times in nanoseconds that are read as
-      // seconds would require far more.
+      // Windows of equal length leave no short remainder. Without the subtraction of one step, the
+      // row added by add_row_of_rest() could make a further window. The number of windows is at
+      // most the number of rows, because times in nanoseconds that are read as seconds would give
+      // far more windows.
       const double span_s = log.t_s[piece_end - 1] - log.t_s[begin] - step_s;
       const double most = static_cast<double>(piece_end - begin);
       const auto parts =
@@ -173,9 +173,9 @@ constexpr double kChordSpeed = 0.01;
 /// Longest integration step h, s, that resolves a resistance g(w) without its Coulomb friction. w
 /// is the speed or yaw rate, beta the exponent of g; the inertia is m' or I'z:
 ///   h <= inertia w/(max(1, beta) g(w))
-/// The bound is computed at w = kChordSpeed and at the steady w under `force`. g(w)/w is largest at
-/// the first one if beta < 1, at the second one if beta > 1. The Runge-Kutta method is stable up to
-/// 2.78 times this step.
+/// Computes the bound at w = kChordSpeed, where g(w)/w is largest if beta < 1, and at the steady w
+/// under `force`, where g(w)/w is largest if beta > 1. The Runge-Kutta method is stable up to 2.78
+/// times this step.
 double resistance_step_s(Resistance<double> law, double inertia, double force) {
   law.coulomb = 0.0;
   double step_s = std::numeric_limits<double>::infinity();
@@ -215,8 +215,9 @@ Result<void> check_replay(const Plant<double>& plant, const std::string& file) {
                              plant.mass_norm, plant.inertia_norm, 4.0 * step_s);
   return input_error(
       ErrorCode::kOutOfRange, file,
-      fmt::format("{}, too fast to be followed by the integration steps of a replayed log "
-                  "(limit: {:g} s): check the values in vehicle.json and the units of the trials",
+      fmt::format("{}, too fast to be followed by the integration steps with which awmr "
+                  "simulates a log (limit: {:g} s): check the values in vehicle.json and the "
+                  "units of the trials",
                   what, 4.0 * kShortestReplayStep_s));
 }
 

@@ -25,7 +25,7 @@ struct LogWindow {
 };
 
 /// Splits the log at its gaps, and each part into windows of equal length, at most `longest_s` plus
-/// one median time step. Windows of fewer than 3 rows are dropped.
+/// one median time step. Drops windows of fewer than 3 rows.
 std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s);
 
 /// Number of equal steps that divide a time span so that none is longer than `longest_step_s`.
@@ -114,7 +114,7 @@ State<T> advance_after_row(const LogSignals& signals, std::size_t row, T from_s,
 /// row. `step(state, h_s, force, steering_rad)` returns the state after one integration step, which
 /// is at most `longest_step_s` long. `delay_s`: latency of the commands, null for none. `lagged`:
 /// forces of motors with lag, null for motors without. In a log without steering commands, the
-/// logged steering angle is used as the actual angle, without delay.
+/// simulation takes the logged steering angle as the actual angle, without delay.
 template <class T, class Visit, class Step>
 void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
                  const Plant<T>& plant, const T* delay_s, double longest_step_s, State<T> state,
@@ -130,16 +130,15 @@ void replay_rows(const LogSignals& signals, std::size_t begin, std::size_t end,
 }
 
 /// Returns the plant with a steering stop of 10 rad if the log has a steering angle but no steering
-/// command. The logged angle is then used unchanged, even beyond the real stop. For other logs,
-/// returns the plant unchanged.
+/// command, so that no stop limits the logged angle. For other logs, returns the plant unchanged.
 template <class T>
 Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
   if (!log.steering_command_rad) plant.steering_max_rad = T(10.0);
   return plant;
 }
 
-/// Integration step of the 3-DOF model along a log. Coulomb friction is not smoothed near rest, so
-/// that it can hold the vehicle (sliding.h).
+/// Integration step of the 3-DOF model along a log. Does not smooth Coulomb friction near rest, so
+/// that the friction can hold the vehicle (sliding.h).
 template <class T>
 class ModelStep {
  public:
@@ -256,18 +255,19 @@ void each_measurement(const DrivingLog& log, std::size_t row, Visit visit) {
 ///   - any other component is 0.
 State<double> measured_initial_state(const LogWindow& window);
 
-/// Longest step of replay() that is accurate for this plant, s. It is the shorter of two: a quarter
-/// of the shortest time constant of servo, sway and back-EMF braking, and the step that the
-/// resistances of surge and yaw allow. With steps of a quarter of a time constant, the Runge-Kutta
-/// method has a relative error of 3e-5 per time constant of an exponential decay.
+/// Longest step of replay() that is accurate for this plant, s: the shorter of two steps. One is a
+/// quarter of the shortest time constant of servo, sway and back-EMF braking; the other is the step
+/// that the resistances of surge and yaw allow. With steps of a quarter of a time constant, the
+/// Runge-Kutta method has a relative error of 3e-5 per time constant of an exponential decay.
 double replay_step_s(const Plant<double>& plant);
 
 /// Shortest permitted step, s. It resolves a time constant of 0.4 ms, shorter than that of any
 /// effect visible in a log. Shorter steps would take too long.
 inline constexpr double kShortestReplayStep_s = 1e-4;
 
-/// Checks that a log can be replayed with this plant. Errors (input): a time constant of the plant
-/// requires steps below kShortestReplayStep_s; the message names it. `file`: place in the error.
+/// Checks that replay() can simulate this plant. Errors (input): a time constant of the plant
+/// requires steps below kShortestReplayStep_s; the message names this time constant. `file`: place
+/// in the error.
 Result<void> check_replay(const Plant<double>& plant, const std::string& file);
 
 }  // namespace awmr

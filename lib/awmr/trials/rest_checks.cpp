@@ -84,7 +84,7 @@ std::optional<Contradiction> rest_contradiction(const Evidence& evidence) {
   }
   if (!shows_motion) return std::nullopt;
   return Contradiction{column, "the vehicle never moves: every channel is noise about one value",
-                       "", "record a log in which it drives"};
+                       "", "record a log in which the vehicle drives"};
 }
 
 }  // namespace awmr

@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Kinds of elements of a message. kSkipped9, kSkipped36: arrays of 9 and 36 doubles that are
-/// skipped (covariances).
+/// Kinds of elements of a message. kSkipped9, kSkipped36: covariances (arrays of 9 and 36 doubles),
+/// which are not read.
 enum class Part { kHeader, kText, kFloat32, kFloat64, kSkipped9, kSkipped36 };
 
 struct Piece {

@@ -41,8 +41,7 @@ Result<Database> open(std::string_view bytes, const std::string& file) {
   if (copy == nullptr) return program_fault("no memory for the bag");
   std::copy(bytes.begin(), bytes.end(), copy);
   // Bytes 18 and 19 of an SQLite file give the journal mode. The value 2 means a write-ahead log,
-  // which a database in memory does not support. Both bytes are therefore set to 1 (rollback
-  // journal).
+  // which a database in memory does not support; 1 means a rollback journal.
   if (bytes.size() > 19 && copy[18] == 2 && copy[19] == 2) copy[18] = copy[19] = 1;
   const auto size = static_cast<sqlite3_int64>(bytes.size());
   // SQLite frees `copy`, even if sqlite3_deserialize() fails.

@@ -19,11 +19,11 @@ constexpr std::size_t kMinRows = 20;
 /// Minimum number of time steps that differ from the usual step. If fewer differ, single rows were
 /// late, and the times are not rounded.
 constexpr int kMinUnequal = 10;
-/// Rounded times are replaced only if their resolution is at least this fraction of the usual time
-/// step.
+/// Smallest resolution, as a fraction of the usual time step, for which rounded times are replaced.
+/// Finer rounding does not matter.
 constexpr double kMatters = 0.01;
-/// Rounded times of unevenly spaced rows are reported only if their resolution is at least kCoarse
-/// times the usual step, and at least kCoarse_ticks.
+/// Smallest resolution for which rounded times of unevenly spaced rows are reported: kCoarse times
+/// the usual step, and kCoarse_ticks.
 constexpr double kCoarse = 0.2;
 constexpr std::int64_t kCoarse_ticks = 5000;
 /// If all time steps are multiples of the usual step, and fewer than this fraction differ from it,
@@ -74,9 +74,9 @@ std::vector<double> numbers_with_missing_rows(const std::vector<std::int64_t>& s
 }
 
 /// Fits the line t_0 + n_k h to the times, s; h is the step between rows, q the resolution. Empty
-/// if rounding does not explain the deviations from the line: one exceeds q, or their standard
-/// deviation exceeds q/sqrt(6). Rounding alone gives q/sqrt(12). At q/sqrt(6), the true spacing
-/// varies as much as the rounding, and the rounded times are as good as the line.
+/// if rounding does not explain the deviations from the line: a deviation exceeds q, or their
+/// standard deviation exceeds q/sqrt(6). Rounding alone gives q/sqrt(12). At q/sqrt(6), the true
+/// spacing varies as much as the rounding, and the rounded times are as good as the line.
 std::optional<RoundedTimes> even_times(std::span<const double> t_s,
                                        const std::vector<double>& numbers, double resolution_s) {
   const auto n = static_cast<double>(t_s.size());

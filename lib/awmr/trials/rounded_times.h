@@ -6,9 +6,9 @@
 ///
 ///     t_k = t_0 + n_k h
 ///
-/// with n_k = k if no row is missing; each missing row increases n_k of all later rows by 1. The
-/// spacing h and t_0 are fitted by least squares. If the remaining errors are those of rounding,
-/// t_0 + n_k h is closer to the true time than the rounded one.
+/// with n_k = k if no row is missing; each missing row increases n_k of all later rows by 1. A
+/// least-squares fit gives the spacing h and t_0. If the remaining errors are those of rounding,
+/// t_0 + n_k h is closer to the true time than the rounded time.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@
 namespace awmr {
 
 /// Replaces rounded times of evenly spaced rows by t_0 + n_k h (note `rounded-times`). If the rows
-/// are not evenly spaced, the times do not change; the warning `rounded-times` is then given if the
+/// are not evenly spaced, leaves the times unchanged, and adds the warning `rounded-times` if the
 /// resolution q is at least 20 % of the usual step and at least 5 ms. `t_s` must increase strictly.
 /// `file`, `line`: location of the first row.
 void replace_rounded_times(std::vector<double>& t_s, const std::string& file, int line,

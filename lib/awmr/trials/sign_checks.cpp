@@ -38,7 +38,7 @@ struct CourseRelation {
 
 CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
   // On a circular arc, the chord is parallel to the heading in the middle of the arc. Arcs near a
-  // full circle are skipped, because their chord is short.
+  // full circle have a short, uncertain chord.
   constexpr double kFurthestTurn_rad = 2.5;
   if (windows.empty()) return {};
   std::vector<double> moved;
@@ -69,8 +69,8 @@ CourseRelation course_relation(std::span<const EvidenceWindow> windows) {
 }
 
 /// Returns the sign of course_relation() for logs without a heading. The integral of the yaw rate
-/// replaces the heading. As this integral drifts, parts of 60 windows (about a minute) are
-/// evaluated separately. Returns 0 if two parts contradict each other, or if no part determines the
+/// replaces the heading. As this integral drifts, the function evaluates parts of 60 windows (about
+/// a minute) separately. Returns 0 if two parts contradict each other, or if no part determines the
 /// sign.
 int turning_sign(std::span<const EvidenceWindow> windows) {
   constexpr std::size_t kPart = 60;
@@ -310,14 +310,14 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
     return Contradiction{column, fmt::format("{}: {}", observed, wrong), mapping};
   }
   return Contradiction{column, fmt::format("{}: {}; or {}", observed, wrong, kReversed), mapping,
-                       fmt::format("find out which is true; only if the force is wrong, map it "
+                       fmt::format("find out which column is wrong; if it is the force, map it "
                                    "with {}",
                                    option_text("column '" + mapping + "'"))};
 }
 
 /// Increase of the logged speed during rearward thrust, m/s, summed over all time spans with such
 /// thrust. The speed is averaged over 0.25 s. The increase in a span is the largest rise of this
-/// average above an earlier value. The first half second of a span is skipped, because motors and
+/// average above an earlier value. Leaves out the first half second of a span, because motors and
 /// sensors may lag.
 double gathered_backwards_mps(const DrivingLog& log) {
   // Thrust counts as rearward if its magnitude is at least this fraction of the largest thrust.

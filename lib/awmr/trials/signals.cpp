@@ -12,7 +12,6 @@
 namespace awmr {
 namespace {
 
-/// Checks the times and values of a topic. Errors: those of join() about times and values.
 Status check(const Topic& topic, const Signals& signals, const std::string& file) {
   std::vector<Fault> faults;
   const auto fault = [&](ErrorCode code, std::size_t message, std::string text) {
@@ -93,8 +92,7 @@ Result<RawTable> join(Signals signals, const std::string& file) {
   const std::vector<std::int64_t> times = times_of(signals.topics);
   raw.lines.append(1, times.size());
   for (std::size_t row = 0; row < times.size(); ++row) {
-    // Unsigned arithmetic is used, because the difference of two signed 64-bit times could
-    // overflow.
+    // Unsigned, because the difference of two signed 64-bit times could overflow.
     const std::uint64_t since =
         static_cast<std::uint64_t>(times[row]) - static_cast<std::uint64_t>(times[0]);
     raw.columns[0].value.push_back(1e-9 * static_cast<double>(since));

@@ -23,8 +23,8 @@ const std::vector<double>& steering_angle_of(const DrivingLog& log) {
 }
 
 std::vector<Stretch> constant_commands(const DrivingLog& log, double same) {
-  // Changes of the steering are found in the command, because noise changes a measured angle in
-  // every row.
+  // Takes the steering command if there is one, because noise changes a measured angle in every
+  // row.
   const std::vector<double>& steering = log.driving_steering_rad();
   const double gap_s = kGapSteps * log.median_step_s();
   std::vector<Stretch> stretches;

@@ -70,8 +70,8 @@ struct SteadyWheel {
 /// Returns the steady speeds of the wheels in the segments of the log in which speed and yaw rate
 /// are steady (SteadyRule). A segment with equal commands left and right gives one speed, the
 /// vehicle's speed u. Other segments give u - d r for the left and u + d r for the right wheels,
-/// with the yaw rate r and half the track width d. Without a yaw rate, only segments with equal
-/// commands are used.
+/// with the yaw rate r and half the track width d. Without a yaw rate, uses only segments with
+/// equal commands.
 std::vector<SteadyWheel> steady_wheels(const DrivingLog& log, const Vehicle& vehicle,
                                        const SteadyRule& rule);
 

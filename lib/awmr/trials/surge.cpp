@@ -28,8 +28,8 @@ void check_surge_columns(TrialReader& reader) {
   }
 }
 
-/// Returns tau_speed of a row: the value in the file, else the one computed from the force of one
-/// wheel. Adds a finding if the row has both and they differ by more than rounding.
+/// Returns tau_speed of a row: the value in the file, else the sum computed from the force of one
+/// wheel. Adds a finding if the row has both values and they differ by more than rounding.
 double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
                     std::vector<Finding>& findings) {
   const auto printed = reader.non_negative(row, "tau_speed");

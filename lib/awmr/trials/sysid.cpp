@@ -118,8 +118,8 @@ std::optional<std::string> SysIdReader::text_at(const char* key) {
   return std::nullopt;
 }
 
-/// Selects the row format by the number of values in a row. If no format has this number, adds a
-/// fault and returns null.
+/// Selects the row format by the number of values in a row. Adds a fault and returns null if there
+/// is none.
 const SysIdRow* SysIdReader::find_form() {
   const std::string test = text_at("test").value_or("");
   if (test == "Arm" || test == "Elevator") {
@@ -219,9 +219,8 @@ void SysIdReader::read_run(std::string_view test, const SysIdRow& form) {
   tests_.emplace_back(test);
 }
 
-/// Some robot programs record voltages without sign. If the wheels of a side turned backward and
-/// none of its voltages is negative, makes all of them negative. (SysId itself gives a voltage the
-/// sign of the wheels' velocity.)
+/// Makes voltages without sign negative, as read_sysid() describes. (SysId itself gives a voltage
+/// the sign of the wheels' velocity.)
 void SysIdReader::correct_voltage_signs(std::size_t begin, const SysIdRow& form,
                                         std::string_view test) {
   const auto values_of = [&](std::string_view name) -> std::vector<double>& {

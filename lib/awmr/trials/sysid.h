@@ -40,7 +40,7 @@ struct SysIdLog {
 bool is_sysid(std::string_view bytes);
 
 /// Reads all tests. Some programs record voltages without sign. If the wheels of a side turned
-/// backward in a test and none of its voltages is negative, all of them are therefore made
+/// backward in a test although none of its voltages is negative, the function makes these voltages
 /// negative. Errors: JSON that is not a SysId record; a mechanism that does not drive the robot
 /// (elevator, arm); units that are not lengths; no rows; rows with a wrong number of values; times
 /// that do not rise.

@@ -51,7 +51,7 @@ struct Beyond {
 };
 
 /// Compares the forces of the rows with `limit`. `force(row)` returns the range of the row's
-/// forces. Forces of 0 are ignored: they are 0 in any unit.
+/// forces. Ignores forces of 0, which are 0 in any unit.
 template <class Row, class Force>
 Beyond<Row> beyond(const std::vector<Row>& rows, Force force, double limit) {
   Beyond<Row> found;
@@ -86,8 +86,8 @@ struct FolderForces {
   /// Absent if there is no such table.
   std::optional<ForceSpan> wheels = {};
 
-  /// Returns the range of forces from which the unit of a column is determined. `own`: range of the
-  /// column itself, which is returned if its values can be F'. Otherwise returns `wheels`.
+  /// Returns the range of forces that decides the unit of a column: `own`, the range of the column
+  /// itself, if its values can be F'; otherwise `wheels`.
   ForceSpan with(const ForceSpan& own) const {
     return is_share_of_f_max(own) || !wheels ? own : *wheels;
   }
@@ -200,8 +200,6 @@ double fastest_run_mps(const TrialSet<SurgeRow>& surge) {
 }
 
 /// Adds the warning `coast-beyond-surge` if a coast-down begins much faster than every surge run.
-/// Either the speed of the coast-down is in another unit, or the surge resistance must be
-/// extrapolated to it.
 void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
                          const std::optional<TrialSet<SurgeRow>>& surge) {
   constexpr double kFar = 1.5;

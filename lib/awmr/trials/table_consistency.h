@@ -1,4 +1,4 @@
-/// Checks tables of runs for wrong units, before anything is fitted. Private to this folder.
+/// Checks tables of runs for wrong units, before any fit. Private to this folder.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +22,7 @@ struct Tables {
 /// Checks one table. Adds these faults, each at the first wrong row and with the mapping that would
 /// correct it:
 ///   - a tau_speed above n F'max (n driven wheels), or a wheel force above F'max, with the likely
-///     units (force_units.h); the unit is assumed to be the same in all tables;
+///     units (force_units.h), which are assumed to be the same in all tables;
 ///   - steering angles that are all below 2 % of the stop: probably radians;
 ///   - speeds and times in another unit (table_units.h);
 ///   - turns that are faster than wheels can roll or than grip allows (turn_evidence.h).
@@ -35,7 +35,8 @@ void check_consistency(const TrialSet<TurningRow>& turning, const std::filesyste
                        std::vector<Finding>& findings, std::vector<Fault>& faults);
 /// Checks a coast-down file: speeds and times in another unit (table_units.h). Also adds the
 /// warning `coast-beyond-surge` if a coast-down begins above 1.5 times the speed of the fastest
-/// surge run. Its speed may be in another unit, or the surge resistance must be extrapolated to it.
+/// surge run. The speed of the coast-down may then be in another unit, or the fit must extrapolate
+/// the surge resistance.
 void check_consistency(const CoastdownSet& coastdown, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);

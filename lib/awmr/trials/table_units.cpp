@@ -44,9 +44,9 @@ constexpr double kUsualLengthsPerSecond = 20.0;
 constexpr double kSlowTable_radps = 0.01;  // smallest plausible yaw rate of the fastest turn
 constexpr Interval kMeanDeceleration_mps2{0.01, 20.0};
 
-/// Finds the unit of a column from `ratios`, the printed values divided by the timed ones. It is
-/// the unit whose `times` differs from every ratio by less than 10 %. Null without such a unit, or
-/// with fewer than two ratios.
+/// Finds the unit of a column from `ratios`, the printed values divided by the timed values: the
+/// unit whose `times` differs from every ratio by less than 10 %. Null without such a unit, or with
+/// fewer than two ratios.
 template <std::size_t N>
 const TableUnit* unit_of(const std::vector<double>& ratios, const std::array<TableUnit, N>& units) {
   for (const TableUnit& unit : units) {
@@ -64,7 +64,7 @@ struct Smaller {
   std::string_view words;
 };
 
-/// Selects the more plausible of two corrections, by 1/100 or by 1/1000. It is the one that brings
+/// Selects the more plausible of two corrections, by 1/100 or by 1/1000: the correction that brings
 /// the speed of the fastest run nearer to a common value, three vehicle lengths per second.
 Smaller smaller_unit(double lengths_per_second, Smaller hundredth, Smaller thousandth) {
   constexpr double kCommon = 3.0;
@@ -104,8 +104,8 @@ std::vector<double> printed_over_timed(const std::vector<TurningRow>& rows) {
   return ratios;
 }
 
-/// Upper bound of the vehicle's speed u at full thrust, with a margin of 30 %. It is extrapolated
-/// from the fastest surge run, with the speed u_run at the thrust tau_run, to the full thrust tau:
+/// Upper bound of the vehicle's speed u at full thrust, with a margin of 30 %. Extrapolates from
+/// the fastest surge run, with the speed u_run at the thrust tau_run, to the full thrust tau:
 /// tau/tau_run = (u/u_run)^b. b is 1/2, because the resistance grows at least with the square root
 /// of the speed. Empty if that run used less than half of the full thrust, because static friction
 /// then dominates.
@@ -275,7 +275,7 @@ std::optional<WrongUnit> wrong_unit(const std::vector<CoastCurve>& curves,
     fastest_mps = std::max(fastest_mps, curve.speed_mps.front());
     include((most - least) / (curve.t_s.back() - curve.t_s.front()), deceleration_mps2);
   }
-  // Curves without any change of speed are not checked, because the fit does not use them.
+  // Skips curves without any change of speed, because the fit does not use them.
   if (!(deceleration_mps2.hi > 0.0)) return std::nullopt;
   const bool of_bins = curves.front().of_bins;
   return wrong_unit({curves.front().line, fastest_mps, deceleration_mps2,

@@ -31,7 +31,7 @@ struct WrongUnit {
 std::optional<WrongUnit> wrong_unit(const TrialSet<SurgeRow>& surge, const Vehicle& vehicle);
 std::optional<WrongUnit> wrong_unit(const TrialSet<TurningRow>& turning);
 /// Like wrong_unit() above, but for coast-downs. `surge`: surge runs of the same vehicle, if there
-/// are any; the fastest of them limits the speed at which a coast-down can begin.
+/// are any. The fastest run limits the speed at which a coast-down can begin.
 std::optional<WrongUnit> wrong_unit(const TrialSet<StopTimeRow>& coastdown,
                                     const std::optional<TrialSet<SurgeRow>>& surge,
                                     const Vehicle& vehicle);

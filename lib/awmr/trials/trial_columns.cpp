@@ -94,7 +94,7 @@ struct Header {
 };
 
 /// Names in a file's header; for a directory of tables, both `TABLE.COLUMN` and `COLUMN`. Empty if
-/// the file cannot be read or its first row has a number where a name should be.
+/// the file cannot be read, or if a name is a number, so that the file has no header.
 std::optional<Header> header_of(const std::filesystem::path& path) {
   const auto sample = sample_of(path);
   if (!sample) return std::nullopt;

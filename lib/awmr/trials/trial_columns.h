@@ -25,14 +25,15 @@ Result<TrialOptions> with_vehicle_columns(TrialOptions options, const Vehicle& v
 
 /// Checks that every mapping of the options was used by a file. `used`: indices of the mappings
 /// that were used. Mappings from the vehicle file may remain unused. Errors: any other unused
-/// mapping, with one of these reasons: no file has the name for which it is (`FILE:NAME=...`); no
-/// file has its source columns (the message suggests the closest name); no file needs its column.
+/// mapping, with one of these reasons: no file has the name FILE of a mapping `FILE:NAME=...`; no
+/// file has the source columns (the message suggests the closest name); no file needs the column
+/// NAME.
 Status check_mappings(const TrialOptions& options, std::span<const std::size_t> used,
                       std::span<const std::filesystem::path> files);
 
 /// Returns a fault for each mapping that none of the files can use, because its file name or its
-/// source columns do not exist. Called after files could not be read, because a misspelt mapping is
-/// a frequent cause. Skips mappings of the vehicle file. Also skips mappings to required columns,
+/// source columns do not exist. Call it after reading has failed, because a misspelt mapping is a
+/// frequent cause. Skips mappings of the vehicle file. Also skips mappings to required columns,
 /// whose absence is already an error.
 std::vector<Fault> unusable_mappings(const TrialOptions& options,
                                      std::span<const std::filesystem::path> files);

@@ -78,8 +78,8 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
   if (!counted) return RateInRow{printed.value_or(0.0), {}, {}};
 
   if (*elapsed_s == 0.0) {
-    // elapsed_s may be 0 only in a row at rest. In such a row the printed rate is 0; if there is no
-    // printed rate, the distance or number of turns is 0.
+    // elapsed_s may be 0 only in a row at rest: the printed rate is 0 or, without a printed rate,
+    // the distance or number of turns is 0.
     const double motion = printed.value_or(*amount);
     if (motion != 0.0) {
       reader.fault(ErrorCode::kOutOfRange, row, "elapsed_s",
@@ -93,7 +93,7 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
   if (!std::isfinite(timed) || (timed == 0.0 && *amount > 0.0)) {
     reader.fault(ErrorCode::kOutOfRange, row, "elapsed_s",
                  fmt::format("{} {} in elapsed_s {} gives the rate {}, which is impossible; "
-                             "correct one of the two",
+                             "correct the wrong value",
                              rate.amount_column, *amount, *elapsed_s, timed));
     return std::nullopt;
   }

@@ -76,7 +76,7 @@ std::optional<RateInRow> rate_of(TrialReader& reader, std::size_t row, const Rat
 void note_format(const TrialReader& reader, std::vector<Finding>& findings);
 
 /// Lists the lines of these rows in the file: "line 4", "lines 4, 7, 9". Names at most twelve
-/// lines, then the number of the others: "... and 3 more". Precondition: `rows` is not empty.
+/// lines, then the number of further lines: "... and 3 more". Precondition: `rows` is not empty.
 std::string lines_of(const TrialReader& reader, std::span<const std::size_t> rows);
 
 /// Adds the note `rows-set-aside`, which lists the lines of the unused `rows` and the reason `why`.

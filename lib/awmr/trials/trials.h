@@ -41,8 +41,8 @@ struct TurningRow {
   std::optional<double> elapsed_s;  ///< s, > 0
   /// Set for differential turns: F' of each left and of each right wheel. The larger is `right`.
   std::optional<SideForces<double>> sides = {};
-  /// The file has a negative steering angle, or a larger force on the left side. The other numbers
-  /// of a row are those of the same turn to the left.
+  /// True: the file has a negative steering angle, or a larger force on the left side. The other
+  /// numbers of such a row are those of the mirror-image turn to the left.
   bool is_right_turn = false;
 };
 

@@ -19,9 +19,9 @@
 namespace awmr {
 namespace {
 
-/// Largest accepted ratio of the yaw rate to that of rolling wheels. It is 3 for a steered turn,
-/// because the vehicle may drift, or steer its rear wheels, too. It is 4 for a differential turn,
-/// because its limit is less certain: two interpolated speeds determine it.
+/// Largest accepted ratio of the yaw rate to that of rolling wheels. Steered turns: 3, because the
+/// vehicle may drift, or steer its rear wheels, too. Differential turns: 4, because two
+/// interpolated speeds determine the limit, which makes it less certain.
 constexpr double kMaxSteered = 3.0;
 constexpr double kMaxBySides = 4.0;
 /// Smallest accepted ratio of the yaw rate to that of rolling wheels, for the row with the largest
@@ -31,8 +31,8 @@ constexpr double kMinSteered = 0.01;
 constexpr double kMaxAcceleration_mps2 = 60.0;
 constexpr double kFastestTurn_radps = 25.0;
 
-/// Usual range of the ratio of the yaw rate to that of rolling wheels if the unit is right. A unit
-/// is suggested only if it brings the largest ratio into this range.
+/// Usual range of the ratio of the yaw rate to that of rolling wheels if the unit is right. The
+/// message suggests only units that bring the largest ratio into this range.
 constexpr Interval kPossibleShare{0.03, 2.5};
 constexpr double kPossibleAcceleration_mps2 = 15.0;
 
@@ -73,9 +73,9 @@ class SpeedCurve {
     double most = 0.0;
     for (auto& [tau, speed] : points_) most = speed = std::max(most, speed);
   }
-  /// u at the thrust tau, m/s; odd in tau. Above the largest tau_speed of the runs, u is continued
-  /// in proportion to tau^2. This is an upper bound, because resistance grows at least with the
-  /// square root of the speed. Empty above 1.5 times the largest tau_speed.
+  /// u at the thrust tau, m/s; odd in tau. Above the largest tau_speed of the runs, u grows in
+  /// proportion to tau^2: an upper bound, because resistance grows at least with the square root of
+  /// the speed. Empty above 1.5 times the largest tau_speed.
   std::optional<double> at(double tau) const {
     if (tau < 0.0) {
       const auto forwards = at(-tau);
@@ -160,8 +160,7 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
 /// d). u(tau) is the speed of the surge runs at the thrust tau, n the number of driven wheels. F'L
 /// and F'R are the forces of a left and a right wheel; d is half the track width. Empty if one of
 /// the speeds is unknown. Scatter of the surge runs may make the curve u(tau) too flat between the
-/// two forces. Its slope there is therefore taken as at least half of its mean slope from the
-/// origin.
+/// two forces, so the slope there counts as at least half of the mean slope from the origin.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
@@ -224,8 +223,8 @@ std::vector<TurnCriterion> criteria_of(const TrialSet<TurningRow>& turning,
                             fmt::format("faster than {:g} rad/s", kFastestTurn_radps)});
     }
   }
-  // If the dimensions in the vehicle file are implausible, only the limit of 25 rad/s, which does
-  // not depend on them, is checked.
+  // If the dimensions in the vehicle file are implausible, checks only the limit of 25 rad/s, which
+  // does not depend on the dimensions.
   if (!implausible_values(vehicle).empty()) return {std::move(any)};
   return {std::move(steered), std::move(by_sides), std::move(circle), std::move(any)};
 }
@@ -249,8 +248,11 @@ WrongUnit wrong_column(const TurnShare& worst, const TurnCriterion& criterion, b
   const std::string described = fmt::format("line {} turns at {}, {}", worst.row->line,
                                             turn_text(*worst.row), worst.described);
   if (unit_fixes.empty()) {
-    return {
-        line, described, {}, "correct the yaw rates, or the values with which they are compared"};
+    return {line,
+            described,
+            {},
+            "correct the yaw rates, or the forces, steering angles and "
+            "vehicle sizes with which they are compared"};
   }
   const std::string_view what = is_printed ? "the yaw rates look like" : "this looks like";
   return {line, fmt::format("{}: {} {}", described, what, words_of(unit_fixes)), unit_fixes};

@@ -13,10 +13,10 @@
 ///     steered       r^2 l_f/tan(d_r) <= 60 m/s^2         6 g, twice that of a spinning model car
 ///     any turn      r <= 25 rad/s                        four turns per second
 ///
-/// For each limit, the row with the largest ratio of yaw rate to limit is checked. If this row
-/// violates the limit, the unit of the column is reported as wrong. Exception: the median row meets
-/// the limit, and its ratio is less than a tenth of the largest. In this case single rows are
-/// wrong, and the rows beyond the limit are reported. The unit is also reported if all steered
+/// For each limit, the check takes the row with the largest ratio of yaw rate to limit. If this row
+/// violates the limit, the check reports a wrong unit of the column. Exception: if the median row
+/// meets the limit and its ratio is less than a tenth of the largest ratio, single rows are wrong,
+/// and the check reports the rows beyond the limit. It also reports a wrong unit if all steered
 /// turns are below 1 % of u tan(d_r)/l_f.
 #pragma once
 

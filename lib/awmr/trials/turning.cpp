@@ -29,7 +29,7 @@ void check_turning_columns(TrialReader& reader, const Vehicle& vehicle) {
   if (vehicle.has_steering()) {
     if (reader.has("force_left") != reader.has("force_right")) {
       reader.header_fault(ErrorCode::kMissing,
-                          "force_left and force_right belong together: add the other one");
+                          "force_left and force_right belong together: add the missing column");
     } else if (!reader.has("wheel_force") && !reader.has("force_left")) {
       reader.header_fault(ErrorCode::kMissing,
                           "no force: add a column wheel_force, or force_left and force_right");
@@ -84,8 +84,8 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
                   steering_deg, vehicle.steering_max_deg)));
 }
 
-/// Magnitude of tau_turn, m: the value in the file, else the computed one. (The paper's table gives
-/// the unit N m. In awmr, moments are divided by F_max, so the unit is m.)
+/// Magnitude of tau_turn, m: the value in the file, else the computed value. (The paper's table
+/// gives the unit N m. In awmr, moments are divided by F_max, so the unit is m.)
 double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
                    std::vector<Finding>& findings) {
   const auto cell = reader.cell(row, "tau_turn");
@@ -157,8 +157,8 @@ void check_mean(TrialReader& reader, std::size_t row, double left, double right)
   const double tolerance = reader.rounding_error(*mean, "wheel_force") + 0.005 * std::abs(computed);
   if (std::abs(*mean - computed) <= tolerance) return;
   reader.fault(ErrorCode::kContradiction, row, "wheel_force",
-               fmt::format("found {}, but the mean of force_left {} and force_right {} is {:.4g}: "
-                           "correct it or leave it empty",
+               fmt::format("found {}, but the mean of force_left {} and force_right {} is "
+                           "{:.4g}: correct wheel_force or leave its cell empty",
                            *mean, left, right, computed));
 }
 
@@ -195,7 +195,7 @@ std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
   const auto right = reader.cell(row, "force_right");
   if (left.has_value() != right.has_value()) {
     reader.fault(ErrorCode::kMissing, row, left ? "force_right" : "force_left",
-                 "is empty, but the other side's force is not: give both or neither");
+                 "is empty, but the other side's force is not: give both forces or neither");
     return std::nullopt;
   }
   const bool is_timed = has_rate(reader, row);
@@ -248,8 +248,7 @@ void check_sides_given(TrialReader& reader) {
                            without.size(), reader.table().rows(), lines_of(reader, without)));
 }
 
-/// Reads one row. Moment and yaw rate are magnitudes: a turn to the right is stored as its mirror
-/// image, because the yaw resistance g3(r) is an odd function. Empty on a fault.
+/// Reads one row. Stores a turn to the right as its mirror image (TurningRow). Empty on a fault.
 std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const Vehicle& vehicle,
                                    Preference preference, std::vector<Finding>& findings) {
   const auto turn = vehicle.has_steering() ? by_steering_or_sides(reader, row, vehicle)
@@ -321,8 +320,8 @@ Result<TrialSet<TurningRow>> read_turning(const std::filesystem::path& path, con
   }
   if (!reader.faults().empty()) return input_errors(std::move(reader.faults()));
   if (set.rows.empty()) {
-    // Runs in which the vehicle did not turn serve only to determine tyre scrub. For this, steered
-    // turns are needed too, which the table does not have.
+    // Runs in which the vehicle did not turn serve only to determine tyre scrub, together with
+    // steered turns, which this table lacks.
     set.standing.clear();
     set_aside.insert(set_aside.end(), standing.begin(), standing.end());
     std::sort(set_aside.begin(), set_aside.end());

@@ -91,8 +91,8 @@ std::optional<Contradiction> check_force(const Evidence& evidence, std::string_v
                        remedy_of(units, unit_fixes, evidence.mappings)};
 }
 
-/// Range of the forces of both sides. Zeros are left out, because 0 in a column of servo pulses
-/// means that there was no reading.
+/// Range of the forces of both sides without zeros, because 0 in a column of servo pulses means
+/// that there was no reading.
 ForceSpan force_span(const DrivingLog& log) {
   ForceSpan span{std::numeric_limits<double>::infinity(), 0.0};
   for (const auto* values : {&log.force_left, &log.force_right}) {
@@ -116,8 +116,8 @@ std::vector<Contradiction> check_forces(const Evidence& evidence) {
 /// Ratio of the path's curvature, r/u, to the curvature for the steering angle, tan(`factor`
 /// d_r)/l_f. r is the yaw rate and u the speed; d_r is the logged angle, l_f the distance from the
 /// centre of gravity to the front axle. The ratio is at most about 1 if `factor` d_r is the true
-/// angle in rad. Windows in which the force difference turns the vehicle more than the steering are
-/// skipped. Empty without a speed, without heading and yaw rate, or if the two curvatures are not
+/// angle in rad. Skips windows in which the force difference turns the vehicle more than the
+/// steering. Empty without a speed, without heading and yaw rate, or if the two curvatures are not
 /// proportional.
 std::optional<double> sharpness(const Evidence& evidence, double factor) {
   const bool heading = evidence.has(LogChannel::kHeading);
@@ -144,8 +144,8 @@ double largest_steering_deg(const DrivingLog& log) {
   return largest_deg;
 }
 
-/// Detects a servo command in place of the steering angle. It can be a servo angle with its centre
-/// at 90 or 180 deg, a pulse length in us, or percent of the stop.
+/// Detects a servo command in place of the steering angle: a servo angle with its centre at 90 or
+/// 180 deg, a pulse length in us, or percent of the stop.
 std::optional<Contradiction> check_servo(const Evidence& evidence, const std::string& column) {
   const std::vector<double>& angle_rad = evidence.log.driving_steering_rad();
   const auto [low_rad, high_rad] = std::ranges::minmax_element(angle_rad);
@@ -213,7 +213,7 @@ std::optional<Contradiction> check_large_angles(const Evidence& evidence, const 
 /// Ratio of the path's curvature to that of the logged steering angle. In a log without a speed:
 /// the yaw rate per moment of the steering, divided by the yaw rate per moment of a force
 /// difference. Either ratio is about 1 if the angle was logged in degrees, and large if it was
-/// logged in radians. 0 if the log does not determine it.
+/// logged in radians. Returns 0 if the log does not determine the ratio.
 double times_as_sharp(const Evidence& evidence) {
   const double degree = degrees(1.0);
   if (const auto sharp = sharpness(evidence, degree)) return *sharp * degree;
@@ -224,9 +224,9 @@ double times_as_sharp(const Evidence& evidence) {
   return shares.sides != 0.0 ? std::abs(shares.steering / shares.sides) : 0.0;
 }
 
-/// Detects angles in radians that are read as degrees. The largest is then at most 2.5 % of the
-/// stop (pi/180 is 1.7 %). The vehicle must turn at least 8 times as sharply as the angle allows;
-/// with radians it is about 57 times.
+/// Detects angles in radians that are read as degrees. The largest angle is then at most 2.5 % of
+/// the stop (pi/180 is 1.7 %), and the vehicle turns about 57 times as sharply as the angle allows.
+/// The check requires at least 8 times.
 std::optional<Contradiction> check_radians(const Evidence& evidence, const std::string& column,
                                            double largest_deg) {
   constexpr double kImpossible = 8.0;
@@ -256,8 +256,8 @@ std::optional<Contradiction> check_steering(const Evidence& evidence) {
 
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence) {
   std::vector<Contradiction> found = check_forces(evidence);
-  // If the unit of t_s is wrong, the windows are not one second long, and the units of the motion
-  // cannot be checked.
+  // If the unit of t_s is wrong, the windows are not one second long, and the checks of the
+  // motion's units fail.
   if (auto time = check_time(evidence)) {
     found.insert(found.begin(), *time);
     return found;

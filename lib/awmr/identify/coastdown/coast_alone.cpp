@@ -50,9 +50,8 @@ EstimatorReport report_of_alone(const CoastFit& fit) {
   return report;
 }
 
-/// Fits the curves under the requested family, or under all families if none or `auto` is
-/// requested. The dead zone of the wheels has no effect while the motors are off, so `dead-zone` is
-/// fitted as the power law.
+/// Fits the curves under the requested family, or under all kCoastFamilies if none or `auto` is
+/// requested. Fits `dead-zone` as the power law.
 std::vector<CoastFit> fits_of(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                               const FamilyChoice& choice) {
   std::vector<CoastFit> fits;

@@ -13,11 +13,11 @@
 namespace awmr {
 namespace {
 
-/// Computes d x/d theta: how the fitted numbers x change with the free coordinates theta of the
-/// surge law, which the fit keeps fixed. x: ln m', the filter's time constant if there is a filter,
-/// and the initial states. With the residuals e and their Jacobian J by x, J^T e = 0 at the optimum
-/// for every theta. To first order this gives d x/d theta = -J^+ d e/d theta (J^+: pseudo-inverse).
-/// The dead zone has no effect, because the motors are off.
+/// Computes d x/d theta: how the fitted numbers x depend on the free coordinates theta of the surge
+/// law, which the fit keeps fixed. x: ln m', the filter's time constant if there is a filter, and
+/// the initial states. With the residuals e and their Jacobian J by x, J^T e = 0 at the optimum for
+/// every theta. To first order this gives d x/d theta = -J^+ d e/d theta (J^+: pseudo-inverse). The
+/// dead zone has no effect, because the motors are off.
 std::optional<Eigen::MatrixXd> by_surge_law(CoastProblem& problem, const Eigen::MatrixXd& j,
                                             const SteadyFit& surge) {
   Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(j.cols(), rows_of(surge.free));
@@ -63,9 +63,7 @@ std::vector<TransformedParameter> shapes_of(Family family) {
   return shapes;
 }
 
-/// Initial guess of the curve g1(u)/a1 = c1/a1 + u^b1 + (q1/a1) u^2. b1 is 0.8, limited to its
-/// range, or 1 if the family fixes it. c1/a1 and q1/a1 are 0.1, or 0 if the family lacks them. ln
-/// a1 is 0.
+/// Initial guess of the curve g1(u)/a1 = c1/a1 + u^b1 + (q1/a1) u^2. ln a1 is 0.
 TransformedParameters start_of(Family family, const Interval& beta_range) {
   constexpr double kTermOverAlpha = 0.1;
   const FamilyTerms terms = terms_of(family);

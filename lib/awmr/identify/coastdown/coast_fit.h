@@ -35,14 +35,14 @@ struct FittedLag {
 /// Fit of coast-down curves to
 ///   m' u_dot = -g1(u), u(0) = u0:
 ///   u(t)^(1-b) = u0^(1-b) - (1-b) (a/m') t,   u = u0 exp(-(a/m') t) for b -> 1       [paper (58)]
-/// for a power law, with a = a1, b = b1 and the time t since motors-off; other families are
-/// integrated numerically. If the recorded speed has passed a low-pass filter, the filter's output
-/// is fitted to the record. Each run has its own u0. A run whose record begins before motors-off
-/// also has its own time of motors-off.
+/// for a power law, with a = a1, b = b1 and the time t since the motors were switched off; other
+/// families are integrated numerically. If the recorded speed has passed a low-pass filter, the fit
+/// compares the record with the filter's output. Each run has its own initial speed u0. If a record
+/// begins before the motors are switched off, the fit also estimates the time of switching off.
 struct CoastFit {
   double log_mass_norm = 0.0;  ///< ln m'; ln (m'/a1) without a surge law
   double variance = 0.0;       ///< variance of log_mass_norm due to the noise of the curves alone
-  double dof = 0.0;            ///< degrees of freedom of `variance`; fewer if residuals correlate
+  double dof = 0.0;            ///< degrees of freedom of `variance`; reduced if residuals correlate
   /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
   std::optional<FittedLag> lag;      ///< filter of the speed; absent if the fit has none
@@ -63,16 +63,17 @@ struct CoastFit {
   std::string stop_reason;
 };
 
-/// Fits m' to the curves for a given surge law. Also fits the filter's time constant if `start` has
-/// one, each run's initial speed and, if the record begins earlier, its time of motors-off.
+/// Fits m' to the curves for a given surge law. Also fits each run's initial speed, the filter's
+/// time constant if `start` has one, and the time of switching the motors off if the record begins
+/// earlier.
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
                    const CoastStart& start);
 
 /// For a fit with a filter: tests whether the curves determine ln m' as well as its standard error
-/// says. ln m' is fixed at 3 standard errors below and above the optimum, and the other parameters
-/// are fitted again. On both sides, the sum of squares must rise by at least half of the rise that
-/// its curvature at the optimum predicts. If it does, returns empty. Otherwise returns ln m' and
-/// the filter on the side with the smaller rise.
+/// says. Fixes ln m' at 3 standard errors below and above the optimum, and fits the other
+/// parameters again. Returns empty if, on both sides, the sum of squares rises by at least half of
+/// the rise that its curvature at the optimum predicts. Otherwise returns ln m' and the filter on
+/// the side with the smaller rise.
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit);
 

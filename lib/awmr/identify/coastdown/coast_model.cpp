@@ -82,10 +82,10 @@ CoastCandidate fit_once(const CoastData& data, const CoastStart& start, double p
   return fit;
 }
 
-/// Fits the curves while the surge law may vary within its covariance. The noise of the curves
-/// decides how far the law moves, and is not known in advance. The first round therefore assumes
-/// the noise of the readings, each further round that of the last residuals. Returns the fit with
-/// the smallest AICc.
+/// Fits the curves while the surge law may vary within its covariance. How far the law moves
+/// depends on the noise of the curves, which is unknown. The first round therefore assumes the
+/// noise of the readings, and each further round the noise of the last residuals. Returns the fit
+/// with the smallest AICc.
 CoastCandidate fit_candidate(const CoastData& data, const CoastStart& start) {
   constexpr int kRounds = 4;
   constexpr double kSame = 0.3;
@@ -110,9 +110,9 @@ CoastStart fast_filter(const CoastData& data, const CoastStart& plain) {
           kFast * fall_time_s(data.curves, data.surge.law(), plain.log_mass)};
 }
 
-/// Fits the curves with a filter, from two initial guesses. The first is a fast filter; the second
-/// is the optimum of the first fit with the time constants of filter and motion exchanged. Returns
-/// the better fit first.
+/// Fits the curves with a filter, from two initial guesses. The first guess is a fast filter. The
+/// second guess is the optimum of the first fit with the time constants of filter and motion
+/// exchanged. Returns the better fit first.
 std::vector<CoastCandidate> fit_filters(const CoastData& data, const CoastStart& plain) {
   CoastCandidate fast = fit_candidate(data, fast_filter(data, plain));
   const double found_s = fall_time_s(data.curves, data.surge.law(), fast.at.log_mass);
@@ -168,11 +168,12 @@ double longest_drift_s(const CoastData& data, const CoastStart& at) {
 /// Fits a filter of the speed and adds it to `model`, if it is significantly better than the fit
 /// `plain` without a filter.
 void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& model) {
-  // Smallest decrease of AICc for a filter; a smaller value keeps more filters that are only noise.
+  // Smallest decrease of AICc for a filter. A smaller value would take noise for a filter more
+  // often.
   constexpr double kMargin = 4.0;
   constexpr double kStandardErrors = 2.0;
-  // Limit of a drift's correlation time over the filter's T, because the filter also correlates
-  // noise over about T.
+  // A drift is a model error only if its correlation time is above this multiple of the filter's T,
+  // because the filter itself correlates noise over about T.
   constexpr double kOverLag = 3.0;
   const std::vector<CoastCandidate> filters = fit_filters(data, plain.at);
   const CoastCandidate& best = filters[0];
@@ -220,10 +221,11 @@ CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& su
 std::vector<Finding> inadequacy(const CoastModel& model, const std::string& file) {
   if (!model.is_inadequate()) return {};
   return {{file, 0, Severity::kWarning, "model-inadequate",
-           fmt::format("the measured speeds of the coast-downs deviate from the fitted curve by "
-                       "{:.2g} m/s for {:.2g} s at a time (sensor noise: {:.2g} m/s). Either the "
-                       "resistance differs from that of the surge runs (resistance family, "
-                       "slope, brakes), or the sensor distorts the speed. {}",
+           fmt::format("the measured speeds of the coast-downs deviate from the fitted curve "
+                       "by {:.2g} m/s for {:.2g} s at a time (sensor noise: {:.2g} m/s). "
+                       "Either the resistance differs from that of the surge runs (check "
+                       "slope, brakes and the resistance family), or the sensor distorts the "
+                       "speed. {}",
                        model.noise.drift_std, model.noise.correlation_s, model.noise.sensor_std,
                        model.withdraws_intervals()
                            ? "The interval of mass_norm is withdrawn"

@@ -19,19 +19,22 @@ struct CoastModel {
   /// if the resistance is proportional to the speed, the time constants of filter and motion
   /// (m'/a1) can be exchanged without a change of the curve.
   std::optional<CoastStart> other;
-  /// Noise of the residuals of a fit in which the surge law may vary within its covariance.
+  /// Noise of the residuals. In the fit that gives it, the surge law may vary within its
+  /// covariance.
   ChannelNoise noise;
-  double longest_s = 0.5;  ///< s; a drift with a longer correlation time is a model error
+  double longest_s =
+      0.5;  ///< s; a slow error (drift) with a longer correlation time is a model error
 
   bool is_inadequate() const { return noise.of_the_model(longest_s); }
   bool withdraws_intervals() const { return other || noise.overwhelms_sensor(longest_s); }
 };
 
-/// Fits the curves without and with a filter of the speed. The filter is kept if its time constant
-/// is above 2 standard errors and it lowers AICc by more than 4 (10 if the filter is slower than
-/// the motion). In simulated trials without a filter, about 2 of 100 keep one. In both fits, the
-/// noise may have a drift, and the surge law may deviate from `surge` within its covariance, so
-/// that a disturbance or an error of the law is not mistaken for a filter.
+/// Fits the curves without and with a filter of the speed. Keeps the filter if its time constant is
+/// above 2 standard errors and the filter lowers AICc by more than 4 (10 if the filter is slower
+/// than the motion). With these limits, about 2 of 100 simulated trials without a filter get one.
+/// In both fits, the noise may have a drift, and the surge law may deviate from `surge` within its
+/// covariance. Otherwise the fit would take a disturbance, or an error of the surge law, for a
+/// filter.
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge);
 
 /// The finding `model-inadequate`, if there is a model error.

@@ -19,9 +19,9 @@ std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e,
 ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
                                 int free, double sensor_mps);
 
-/// Errors of neighbouring samples can be correlated, so their mean is less certain than with white
-/// noise. Returns the standard deviation of white noise that gives the mean error of all samples in
-/// `curves` the same variance as `noise` does; at least noise.std().
+/// Returns the standard deviation of white noise that gives the mean error of all samples in
+/// `curves` the same variance as `noise` does; at least noise.std(). Where `noise` is correlated,
+/// this value is larger than noise.std(), because averaging then removes less of the noise.
 double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& curves);
 
 /// Completes `fit` from the Jacobian `j` and the residuals `e` at the optimum: sets the residuals,

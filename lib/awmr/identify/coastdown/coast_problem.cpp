@@ -43,8 +43,9 @@ T coast_step(const Resistance<T>& law, const T& mass, const T& u, const T& h) {
   return next > T(0.0) ? next : T(0.0);
 }
 
-/// Largest number of steps between two samples: half an hour in steps of 2 ms. Only a search with a
-/// diverging time of motors-off t0 needs more; Ceres then rejects the point.
+/// Largest number of integration steps between two samples: half an hour in steps of 2 ms. A search
+/// needs more only if its t0, the time of switching the motors off, diverges; Ceres then rejects
+/// the point.
 constexpr double kMaximumSteps = 1e6;
 
 /// Output of the filter T y' = u - y after the time h, if its output was y and its input changes
@@ -132,10 +133,10 @@ using LawCost = ceres::AutoDiffCostFunction<LawPrior, ceres::DYNAMIC, 1, 1, 1, 1
 /// Longest step h of the Runge-Kutta method. Its error over one time constant T of the motion is
 /// (h/T)^4/120 of the speed: 2e-8 for T = 0.05 s.
 constexpr double kLongestStep_s = 2e-3;
-/// Longest step with a filter, relative to the time constant T of the motion, because the filter
-/// takes the speed as linear within a step: (h/T)^2/8 = 1e-5 of the speed.
+/// Longest step h with a filter, relative to the time constant T of the motion. filtered() takes
+/// the speed as linear within a step, an error of (h/T)^2/8 = 1e-5 of the speed.
 constexpr double kFilterStep = 0.01;
-/// Smallest time constant of a filter in a search.
+/// Smallest time constant T of a filter in a search, s; T = 0 would be a division by 0.
 constexpr double kShortestLag_s = 1e-4;
 
 /// Finds the plateau of the speed before motors-off. It ends at the last sample within 4 standard
@@ -238,8 +239,8 @@ void CoastProblem::fix_time(std::size_t run) {
 
 void CoastProblem::search() {
   ceres::Solve(exact_options(), &problem_, &summary_);
-  // If the fitted time of motors-off t0 is before the first sample, the run has no plateau. Its t0
-  // is then fixed at the first sample, because the curve does not separate t0 from u0.
+  // If the fitted t0 is before the first sample, the record has no plateau and the curve does not
+  // separate t0 from u0. The search then fixes t0 at the first sample.
   bool again = false;
   for (std::size_t i = 0; i < initial_.size(); ++i) {
     if (!initial_[i].free_time || initial_[i].block[1] > (*curves_)[i].t_s.front()) continue;
@@ -255,8 +256,9 @@ void CoastProblem::solve() {
   free_short_leads();
 }
 
-/// Also fits t0, the time of motors-off, of the runs without a detected plateau. Keeps this fit if
-/// it is usable and lowers AIC; else restores the fit with t0 fixed at the first sample.
+/// Also fits t0, the time of switching the motors off, of the runs without a detected plateau.
+/// Keeps this fit if it is usable and lowers AIC; else restores the fit with t0 fixed at the first
+/// sample.
 void CoastProblem::free_short_leads() {
   constexpr double kOfAic = 2.0;  // penalty in AIC for each fitted t0
   const std::vector<CoastInitialState> fixed = initial_;

@@ -14,16 +14,16 @@
 
 namespace awmr {
 
-/// A run's time of motors-off t0 and its speed u0 at that time. If the record begins before
-/// motors-off, the speed begins with a plateau. Its mean and its end are the initial guesses of u0
-/// and t0. Without a detected plateau, u0 starts at the first sample's speed, and t0 is fixed at
-/// the first sample's time. Because a short plateau may go undetected, t0 is also fitted if that
-/// lowers AIC.
+/// Time t0 at which a run's motors were switched off, and the speed u0 at that time. If the record
+/// begins earlier, the speed begins with a plateau (constant speed). The mean of the plateau is the
+/// initial guess of u0, and the end of the plateau that of t0. Without a detected plateau, u0
+/// starts at the first sample's speed, and t0 is fixed at the first sample's time. A short plateau
+/// may go undetected, so the solver also tries to fit t0 and keeps that fit if it lowers AIC.
 struct CoastInitialState {
   double block[2];         ///< u0 in m/s, t0 in s
   bool free_time = false;  ///< true if t0 is fitted
-  /// Initial guess of t0 if the record has at most a short, uncertain plateau; absent if t0 is
-  /// fitted anyway or cannot be fitted.
+  /// Initial guess of t0 without a detected plateau; absent if a plateau was detected, or if too
+  /// few samples follow to fit t0.
   std::optional<double> short_lead_s;
 };
 
@@ -57,8 +57,8 @@ class CoastProblem {
   /// are in m/s.
   void free_law(const std::vector<TransformedParameter>& free, const Eigen::MatrixXd& covariance,
                 double noise_mps);
-  /// Squared Mahalanobis distance of the current surge law from the given one, with the covariance
-  /// passed to free_law(). 0 if the law is fixed.
+  /// Squared distance of the current surge law from the given one, in standard errors (Mahalanobis
+  /// distance with the covariance passed to free_law()). 0 if the law is fixed.
   double law_distance() const;
 
   void solve();
@@ -96,7 +96,6 @@ class CoastProblem {
   ceres::Solver::Summary summary_;
 };
 
-/// Highest speed of the curves, m/s.
 double highest_speed_mps(const std::vector<CoastCurve>& curves);
 
 /// Time constant of the motion, m' u0/g(u0), s, at the highest speed u0 of the curves; g:
@@ -106,7 +105,7 @@ double fall_time_s(const std::vector<CoastCurve>& curves, const Resistance<doubl
 
 /// Initial guess of ln m', from the first curve whose speed falls from 90 % to 50 % of its highest
 /// value. If this decrease du takes the time dt, m' is about g dt/du, with the resistance g at 70 %
-/// of the highest speed. Without such a curve: ln 0.1.
+/// of the highest speed. Returns ln 0.1 if no curve falls so far.
 double guess_log_mass(const std::vector<CoastCurve>& curves, const Resistance<double>& law);
 
 }  // namespace awmr

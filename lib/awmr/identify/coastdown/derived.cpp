@@ -149,8 +149,8 @@ void check_inertia(const Vehicle& vehicle, std::vector<Finding>& findings) {
       {"", 0, Severity::kNote, "inertia-mismatch",
        fmt::format(
            "yaw_inertia_kgm2 is {:.4g} in the vehicle file, but a uniform box of the vehicle's "
-           "size and mass has {:.4g} kg m^2; the value of the file is used. Check it, and the "
-           "sizes",
+           "size and mass has {:.4g} kg m^2; the value of the file is used. Check this value, "
+           "the mass and the sizes in the vehicle file",
            given, expected)});
 }
 

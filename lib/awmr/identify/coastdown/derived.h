@@ -1,4 +1,5 @@
-/// m' from stop times, and plausibility checks of m' and I'z. Private to identify/.
+/// m' (mass over F_max) from stop times, and plausibility checks of m' and I'z. Private to
+/// identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,8 +42,7 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
 void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& curves,
                 double mass_norm, std::vector<Finding>& findings);
 
-/// True if the initial deceleration g1(u)/m' of a coast-down from `speed_mps` is above the
-/// acceleration of gravity.
+/// True if a coast-down from `speed_mps` begins with a deceleration g1(u)/m' above gravity.
 bool is_implausible(const Resistance<double>& surge, double speed_mps, double mass_norm);
 /// The m' for which the initial deceleration of a coast-down from the speed u is mu g, the limit of
 /// tyres with the friction coefficient mu = kTyreFriction:

@@ -134,8 +134,8 @@ double mean_square(const Eigen::VectorXd& e) {
   return e.squaredNorm() / static_cast<double>(e.size());
 }
 
-/// Copies the current parameters, covariance and residuals of the search into `joint`, also before
-/// the search has converged.
+/// Copies the current state of the search into `joint`. Called in every round, so that a search
+/// that does not converge also leaves its last state.
 void keep(const Stacked& s, const Rows& rows, CoastProblem& problem, const BySet& variance,
           const BySet& dof, const std::vector<CoastCurve>& curves, JointFit& joint) {
   const Eigen::Index count = rows_of(joint.surge.free) + 1;

@@ -8,13 +8,13 @@
 
 namespace awmr {
 
-/// Result of the joint fit. Surge rows and curves are each weighted by their estimated noise.
+/// Result of the joint fit. The fit weights surge rows and curves by their estimated noise.
 struct JointFit {
   SteadyFit surge;             ///< the surge law at the joint optimum, with its covariance
   double log_mass_norm = 0.0;  ///< ln m'
   /// Covariance of the coordinates surge.free and ln m', positive definite.
   Eigen::MatrixXd covariance;
-  Eigen::VectorXd dof;  ///< Satterthwaite's degrees of freedom of surge.free and ln m'
+  Eigen::VectorXd dof;  ///< effective degrees of freedom (Satterthwaite) of surge.free, ln m'
   CoastFit coast;       ///< residuals and noise of the curves; stop reason; usable or not
 };
 

@@ -18,9 +18,8 @@
 namespace awmr {
 namespace {
 
-/// Smallest decrease of the speed that counts as a deceleration, in standard deviations: from the
-/// mean of the first fifth of a curve to the mean of its last fifth. The standard deviation is that
-/// of such a mean.
+/// Smallest decrease of the speed that counts as a deceleration, from the mean of a curve's first
+/// fifth to the mean of its last fifth. Unit: standard deviations of such a mean.
 constexpr double kMinimumFall = 5.0;
 
 /// True if the speed falls significantly (kMinimumFall) from the first fifth of the curve to its
@@ -295,7 +294,6 @@ void add_joint(const SteadyProblem& surge, const SteadyFit& law,
   }
 }
 
-/// Removes the standard error and interval of m'.
 void withdraw_mass(MassResult& result) {
   result.posterior = {};
   for (EstimatorReport& report : result.reports) {
@@ -315,8 +313,7 @@ Finding assumed_back_emf(const std::string& file) {
       "constant force), or identify it from a log with driven and coasting sections"};
 }
 
-/// Adds the findings about m'. The finding `fragile-mass` is possible only if m' comes from stop
-/// times alone.
+/// Adds the findings about m'. Adds `fragile-mass` only if m' comes from stop times alone.
 void check(const SteadyFit& surge, const std::optional<TrialSet<StopTimeRow>>& stops,
            const std::vector<CoastCurve>& curves, const Vehicle& vehicle, MassResult& result) {
   if (!result.estimate) return;

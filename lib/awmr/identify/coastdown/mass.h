@@ -14,17 +14,17 @@ namespace awmr {
 /// Result of estimate_mass().
 struct MassResult {
   std::optional<MassEstimate> estimate;  ///< reported m', under the chosen surge law
-  /// Joint distribution of the surge law's free coordinates (SteadyFit::free) and ln m': a mixture
-  /// over the surge laws of all error models that give an m'. Empty if the surge fit has no
-  /// covariance.
+  /// Joint distribution of the surge law's free coordinates (SteadyFit::free) and ln m'. It is a
+  /// mixture over the error models of the surge runs (which quantity has the measurement error), as
+  /// far as their surge laws give an m'. Empty if the surge fit has no covariance.
   Posterior posterior;
   /// m' at the limit of the tyres' grip (mass_norm_by_grip()), if a coast-down begins with an
   /// implausible deceleration.
   std::optional<double> by_grip;
   std::optional<JointFit> joint;  ///< joint fit, if requested and converged
   std::optional<CoastFit> alone;  ///< fit of the curves, if there is no surge law
-  /// Reason why stop times or curves give no m'. May be set although m' was estimated: one kind of
-  /// trial failed and the other determines it.
+  /// Reason why stop times or curves give no m'. Also set if only one kind of trial failed and the
+  /// other kind determines m'.
   std::string reason;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
@@ -33,12 +33,11 @@ struct MassResult {
 /// Estimates m' from stop times, curves or both. `surge` is null if the surge law is not
 /// identified. Then `family` is fitted to the curves alone, and compared with the other families
 /// unless the user requested it (`power-law-inadequate`). Excludes rows and curves that do not
-/// measure a deceleration (measured_rows(), `no-deceleration`). If the model error is
-/// large or another solution fits nearly as well (CoastModel::withdraws_intervals()), m' has no
-/// posterior, and there is no joint fit. Further findings: `sensor-lag`, `model-inadequate`,
+/// measure a deceleration (measured_rows(), `no-deceleration`). If the model error is large, or
+/// another solution fits nearly as well (CoastModel::withdraws_intervals()), m' gets no posterior,
+/// and no joint fit is made. Further findings: `sensor-lag`, `model-inadequate`,
 /// `estimates-disagree`, `noise-model`, `coloured-residuals`, `not-converged`, `back-emf-assumed`,
-/// those of check_mass().
-/// Precondition: at least one stop time or curve.
+/// those of check_mass(). Precondition: at least one stop time or curve.
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,
                          const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, bool joint);

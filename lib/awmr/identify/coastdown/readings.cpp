@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Index of the first row at which the speed is 0 and from which on at least half of the rows have
-/// the speed 0. The number of rows if there is no such row.
+/// Index of the first row with the speed 0 that begins the rest: at least half of the rows from
+/// there on have the speed 0. The number of rows if there is no such row.
 std::size_t first_zero(const std::vector<double>& speed_mps) {
   std::size_t first = speed_mps.size();
   std::size_t zeros = 0;

@@ -23,8 +23,7 @@ using compass::Parameters;
 using compass::Points;
 using Covariance = Eigen::Matrix<double, 5, 5>;
 
-/// Number of equal sectors of the circle for the jackknife: 10 degrees each. Residuals within a
-/// sector may be correlated.
+/// Number of equal sectors of the circle, 10 degrees each. known() leaves out one sector at a time.
 constexpr int kSectors = 36;
 /// Largest accepted gap between neighbouring headings of the readings of a calibration turn.
 constexpr double kLargestGapDeg = 30.0;
@@ -33,8 +32,8 @@ constexpr double kLargestGapDeg = 30.0;
 constexpr double kLargeResidual = 0.05;
 /// Residual standard deviation, as a share of the field, above which the ellipse is refused.
 constexpr double kNoEllipse = 0.2;
-/// Accepted difference of the turn angles of compass and gyroscope, as a share of the turn. Allows
-/// for the gyroscope's scale error.
+/// Accepted difference of the turn angles of compass and gyroscope, as a share of the turn. It has
+/// to be larger than the scale error of a gyroscope.
 constexpr double kTurnTolerance = 0.1;
 
 Points points_of(const FieldRecord& record) {
@@ -55,8 +54,8 @@ std::vector<double> headings_of(const Ellipse& ellipse, const Points& points) {
   return headings;
 }
 
-/// Largest part of the circle without a reading: the heading at which it begins and its size, rad.
-/// The gap extends counter-clockwise from this heading.
+/// Largest gap of the circle without a reading: the heading at which the gap begins, and its size
+/// counter-clockwise from there, rad.
 std::pair<double, double> largest_gap_rad(std::vector<double> headings) {
   std::sort(headings.begin(), headings.end());
   std::pair<double, double> largest{headings.back(),
@@ -228,8 +227,8 @@ Status check_usable(const std::string& file, const CompassCalibration& c) {
   return refusal(
       ErrorCode::kCompassUnusable,
       fmt::format(
-          "{}: the field is {:.3g} times weaker along one axis than along the other; check for a "
-          "dead compass axis, or for iron too close to the compass",
+          "{}: the measured field is {:.3g} times weaker along one axis than along the other; "
+          "check for a dead compass axis, or move iron away from the compass",
           file, ratio));
 }
 

@@ -17,13 +17,13 @@ struct CompassFit {
 };
 
 /// Fits an ellipse to the measured field by least squares of the distances from the ellipse,
-/// relative to its size. Intervals allow for residuals that are correlated within 10 degrees of the
-/// turn. Findings: `compass-residual` (standard deviation of the residuals above 5 % of the field),
-/// `turn-not-checked` (the record has no yaw rate). Errors (refused): a gap without readings of
-/// more than 30 degrees in the circle; no ellipse, or residuals above 20 %; a centre or axes that
-/// the firmware cannot use; turn angles of compass and gyroscope that differ by more than 10 % or
-/// in sign. `declination_deg`: magnetic declination of the place, east positive, stored in the
-/// calibration.
+/// relative to its size. The intervals are valid also if residuals within 10 degrees of the turn
+/// are correlated. Findings: `compass-residual` (standard deviation of the residuals above 5 % of
+/// the field), `turn-not-checked` (the record has no yaw rate). Errors (refused): a gap without
+/// readings of more than 30 degrees in the circle; no ellipse, or residuals above 20 %; a centre or
+/// axes that the firmware cannot use; turn angles of compass and gyroscope that differ by more than
+/// 10 % or in sign. `declination_deg`: magnetic declination of the place, east positive, stored in
+/// the calibration.
 Result<CompassFit> fit_compass(const FieldRecord& record, double declination_deg);
 
 }  // namespace awmr

@@ -87,7 +87,7 @@ Eigen::Matrix<double, 1, 5> residual_gradient(const Ellipse& ellipse, const Eige
 }
 
 std::optional<Ellipse> fit_ellipse(const Points& points) {
-  // The points are centred and scaled, so that all terms of the conic have similar magnitudes.
+  // Centres and scales the points, so that all terms of the conic have similar magnitudes.
   const Eigen::RowVector2d mean = points.colwise().mean();
   const double size =
       std::sqrt((points.rowwise() - mean).squaredNorm() / static_cast<double>(points.rows()));

@@ -17,11 +17,11 @@ namespace {
 
 /// Assumed sample rate of logs and coast-down curves.
 constexpr double kRate_hz = 100.0;
-/// Replaces a predicted speed (m/s) or yaw rate (rad/s) of 0, because 0 has no logarithm.
+/// Stands for a predicted speed (m/s) or yaw rate (rad/s) of 0, because 0 has no logarithm.
 constexpr double kAtRest = 1e-6;
 
-/// Scatter of the model's trials of one kind: relative standard deviation of the predicted from the
-/// measured values. 5 % if there are fewer than three rows.
+/// Scatter of the model's trials of one kind: root mean square of predicted/measured - 1. Returns 5
+/// % (assumed) if there are fewer than three rows.
 double relative_scatter(const Model& model, TrialKind kind) {
   double squares = 0.0;
   int count = 0;
@@ -89,7 +89,7 @@ CandidateTrial sides_candidate(SideForces<double> force, double scatter, double 
           }};
 }
 
-/// Candidate coast-down curve. It measures the speed from motors-off to rest.
+/// Candidate coast-down curve: the speed from switching the motors off to rest.
 CandidateTrial coastdown_candidate(double from_mps, double duration_s, double noise_mps,
                                    double runs) {
   return {.trial = {.kind = TrialKind::kCoastdown,
@@ -301,8 +301,8 @@ ScrubPlan scrub_plan(const Model& model) {
   }
   if (plan.turns.size() < kTurns) {
     plan.about += fmt::format(
-        "; the wheel forces suffice for only {} of {} yaw rates at a mean wheel force of {:.3g}. "
-        "Three turns are needed: repeat turns, also at other speeds",
+        "; the wheel forces suffice for only {} of {} yaw rates at a mean wheel force of "
+        "{:.3g}. Three turns are needed: repeat the possible turns, also at other speeds",
         plan.turns.size(), kTurns, straight);
   }
   return plan;

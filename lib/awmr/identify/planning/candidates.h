@@ -29,17 +29,17 @@ struct ScrubPlan {
   std::vector<ScrubTurn> turns;
   std::string about;  ///< see Suggestion::about_scrub
 };
-/// Plans differential turns at 1/3, 2/3 and 1 times the highest measured yaw rate, or
-/// yaw_rate_max_degps if the vehicle file gives it. The mean wheel force is that of straight
-/// driving at half the highest speed of the surge trials; without these, the middle of the force
-/// range. Plans only the turns for which the wheel forces suffice if the scrub moment is the
-/// smallest possible.
+/// Plans differential turns that measure the tyre scrub, the yaw moment that tyres lose by sliding
+/// sideways. The yaw rates are 1/3, 2/3 and 1 times the highest measured one, or yaw_rate_max_degps
+/// if the vehicle file gives it. The mean wheel force is that of straight driving at half the
+/// highest speed of the surge trials; without these, the middle of the force range. Leaves out a
+/// turn if the wheel forces do not suffice even for the smallest possible scrub moment.
 ScrubPlan scrub_plan(const Model& model);
 
-/// Plans the turn with motors off. Its speed is half of the highest speed of the surge trials.
-/// Without surge trials, it is half of the steady speed at full force. Its steering angle is half
-/// of the largest one, or less, so that the lateral acceleration is at most 0.2 g. Empty without
-/// steering or surge resistance.
+/// Plans a turn with the motors off (CoastingTurn in suggest.h). Speed: half of the highest speed
+/// of the surge trials, or without them half of the steady speed at full force. Steering angle:
+/// half of the largest one, or less, so that the lateral acceleration is at most 0.2 g. Empty
+/// without steering or surge resistance.
 std::optional<CoastingTurn> coasting_turn(const Model& model);
 
 /// Describes the measurement errors that the candidates assume.

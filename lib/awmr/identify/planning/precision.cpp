@@ -8,8 +8,7 @@
 namespace awmr {
 namespace {
 
-/// Computes Precision::half_width from the interval [lo, hi]: (hi - lo)/2, divided by the value.
-/// For an exponent or a term of a family, it is not divided by the value.
+/// Computes Precision::half_width.
 std::optional<double> half_width_of(const Model& model, ParameterId id) {
   const Estimate& estimate = model[id];
   if (!estimate.value || !estimate.ci95 || estimate.source == Source::kGiven) return std::nullopt;

@@ -12,8 +12,8 @@ namespace awmr {
 /// Precision of one parameter.
 struct Precision {
   ParameterId id{};
-  /// Half of the width of the 95 % interval, >= 0, divided by the value. For an exponent or a term
-  /// of a family, it is not divided by the value, so it has the parameter's unit. Absent if the
+  /// Half width of the 95 % interval, >= 0, divided by the value. For an exponent or a term of a
+  /// resistance family, which may be 0: not divided, so in the parameter's unit. Absent if the
   /// parameter was given or has no interval.
   std::optional<double> half_width;
 };

@@ -39,9 +39,9 @@ std::optional<ErrorModel> error_model_named(std::string_view name) {
 }
 
 /// Error to simulate in the rows of a table: the residual standard deviation of one of the model's
-/// fits of the surge or yaw resistance. If the user requested an error model, the fit with this
-/// error model is used. Otherwise it is the fit with the error model of the estimator under test,
-/// or else the first fit of the model's family. Errors (input): the model has no such fit.
+/// fits of the surge or yaw resistance. If the user requested an error model, takes the fit with
+/// this error model. Otherwise takes the fit with the error model of the estimator under test, or
+/// else the first fit of the model's family. Errors (input): the model has no such fit.
 Result<RowError> row_error(const Model& model, FitSubject subject, const RecoverOptions& options) {
   const bool is_surge = subject == FitSubject::kSurge;
   const Family family = is_surge ? model.surge_family : model.yaw_family;
@@ -79,9 +79,9 @@ Result<RowError> row_error(const Model& model, FitSubject subject, const Recover
                                               option_text("error"))));
 }
 
-/// Left and right wheel forces that give a yaw moment, m, without steering. The forces are
-/// opposite. If the left wheels cannot push back with this force, the left force is the lower limit
-/// of the wheel force, or 0 if that limit is positive.
+/// Left and right wheel forces that give a yaw moment, m, without steering. The two forces are
+/// opposite and equal. If the left wheels cannot push back so strongly, the left force is the lower
+/// limit of the wheel force, or 0 if that limit is positive.
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   const double difference = tau_turn_m / (2.0 * vehicle.half_track_m);
@@ -107,9 +107,8 @@ TablePlan plan_of(const Model& model) {
     }
     return plan;
   }
-  // tau_turn = 2 l_f F' sin d_r                                                        [paper (62)]
-  // All simulated turns have the same wheel force F'. It is chosen so that the largest yaw moment
-  // tau_turn needs the largest steering angle d_r.
+  // tau_turn = 2 l_f F' sin d_r [paper (62)] All simulated turns have the same wheel force F'. With
+  // it, the largest yaw moment tau_turn needs the largest steering angle d_r.
   const double stop_rad = radians(model.vehicle.steering_max_deg);
   plan.turning_wheel_force =
       most_tau_turn_m / (2.0 * model.vehicle.front_axle_m * std::sin(stop_rad));
@@ -301,9 +300,9 @@ Status check_drive(const DrivePlan& drive) {
 }
 
 /// Adapts the options to the model. If the model has only parameters of straight motion, a
-/// simulated log drives straight and is fitted for a1, b1 and m'. If the model's back-EMF was
-/// fitted, a simulated log is fitted for all fitted parameters. If the user requested parameters,
-/// these are fitted instead.
+/// simulated log drives straight, and the fit estimates a1, b1 and m'. If the model's back-EMF was
+/// fitted, the fit to a simulated log estimates all fitted parameters of the model. Parameters that
+/// the user requested take precedence.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
   const bool log = options.plan == RecoverPlan::kLog;
   if (log && options.identify.requested.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&

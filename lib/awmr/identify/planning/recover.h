@@ -36,8 +36,8 @@ struct RecoverOptions {
   int threads = 0;
   /// The estimator under test.
   IdentifyOptions identify;
-  /// Quantity that gets the simulated error. Absent: the quantity that the estimator assumes to
-  /// have the error. Choose another quantity to see the effect of a wrong assumption.
+  /// Quantity that gets the simulated error. Absent: the quantity that has the error according to
+  /// the estimator. Another quantity shows the effect of a wrong assumption.
   std::optional<ErrorModel> error;
   /// Sensor noise of curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors;
@@ -73,7 +73,7 @@ struct Recovery {
 /// runs. If the model has only parameters of straight motion, the log drives straight and only a1,
 /// b1 and m' are fitted. Errors (input): the model lacks a parameter that a trial of the plan
 /// needs, or has no trials for the plan; fewer than 2 runs; a simulated log of fewer than 20 or
-/// more than a million rows; a time constant that is too short for check_replay(). Errors
+/// more than a million rows; a time constant that is too short to simulate (check_replay()). Errors
 /// (refused): no run estimates a requested parameter, or any parameter.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);

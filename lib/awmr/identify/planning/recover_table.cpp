@@ -125,7 +125,7 @@ Result<std::vector<RecoverRun>> recover_runs(std::string_view text, const std::s
     if (!run) {
       const auto line = 1 + std::count(before.begin(), before.end(), '\n');
       return input_error(ErrorCode::kStaleResult, fmt::format("{}:{}:1", file, line),
-                         "is not a run of a recovery with these columns; run the part again");
+                         "is not a valid row for these columns; run the part again");
     }
     runs.push_back(std::move(*run));
   }

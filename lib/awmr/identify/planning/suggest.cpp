@@ -15,9 +15,9 @@
 namespace awmr {
 namespace {
 
-/// Assumed standard error for a parameter without one, in its coordinate of model/transform.h. If
-/// the coordinate is a logarithm, 2 means a factor of e^2. The value is large, so that trials that
-/// measure the parameter rank high.
+/// Assumed standard error for a parameter without one, in its coordinate of model/transform.h. For
+/// a logarithm, 2 means a factor of e^2 = 7.4. The value is large, so that trials that measure the
+/// parameter rank high.
 constexpr double kUnknownStd = 2.0;
 
 /// Covariance of the n uncertain parameters, in the coordinates z of model/transform.h. With the
@@ -28,8 +28,8 @@ struct Uncertainty {
   Eigen::MatrixXd covariance;  ///< n x n, positive definite
 };
 
-/// The covariance in the model, extended by rows for the estimated parameters that it does not
-/// contain (except terms of a family).
+/// The model's covariance, with additional rows for estimated parameters that have none (except
+/// terms of a family).
 Uncertainty uncertainty_of(const Model& model) {
   const std::vector<ParameterId>& known = model.covariance.parameters;
   std::vector<ParameterId> ids = known;
@@ -236,8 +236,9 @@ Result<Suggestion> suggest(const Model& model, const SuggestOptions& options) {
       continue;
     }
     return input_error(ErrorCode::kOutOfRange, model.file,
-                       fmt::format("the information of trial '{}' is not finite at this model's "
-                                   "values; check its exponents, mass and resistance",
+                       fmt::format("the effect of trial '{}' on the standard errors is not "
+                                   "finite at this model's values; check the exponents, the "
+                                   "mass and the resistance in the model",
                                    trial.settings));
   }
   sort_by_promise(suggestion.trials);

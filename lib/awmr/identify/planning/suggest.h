@@ -53,15 +53,16 @@ struct MissingParameter {
   std::string trial;  ///< description of the trial that measures the parameter
 };
 
-/// A differential turn with straight wheels, to measure the tyre scrub. The choice between the
-/// differential, steering and combined modes depends on the scrub (compare --break-even).
+/// A differential turn with straight wheels, to measure the tyre scrub: the yaw moment that the
+/// tyres lose by sliding sideways. The choice between the differential, steering and combined modes
+/// depends on the scrub (compare --break-even).
 struct ScrubTurn {
   double yaw_rate_degps = 0.0;  ///< yaw rate to reach, > 0
-  /// Wheel forces F' (over F_max) for this yaw rate under the smallest and under the largest scrub
-  /// moment. The two scrub moments are the ends of the measured 95 % interval. If the scrub was not
-  /// measured, the lower one is the largest moment at which the vehicle did not turn (0 if none is
-  /// known). The upper one is then the moment of sliding tyres (friction 0.8). If the wheel forces
-  /// do not suffice for the upper one, `most` has their limits.
+  /// Wheel forces F' (over F_max) for this yaw rate: `least` for the smallest possible scrub
+  /// moment, `most` for the largest. If the scrub was measured, these moments are the ends of its
+  /// 95 % interval. Otherwise the smallest moment is the largest one at which the vehicle did not
+  /// turn (0 if none is known), and the largest is that of sliding tyres (friction 0.8). If the
+  /// wheel forces do not suffice for the largest moment, `most` has the limits of the wheel force.
   SideForces<double> least, most;
 };
 
@@ -92,10 +93,10 @@ struct Suggestion {
 /// trial changes the covariance C of the parameters' coordinates (model/transform.h) to
 ///   C_after = (C^-1 + J^T W J)^-1
 /// with the derivatives J of the trial's measurements by the coordinates, and the inverse variances
-/// W of their errors. A parameter without a value is reported as missing, and trials that measure
-/// it are not ranked. Errors (input): every parameter of the model was given, so that no trial can
-/// improve it; the target is unknown or has no value; the effect of a trial is not finite; a time
-/// constant that is too short for check_replay().
+/// W of their errors. Parameters without a value go to `missing`, and trials that measure them are
+/// not ranked. Errors (input): every parameter of the model was given, so that no trial can improve
+/// it; the target is unknown or has no value; the effect of a trial is not finite; a time constant
+/// that is too short to simulate (check_replay()).
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// Content of suggest.json.

@@ -47,8 +47,8 @@ std::string suggestion_text(const Suggestion& suggestion, const Provenance& prov
 
 namespace {
 
-/// Part of the field sheet: trials of missing parameters, each with the parameters that it
-/// measures.
+/// Part of the field sheet: trials for parameters without a value. One trial may measure several of
+/// these parameters.
 std::string missing_sheet(const std::vector<MissingParameter>& missing) {
   std::string text;
   for (auto one = missing.begin(); one != missing.end(); ++one) {
@@ -89,8 +89,7 @@ std::string scrub_sheet(const Suggestion& suggestion) {
   return text;
 }
 
-/// Part of the field sheet: the turn with motors off, which decides between the 3-DOF model and the
-/// four-wheel tyre model.
+/// Part of the field sheet: the turn with the motors off (CoastingTurn).
 std::string coasting_sheet(const Suggestion& suggestion) {
   const auto& coasting = suggestion.coasting;
   if (!coasting) return {};

@@ -36,8 +36,7 @@ class NoiseSource {
 };
 
 /// A simulated row of a table: force, rate (speed or yaw rate) and time. One of these has the
-/// measurement error. The time is that in which the run covers its given distance or angle at this
-/// rate.
+/// measurement error. The run covers its given distance or angle in this time.
 struct NoisyRow {
   double force;
   double rate;
@@ -67,7 +66,7 @@ NoisyRow noisy(double force, double rate, double travel, const RowError& error, 
 }
 
 /// Simulates surge runs: solves g1(u) = tau_speed for the steady speed u, with the surge resistance
-/// g1. The wheels' dead zones are subtracted from tau_speed first.
+/// g1. Subtracts the wheels' dead zones from tau_speed first.
 TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
                               const RowNoise& noise, Random& random) {
   TrialSet<SurgeRow> set{"simulated surge", {}, 0};
@@ -82,8 +81,7 @@ TrialSet<SurgeRow> surge_rows(const Plant<double>& plant, const TablePlan& plan,
 }
 
 /// Simulates steered turns: solves g3(r) = 2 l_f F' sin d_r for the steady yaw rate r, with the yaw
-/// resistance g3 and the steering angle d_r. The dead zone is subtracted from the wheel force F'
-/// first.
+/// resistance g3 and the steering angle d_r. Subtracts the dead zone from the wheel force F' first.
 TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& plan,
                                   const RowNoise& noise, Random& random) {
   TrialSet<TurningRow> set{"simulated turning", {}, 0};
@@ -106,7 +104,7 @@ TrialSet<TurningRow> turning_rows(const Plant<double>& plant, const TablePlan& p
 }
 
 /// Simulates differential turns: solves g3(r) = 2 d (F'R - F'L) for the steady yaw rate r, with the
-/// yaw resistance g3. The dead zone is subtracted from the wheel forces F'R and F'L first.
+/// yaw resistance g3. Subtracts the dead zone from the wheel forces F'R and F'L first.
 TrialSet<TurningRow> sides_turning_rows(const Plant<double>& plant, const TablePlan& plan,
                                         const RowNoise& noise, Random& random) {
   TrialSet<TurningRow> set{"simulated turning", {}, 0};

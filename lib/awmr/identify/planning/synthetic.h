@@ -20,8 +20,8 @@ struct SensorNoise {
   double correlation_s = 0.0;      ///< correlation time of each sensor's error; 0: white noise
 };
 
-/// Settings of the trials to simulate, one list for each table, with one entry for each row. If a
-/// list is empty, its table is not simulated.
+/// Settings of the trials to simulate: one list for each table, with one entry for each row. A
+/// table with an empty list is left out.
 struct TablePlan {
   std::vector<double> surge_tau_speed;       ///< dimensionless, > 0
   std::vector<double> turning_steering_rad;  ///< d_r, > 0: to the left

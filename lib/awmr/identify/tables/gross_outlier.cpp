@@ -25,7 +25,7 @@ double log_misfit(const FamilyCandidate& candidate) {
 }
 
 /// Deviation of a run's time from a fit to the times of the other runs, in standard deviations.
-/// Infinite if the runs were not timed or the fit fails. The run is then tested by its force alone.
+/// Infinite if the runs were not timed or the fit fails; the force alone then decides.
 double deviations_in_time(const Subject& subject, std::size_t point, const SteadyFit& of_others) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   auto all = by_time({.points = subject.points, .beta_range = subject.beta_range});

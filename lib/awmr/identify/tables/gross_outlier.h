@@ -16,11 +16,11 @@ struct GrossOutlier {
 };
 
 /// Returns the run farthest from the power law of the other runs if it is a gross outlier:
-///   1. The logarithm of its force deviates by more than ten standard deviations, with p < 0.001 by
-///      Student's t for the whole table (Bonferroni). If the runs were timed, its time also
-///      deviates by more than ten standard deviations from a fit of the other times. (A timing
-///      error of a given size is a larger share of a short time, so the force alone would exclude
-///      some correct fast runs.)
+///   1. The logarithm of its force deviates by more than ten standard deviations, and such a run in
+///      the whole table has a probability below 0.001 (Student's t, Bonferroni). If the runs were
+///      timed, its time also deviates by more than ten standard deviations from a fit of the other
+///      times. (A timing error of a given size is a larger share of a short time, so the force
+///      alone would exclude some correct fast runs.)
 ///   2. The deviation is not due to the power law: for every resistance family fitted to all runs,
 ///      including this one, the root mean square residual of ln f is at least three times that of
 ///      the power law of the other runs. (A slow run can deviate from a power law because of

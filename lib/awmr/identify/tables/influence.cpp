@@ -38,8 +38,8 @@ std::optional<TransformedParameters> refit_without(std::size_t row, const Subjec
 /// Approximates the fit without run i by one Gauss-Newton step from the fit of all runs, whose
 /// coordinates are theta:
 ///   theta_(i) = theta + (J^T J)^-1 j_i e_i/(1 - h_i),   e = curve - measured      [Cook 1977]
-/// with row j_i of the Jacobian J, the residual e_i and the leverage h_i. The step is exact for a
-/// log-linear fit.
+/// with row j_i of the Jacobian J, the residual e_i and the leverage h_i (weight of run i in its
+/// own fitted value). The step is exact for a log-linear fit.
 class OneStep {
  public:
   OneStep(const SteadyProblem& problem, bool log_linear, const SteadyFit& fit)

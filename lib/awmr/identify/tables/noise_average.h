@@ -1,7 +1,7 @@
 /// Interval of a resistance law averaged over the error models. Private to identify/.
 ///
-/// A table does not show which quantity has the error: the force (absolute or relative), the rate
-/// or the time. A wrong distance acts like a relative error of the force. Fits under these error
+/// A table does not show which quantity has the measurement error (error model): the force
+/// (absolute or relative), the rate (speed or yaw rate) or the time. Fits under different error
 /// models can differ by more than their intervals. The reported interval therefore averages over
 /// all error models k, each weighted by its posterior probability p_k:
 ///
@@ -30,9 +30,9 @@ struct NoiseAlternative {
   double weight = 1.0;  ///< probability of the error model, in (0, 1]; all add up to 1
 };
 
-/// Smallest weight of the chosen fit, whose value is reported. Half of this fit's distribution lies
-/// on each side of the reported value. With a weight of 5 %, at least 2.5 % of the mixture lies on
-/// each side, so the 95 % interval always contains the reported value.
+/// Smallest weight of the chosen fit, whose value is the reported value. Half of this fit's
+/// distribution lies on each side of that value. With a weight of 5 %, at least 2.5 % of the
+/// mixture lies on each side, so the 95 % interval always contains the reported value.
 inline constexpr double kMinOwnWeight = 0.05;
 
 /// Returns the chosen fit, then the usable fits of the same family with the same free parameters

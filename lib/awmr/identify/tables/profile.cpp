@@ -59,8 +59,8 @@ double crossing(const Profile& profile, Place near, Place far, double t, double 
   return 0.5 * (near.x + far.x);
 }
 
-/// The upper (sign 1) or lower (sign -1) end of the interval, where zeta = t. If zeta < t up to the
-/// bound of the coordinate, the bound is returned.
+/// The upper (sign 1) or lower (sign -1) end of the interval, where zeta = t. Returns the bound of
+/// the coordinate if zeta is below t up to the bound.
 double end_of(const Profile& profile, double sign, double t) {
   const Interval bounds = bounds_of(profile.problem, profile.c);
   const double std_error = *profile.fit.std_error(profile.c);

@@ -1,4 +1,5 @@
-/// Profile-likelihood intervals and AICc of table fits. Private to identify/.
+/// Profile-likelihood intervals of table fits, and AICc, which compares resistance families.
+/// Private to identify/.
 #pragma once
 
 #include <optional>
@@ -7,10 +8,10 @@
 
 namespace awmr {
 
-/// 95 % profile-likelihood interval of the coordinate `c`. At each end, the smallest sum of squares
-/// with `c` fixed there is t^2 s^2 above that of `fit`. s is the residual standard deviation, t the
-/// 97.5 % quantile of Student's t. An end beyond a bound is set to the bound. Precondition: squared
-/// loss, degrees of freedom, `c` free.
+/// 95 % profile-likelihood interval of the coordinate `c`. At each end of the interval, the
+/// smallest sum of squares with `c` fixed there is t^2 s^2 above that of `fit`, with the residual
+/// standard deviation s and the 97.5 % quantile t of Student's t. The interval ends at the bounds
+/// of `c` at the latest. Precondition: squared loss, degrees of freedom, `c` free.
 Interval profile_interval(const SteadyProblem& problem, const SteadyFit& fit,
                           TransformedParameter c);
 

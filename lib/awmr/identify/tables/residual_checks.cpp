@@ -91,9 +91,9 @@ std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProble
     if (p > kOutlierLevel) continue;
     findings.push_back(
         {subject.file, subject.points[at(i)].line, Severity::kWarning, "outlier",
-         fmt::format("this run deviates by {:.1f} standard deviations from the curve of the other "
-                     "runs (p for one such run among {}: {:.2g}); check it, or use a robust loss "
-                     "({})",
+         fmt::format("this run deviates by {:.1f} standard deviations from the curve of the "
+                     "other runs (probability of such a run among {}: {:.2g}); check this run, "
+                     "or use a robust loss ({})",
                      std::abs(t(i)), t.size(), p, option_text("loss huber"))});
   }
   return findings;

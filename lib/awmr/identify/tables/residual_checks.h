@@ -9,7 +9,7 @@
 namespace awmr {
 
 /// The error `exponent-at-bound`, with the remedy. Precondition: the search for the exponent ended
-/// at an end of its range.
+/// at a limit of its accepted range.
 Finding held_exponent(const Subject& subject, const SteadyFit& fit);
 
 /// These findings, where they apply: the warning `no-degrees-of-freedom` (as many parameters as
@@ -22,9 +22,9 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
 std::vector<Diagnostic> residual_tests(const Subject& subject, const SteadyFit& fit);
 
 /// The warning `outlier` for each run that deviates significantly from the curve of the other runs:
-/// Student's t, 5 % for the whole table (Bonferroni). If the runs were timed, their time must
-/// deviate significantly as well. Reason: a stop-watch error is a larger share of a fast run's
-/// short time, so the fastest run could look like an outlier by its force alone.
+/// Student's t, 5 % for the whole table (Bonferroni). If the runs were timed, the time of the run
+/// must deviate significantly as well. By its force alone, the fastest run could look like an
+/// outlier, because a stop-watch error is a larger share of its short time.
 std::vector<Finding> outlier_findings(const Subject& subject, const SteadyProblem& problem,
                                       const SteadyFit& fit);
 

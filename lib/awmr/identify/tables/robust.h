@@ -10,9 +10,9 @@
 
 namespace awmr {
 
-/// Ceres loss function for residuals with the standard deviation `scale`. Its threshold gives an
-/// efficiency of 95 % if the noise is normal: Huber 1.345, Cauchy 2.385, Tukey 4.685 standard
-/// deviations. Null for Loss::kSquared.
+/// Ceres loss function for residuals with the standard deviation `scale`. Thresholds: Huber 1.345,
+/// Cauchy 2.385, Tukey 4.685 standard deviations. If the noise is normal, the variance of the
+/// estimates is then that of least squares divided by 0.95. Null for Loss::kSquared.
 std::unique_ptr<ceres::LossFunction> make_loss(Loss loss, double scale);
 
 /// Robust estimate of the standard deviation of normal residuals e: 1.4826 median |e|.

@@ -127,8 +127,8 @@ std::optional<YawScrub> mean_scrub(const ScrubMoments& met, double of_law, doubl
 
 /// Range of the scrub moment; absent unless the scrub changes with the yaw rate r. The range spans
 /// the 95 % intervals of a fitted line at the slowest and at the fastest turn. The moments c_i must
-/// change significantly both with r and with the applied moment tau. (Noise of r alone makes c fall
-/// with r, noise of tau alone makes c rise with tau.)
+/// change significantly both with r and with the applied moment tau: noise of r alone makes c fall
+/// with r, and noise of tau alone makes c rise with tau.
 std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& model) {
   for (const auto* over : {&met.rates_radps, &met.applied_m}) {
     if (!is_sloped(*over, met.moments_m, met.rates_radps, model)) return std::nullopt;
@@ -146,8 +146,8 @@ std::optional<Interval> changing_scrub(const ScrubMoments& met, const Model& mod
   return range_of(ends);
 }
 
-/// Differential turns in which the vehicle stood still. SteadyPoint::force is their yaw moment
-/// after subtracting the wheels' dead zone.
+/// Differential turns in which the vehicle stood still. SteadyPoint::force is the yaw moment
+/// without the wheels' dead zone.
 std::vector<SteadyPoint> standing_turns(const TrialSet<TurningRow>& turning, const Model& model) {
   return turning_points(turning.standing, *model[ParameterId::kWheelDeadZone].value);
 }

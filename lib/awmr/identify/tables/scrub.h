@@ -1,14 +1,15 @@
 /// Tyre scrub: the yaw moment that differential turns need in excess of the yaw resistance of
 /// steered turns. Private to identify/.
 ///
-/// A differential turn drags the tyres sideways, which g3 of steered turns does not include. For
-/// differential turn i, with the yaw rate r_i and half of the track width d, the scrub moment is
+/// A differential turn drags the tyres sideways. The yaw resistance g3 of steered turns does not
+/// include the moment that this takes. For differential turn i, with the yaw rate r_i and half of
+/// the track width d, the scrub moment is
 ///
 ///     c_i = tau_i - g3(r_i),   tau_i = 2 d (F'R - F'L),   c = mean c_i,   var c = s^2/n + h' C h
 ///
 /// with s the standard deviation of the n moments c_i, C the covariance of g3's parameters and h
-/// the mean gradient of g3 by its parameters. The interval is Student's t with the degrees of
-/// freedom of Welch and Satterthwaite.
+/// the mean gradient of g3 by its parameters. The interval uses Student's t with the effective
+/// degrees of freedom of Welch and Satterthwaite.
 #pragma once
 
 #include <vector>

@@ -20,8 +20,6 @@ bool is_at(double bound, double value) {
   return std::isfinite(bound) && std::abs(value - bound) <= kAtBound;
 }
 
-/// Condition number of the Jacobian: largest over smallest singular value. Infinite if the Jacobian
-/// is rank deficient.
 double condition_of(const Eigen::MatrixXd& jacobian) {
   const Eigen::VectorXd singular = singular_values(jacobian);
   const double least = jacobian.rows() >= jacobian.cols() ? singular(singular.size() - 1) : 0.0;

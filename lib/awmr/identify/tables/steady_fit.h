@@ -51,8 +51,8 @@ struct SteadyPoint {
 };
 
 /// Largest number of rows with exact diagnostics. In larger tables, one step from the fit of all
-/// rows approximates the fit without a row, and there are no profile intervals. Time and memory are
-/// then proportional to the number of rows.
+/// rows approximates the fit without a row, and there are no profile intervals. Time and memory
+/// would otherwise grow faster than the number of rows.
 inline constexpr Eigen::Index kExactRows = 200;
 
 /// Input of a fit: the runs, the family of the curve, the error model and the loss.
@@ -68,8 +68,9 @@ struct SteadyProblem {
 /// rate or time; 1 for the logarithm of the force).
 struct SteadyFit {
   TransformedParameters theta{};  ///< fitted coordinates; 0 (beta: 1) for terms outside the family
-  /// Free coordinates of the family. A term whose search ended at its lower bound 0 is included, so
-  /// that it contributes to the uncertainty of the others. An exponent at a bound is excluded.
+  /// Free coordinates of the family. Includes a term whose search ended at its lower bound 0, so
+  /// that it contributes to the uncertainty of the other coordinates. Excludes an exponent at a
+  /// bound.
   std::vector<TransformedParameter> free;
   std::vector<TransformedParameter> at_bound;  ///< coordinates whose search ended at a bound
   /// Covariance of the coordinates in `free`, positive definite; 0 x 0 without degrees of freedom.
@@ -108,10 +109,10 @@ SteadyFit fit_log_linear(const std::vector<SteadyPoint>& points);
 /// beta stays in its range; c, q and z stay >= 0. The scale of a robust loss is computed from the
 /// median absolute residual. Precondition: with kTime, every point was timed.
 SteadyFit fit_steady(const SteadyProblem& problem, const TransformedParameters& initial_guess);
-/// Like fit_steady() above, but computes the initial guesses itself. One is computed from the
-/// points. The others are the optima of all families that are special cases of this one, so that a
-/// family never fits worse than its special cases. `known`: optima of the same points, noise and
-/// loss, by family; the function adds those that it computes.
+/// Like fit_steady() above, but computes the initial guesses itself. The first guess comes from the
+/// points. The other guesses are the optima of all families that are special cases of this one, so
+/// that a family never fits worse than its special cases. `known`: optima of the same points, noise
+/// and loss, by family; the function adds those that it computes.
 SteadyFit fit_steady(const SteadyProblem& problem, std::map<Family, TransformedParameters>& known);
 
 /// Converts a problem to the error model kTime: the time of each run becomes travel/w, with the

@@ -15,8 +15,8 @@
 namespace awmr {
 namespace {
 
-/// Lower bound of beta if the error is of speed or time. These residuals need the inverse of the
-/// curve, which does not exist for beta = 0.
+/// Lower bound of beta if the speed or the time has the error. The residuals then need the inverse
+/// of the curve, which does not exist for beta = 0.
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
 /// Steady rate g^-1(force) at a force, with its derivatives; 0 if the force is below Coulomb
@@ -167,8 +167,6 @@ bool SteadySearch::falls_inwards(TransformedParameter c) {
   return theta_[at(c)] <= bounds_of(problem_, c).lo ? gradient[0] < 0.0 : gradient[0] > 0.0;
 }
 
-// A coordinate at a bound is fixed while the others are searched. The reason: if a step crosses a
-// bound, Ceres shortens the step in all coordinates, and convergence becomes slow.
 void SteadySearch::solve() {
   const std::vector<TransformedParameter> held = search_until_at_bound();
   if (held.empty()) return;

@@ -13,8 +13,7 @@
 
 namespace awmr {
 
-/// Input of a table fit: one resistance law, the names of its parameters and the runs that measure
-/// it. A default-constructed Subject has the names of the surge law.
+/// A default-constructed Subject has the names of the surge law.
 struct Subject {
   FitSubject name = FitSubject::kSurge;  ///< surge or yaw
   ParameterId alpha = ParameterId::kSurgeAlpha;

@@ -51,8 +51,8 @@ Choice choose_log_linear(const Subject& subject, const SubjectOptions& options,
           {}};
 }
 
-/// The finding `families-not-compared`: the power law is used without a comparison, because there
-/// are too few rows.
+/// The finding `families-not-compared`: too few rows for a comparison, so the fit uses the power
+/// law.
 Finding not_compared(const Subject& subject) {
   return about(
       subject, Severity::kWarning, "families-not-compared",
@@ -73,9 +73,10 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
                     subject.points.size()));
   }
   return about(subject, Severity::kError, "not-converged",
-               fmt::format("no resistance family has a {} fit that converged and has an AICc, by "
-                           "which the families are compared. An AICc needs at least three runs "
-                           "more than the family has parameters; record more runs",
+               fmt::format("no resistance family has a {} fit that converged and can be "
+                           "compared with other families. The comparison (by AICc) needs at "
+                           "least three runs more than the family has parameters; record more "
+                           "runs",
                            name_in(kFitSubjectNames, subject.name)));
 }
 

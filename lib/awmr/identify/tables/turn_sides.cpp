@@ -18,8 +18,7 @@ constexpr std::size_t kMinTurns = 6;
 constexpr double kSideLevel = 0.01;  ///< significance level of the moment M
 constexpr Eigen::Index kUnknowns = 3;
 
-/// Sign of the turn of each point: 1 to the left, -1 to the right. The row of a point is found by
-/// its line in the file.
+/// Sign of the turn of each point: 1 to the left, -1 to the right.
 Eigen::VectorXd signs_of(const Subject& yaw, const TrialSet<TurningRow>& runs) {
   std::set<int> right;
   for (const TurningRow& row : runs.rows) {

@@ -8,11 +8,11 @@
 
 namespace awmr {
 
-/// The finding `turns-differ` if left and right turns differ as by a constant yaw moment M (over
-/// F_max, m; positive to the left) that is significantly different from 0 (level 1 %). Such a
-/// moment comes from unequal motors or drag, or from wheels that are out of line. It adds to the
-/// moment tau of a left turn and opposes that of a right turn. With the yaw rate r and the sign s
-/// of the turn (1: left, -1: right), the runs are
+/// The finding `turns-differ` if left and right turns differ as if a constant yaw moment M (over
+/// F_max, m; positive to the left) acted on the vehicle, and M is significantly different from 0
+/// (level 1 %). Such a moment comes from unequal motors or drag, or from wheels that are out of
+/// line. M adds to the moment tau of a left turn and opposes that of a right turn. With the yaw
+/// resistance a3 r^b3 at the yaw rate r, and the sign s of the turn (1: left, -1: right),
 ///
 ///     tau + s M = a3 r^b3,   for small M: ln tau = ln a3 + b3 ln r - M s/tau
 ///

@@ -7,12 +7,12 @@
 
 namespace awmr {
 
-/// A log fit uses another resistance family than the power law, or an extension of the model, only
-/// if it lowers AIC by more than this. Extensions are back-EMF, Stribeck friction and another
-/// timing of the commands. A choice of the user has priority. The value is twice the usual
-/// threshold of 10, because the simulation itself changes the AIC: near rest, it replaces the
-/// resistance (except Coulomb friction) by a straight line. The finding `power-law-inadequate` of
-/// coast-down curves has the same threshold.
+/// Decrease of AIC above which a log fit uses another resistance family than the power law, or an
+/// extension of the model (back-EMF, Stribeck friction, another timing of the commands). Does not
+/// apply to what the user requested. The value is twice the usual threshold of 10, because the
+/// simulation itself changes the AIC: near rest, it replaces the resistance (except Coulomb
+/// friction) by a straight line. The finding `power-law-inadequate` of coast-down curves has the
+/// same threshold.
 inline constexpr double kFamilyAicThreshold = 20.0;
 
 /// AICc of a fit with n normal residuals, their sum of squares SSE and k = free + 1 estimated

@@ -49,7 +49,7 @@ std::optional<Diagnostic> normality(std::span<const double> residuals) {
   const double size = static_cast<double>(n);
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    // Lower limit of probabilities. Far in a tail, a probability would round to 0, which has no
+    // Lower limit of probabilities: far in a tail, a probability rounds to 0, which has no
     // logarithm.
     const double tiny = 1e-300;
     const double below = std::max(tiny, normal_cdf((x[i] - mean) / sd));

@@ -31,9 +31,10 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
 std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
                                       const Eigen::VectorXd& residuals, int parameters);
 
-/// Externally studentised residuals e_i / (s_(i) sqrt(1 - h_i)), with the leverages h_i in [0, 1]
-/// and the standard deviation s_(i) of the fit without row i. They have Student's t distribution
-/// with degrees_of_freedom - 1. Empty if degrees_of_freedom < 2 or without leverages.
+/// Residuals in standard deviations, each from the fit without its own row (externally
+/// studentised): e_i / (s_(i) sqrt(1 - h_i)), with the leverages h_i in [0, 1] and the standard
+/// deviation s_(i) of the fit without row i. They have Student's t distribution with
+/// degrees_of_freedom - 1. Empty if degrees_of_freedom < 2 or without leverages.
 Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::VectorXd& leverages,
                             int degrees_of_freedom);
 

@@ -10,9 +10,9 @@
 
 namespace awmr {
 
-/// Mixture of Student's t distributions. Under alternative k, which has the probability w_k, the
-/// numbers x have the centre m_k and the covariance C_k. Without alternatives the uncertainty is
-/// unknown.
+/// Mixture of Student's t distributions. Alternative k has the probability w_k; under it, the
+/// numbers x have the centre m_k and the covariance C_k. An empty list of alternatives means that
+/// the uncertainty is unknown.
 struct Posterior {
   struct Alternative {
     double weight = 1.0;         ///< probability w_k in (0, 1]; all add up to 1
