@@ -53,8 +53,6 @@ std::string why_open(ParameterId id, const Estimate& estimate) {
       ci->lo, ci->hi);
 }
 
-/// Removes the values of parameters that depend on a removed one, for example m' if a1 was removed.
-/// Adds the reasons.
 void remove_dependent_values(Model& model, std::map<ParameterId, std::string>& reasons) {
   const auto follow = [&](ParameterId first, ParameterId second) {
     if (!reasons.contains(first)) return;

@@ -13,13 +13,12 @@
 namespace awmr {
 namespace {
 
-/// 95 % interval of the cornering stiffness c of a tyre, 1/rad: the lateral force is c times the
-/// load of the tyre times its slip angle in rad.
+/// 95 % interval of the cornering stiffness c of a tyre, 1/rad (assumed_sway.h).
 constexpr Interval kTyreStiffness{0.5, 16.0};
 /// Half width of a 95 % interval of the normal distribution, in standard deviations.
 constexpr double kNormal95 = 1.959964;
-/// This quantile of a log's speeds is taken as its highest speed, because the maximum itself could
-/// be a measurement error.
+/// Quantile of a log's speeds that counts as its highest speed; the maximum could be a measurement
+/// error.
 constexpr double kFastestQuantile = 0.95;
 
 void take_fastest(const DrivingLog& log, double& fastest_mps) {

@@ -30,7 +30,7 @@ bool is_inertial(ParameterId id) {
 }
 
 /// Reason why the tables do not determine a parameter. Tables never determine the sway resistance,
-/// the servo's time constant and back-EMF. For these, the reason is that vehicle.json has no value.
+/// the servo's time constant and back-EMF; the reason is then that vehicle.json has no value.
 std::string table_reason(ParameterId id, const TrialData& data, const Reasons& reasons) {
   switch (id) {
     case ParameterId::kSurgeAlpha:

@@ -10,9 +10,9 @@
 namespace awmr {
 
 /// Lists the rows of the surge, turning and stop-time tables with the model's prediction of the
-/// steady speed, the steady yaw rate or the stop time. A row gets no prediction if a parameter that
-/// the prediction needs has no value. Omits turning rows whose wheel forces are within the dead
-/// zone, that is, too small to move the wheels.
+/// steady speed, the steady yaw rate or the stop time. A row gets no prediction if the model lacks
+/// a parameter for it. Omits turning rows whose wheel forces are within the dead zone, that is, too
+/// small to move the wheels.
 std::vector<TrialPoint> trials_as_used(const TrialData& data, const Model& model);
 
 }  // namespace awmr

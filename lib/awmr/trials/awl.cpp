@@ -71,8 +71,8 @@ void report_scan(const Scan& scan, const std::string& file, AwlLog& log) {
   }
 }
 
-/// Returns the rows with up-to-date measurements and finite values. Adds the finding
-/// `rows-not-measured` if any other row was left out.
+/// Returns the rows with up-to-date measurements and finite values. Reports other rows
+/// (`rows-not-measured`).
 std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const std::string& file,
                                AwlLog& log) {
   const Layout& layout = scan.layout;
@@ -126,8 +126,6 @@ std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std:
   return kept;
 }
 
-/// Adds the finding `chip-reset` for each run that began with a drop of the supply voltage or with
-/// a watchdog reset.
 void report_resets(std::string_view bytes, const Layout& layout, const std::vector<Place>& rows,
                    const std::string& file, AwlLog& log) {
   std::size_t run = 0;

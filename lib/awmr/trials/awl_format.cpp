@@ -26,8 +26,7 @@ const NumberRule kScaleRule{.min = 1e-12, .max = 1e12};
 const std::string_view kMagic(reinterpret_cast<const char*>(kLogMagic), sizeof kLogMagic);
 const std::string_view kSync(reinterpret_cast<const char*>(kLogSync), sizeof kLogSync);
 
-/// Maximum number of damaged headers. A file with more is refused, because computing all their
-/// checksums would take too long.
+/// Maximum number of damaged headers in a file. The checksums of more headers would take too long.
 constexpr std::size_t kMaxDamagedHeaders = 1000;
 
 /// The first header of a log begins within this number of bytes.

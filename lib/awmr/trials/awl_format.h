@@ -70,12 +70,10 @@ struct Scan {
   std::size_t truncated = 0;  ///< length of an incomplete row at the end, bytes
 };
 
-/// True if the bytes are probably an `.awl` file: the first bytes of a header occur within the
-/// first 8 KiB.
+/// See is_awl() in awl.h.
 bool begins_log(std::string_view bytes);
 
-/// Finds all rows by their checksums. Errors (input): no complete header; a header that layout_of()
-/// refuses; two headers that differ; more than 1000 damaged headers.
+/// Finds all rows by their checksums. Errors (input): those of read_awl() in awl.h.
 Result<Scan> scan_of(std::string_view bytes, const std::string& file);
 
 /// t_s of the row at this offset.

@@ -117,8 +117,8 @@ struct CourseFit {
 };
 
 /// Fits the complex factor k between measured and integrated displacement (calibration_checks.h).
-/// `heading_factor` is applied to the headings first, to test another scale of the heading. Empty
-/// if a channel is missing, with fewer than 15 windows, or if the windows do not determine k.
+/// `heading_factor` multiplies the headings, to test another scale of the heading. Empty if a
+/// channel is missing, with fewer than 15 windows, or if the windows do not determine k.
 std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor = 1.0) {
   for (const LogChannel channel :
        {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kHeading}) {

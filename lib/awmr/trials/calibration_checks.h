@@ -18,10 +18,10 @@
 /// angle from the heading to the course over ground (the direction of motion).
 ///
 /// In a log without a heading, psi is the integral of the yaw rate. Its unknown initial value does
-/// not change the length of a displacement, so only lengths are compared. The factors of c and d
-/// are then i k_c and k_d, with k_c and k_d real: sideslip acts across the heading, latency of the
-/// speed along it. The squares of these two terms are neglected. The constant n is due to noise of
-/// the positions, * marks the complex conjugate:
+/// not change the length of a displacement, so the check then compares only lengths. The factors of
+/// c and d are then i k_c and k_d, with k_c and k_d real: sideslip acts across the heading, latency
+/// of the speed along it. The check neglects the squares of these two terms. The constant n is due
+/// to noise of the positions; * marks the complex conjugate:
 ///
 ///     |p(t1) - p(t0)|^2 = s^2 |a|^2 + 2 s Re(k_b* a b*) + |k_b|^2 |b|^2 + 2 s k_c Im(a c*)
 ///                         + 2 s k_d Re(a d*) + n

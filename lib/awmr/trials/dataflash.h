@@ -18,9 +18,8 @@ bool is_dataflash(std::string_view bytes);
 
 /// Returns the names of all signals, and the values of the requested ones. Bytes between records
 /// (from a lost write) and an incomplete last record are skipped, with a note. Errors: an FMT
-/// record with a wrong length, a wrong number of names or an unknown format character; an FMT
-/// record that contradicts an earlier one of its type; a record with an invalid time; more than
-/// kMaxSignals signals.
+/// record with a wrong length, a wrong number of names or an unknown format character; two
+/// different FMT records of one type; a record with an invalid time; more than kMaxSignals signals.
 Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
                                const Wanted& wanted);
 

@@ -87,9 +87,7 @@ std::optional<std::string> binary_format(const Cells& cells) {
 /// Formats by the name at the beginning of a line.
 using NamedFormats = std::map<std::string, dataflash::Format, std::less<>>;
 
-/// Finds the field of a record type that numbers similar sensors: an FMTU line (TimeUS, type,
-/// units, multipliers) marks it with the unit '#'. Stores the field as Format::instance of the
-/// type.
+/// Like mark_instance() in dataflash.cpp, for an FMTU line.
 void mark_instance_by_units(const Cells& cells, NamedFormats& formats) {
   constexpr std::size_t kType = 2, kUnits = 3;
   const auto type = cells.size() > kUnits ? number_of<std::uint8_t>(cells[kType]) : std::nullopt;

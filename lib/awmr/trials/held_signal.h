@@ -38,7 +38,7 @@ struct LogSignals {
   /// Steering command, rad; the steering angle if the log has no steering command.
   HeldSignal steering;
 
-  /// The logged steering angle, rad, interpolated between `row` and the next one. `share`: fraction
+  /// The logged steering angle, rad, interpolated between `row` and the next row. `share`: fraction
   /// of the time between these rows that has passed, 0 to 1. Precondition: the log has steering
   /// angles.
   double angle_after(std::size_t row, double share) const {

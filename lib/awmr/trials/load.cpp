@@ -95,8 +95,8 @@ std::vector<std::filesystem::path> paths_of(const TrialFiles& files) {
   return paths;
 }
 
-/// Reads the surge, turning and coast-down files, and checks the consistency of each with the
-/// vehicle and the other tables.
+/// Reads the surge, turning and coast-down files, and compares each with the vehicle and the other
+/// tables.
 void read_tables(const TrialFiles& files, const TrialOptions& options, Trials& trials,
                  std::vector<Fault>& faults) {
   auto& [vehicle, data, findings] = trials;

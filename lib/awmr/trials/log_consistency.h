@@ -63,7 +63,6 @@ struct GyroBias {
 /// Estimates the bias by the median over windows of one second. Empty if heading or yaw rate was
 /// not measured, or with fewer than 10 windows.
 std::optional<GyroBias> gyro_bias(const DrivingLog& log);
-/// True if gyro_bias() is significant.
 bool has_gyro_bias(const DrivingLog& log);
 
 }  // namespace awmr

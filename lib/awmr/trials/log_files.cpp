@@ -7,8 +7,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the directory entries with this extension. Errors (input): such an entry is not a
-/// regular file.
 Result<std::vector<fs::path>> with_extension(const std::vector<fs::path>& entries,
                                              const std::string& extension) {
   std::vector<fs::path> paths;

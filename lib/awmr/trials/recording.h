@@ -40,8 +40,7 @@ class Recording {
   explicit Recording(std::vector<ColumnMapping> mappings = {},
                      std::size_t most_bytes = kMaxRecording);
 
-  /// Adds the next piece of the stream. Lines beyond `most_bytes` are dropped, and full() becomes
-  /// true.
+  /// Adds the next piece of the stream. Drops lines beyond `most_bytes`; full() is then true.
   void add(std::string_view bytes);
   /// Ends the stream. A last line without line end is set aside, because the stream may have ended
   /// inside a number.

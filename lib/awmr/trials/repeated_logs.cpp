@@ -38,8 +38,8 @@ std::vector<double> without_turns(std::vector<double> angle_rad) {
   return angle_rad;
 }
 
-/// Commands and measured channels that both logs have. Positions from latitude and longitude are
-/// left out, because the first row of each log is their origin.
+/// Commands and measured channels that both logs have, without positions from latitude and
+/// longitude, whose origin is the first row of each log.
 std::vector<Pair> shared_values(const DrivingLog& a, const DrivingLog& b) {
   std::vector<Pair> pairs{{a.force_left, b.force_left}, {a.force_right, b.force_right}};
   for (const LogChannel channel : kChannels) {
@@ -56,8 +56,8 @@ std::vector<Pair> shared_values(const DrivingLog& a, const DrivingLog& b) {
   return pairs;
 }
 
-/// Resolution of the values: the smallest difference between two values. Differences of at most
-/// 1e-9 of their range are ignored, because they are due to rounding.
+/// Resolution of the values: the smallest difference between two values. Ignores differences of at
+/// most 1e-9 of the range, which are due to rounding.
 double resolution_of(std::vector<double> values) {
   std::ranges::sort(values);
   const double least = 1e-9 * (values.back() - values.front());

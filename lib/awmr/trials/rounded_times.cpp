@@ -53,8 +53,7 @@ std::int64_t median_of(std::vector<std::int64_t> steps) {
 }
 
 /// Row numbers n_k: 0, 1, 2, ... plus the number of missing rows before each row. The step between
-/// rows is estimated as the mean of all steps that differ from the median step by at most the
-/// resolution.
+/// rows is the mean of all steps that differ from the median step by at most the resolution.
 std::vector<double> numbers_with_missing_rows(const std::vector<std::int64_t>& steps,
                                               std::int64_t resolution) {
   const std::int64_t usual = median_of(steps);

@@ -276,10 +276,10 @@ SideShares side_shares(const std::vector<EvidenceWindow>& windows, Y y_of) {
 }
 
 /// Detects a speed that is proportional to F'R - F'L instead of F'L + F'R. If heading or yaw rate
-/// follow F'R - F'L as well, the forces are right and the speed is wrong. It comes from wheels of
-/// which one side is reversed, or from another column. Otherwise a force column has the wrong sign.
-/// If the log has a yaw rate but no heading, there is another possible cause: wheel odometry with
-/// one side reversed gives both speed and yaw rate.
+/// follow F'R - F'L as well, the forces are right and the speed is wrong. The speed then comes from
+/// wheels of which one side is reversed, or from another column. Otherwise a force column has the
+/// wrong sign, or, in a log with a yaw rate but no heading, wheel odometry with one side reversed
+/// gives both speed and yaw rate.
 std::optional<Contradiction> check_one_side(const Evidence& evidence) {
   constexpr std::size_t kMinSeconds = 10;
   if (!evidence.has(LogChannel::kSpeed) || evidence.windows.size() < kMinSeconds) {
@@ -316,9 +316,8 @@ std::optional<Contradiction> check_one_side(const Evidence& evidence) {
 }
 
 /// Increase of the logged speed during rearward thrust, m/s, summed over all time spans with such
-/// thrust. The speed is averaged over 0.25 s. The increase in a span is the largest rise of this
-/// average above an earlier value. Leaves out the first half second of a span, because motors and
-/// sensors may lag.
+/// thrust. The increase in a span is the largest rise of the speed, averaged over 0.25 s, above an
+/// earlier value. Leaves out the first half second of a span, because motors and sensors may lag.
 double gathered_backwards_mps(const DrivingLog& log) {
   // Thrust counts as rearward if its magnitude is at least this fraction of the largest thrust.
   constexpr double kPushes = 0.1;

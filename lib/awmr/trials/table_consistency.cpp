@@ -174,8 +174,7 @@ void check_thrust(const Table& table, const TrialSet<SurgeRow>& surge, const Tab
       remedy_of(found.units, found.unit_fixes, table.options.columns));
 }
 
-/// Reports steering angles that are probably in radians, because all are below 2 % of the steering
-/// stop in degrees. Returns false if it reports them.
+/// Reports steering angles that are probably in radians. Returns false if it reports them.
 bool check_steering(const Table& table, const std::vector<TurningRow>& rows,
                     const Vehicle& vehicle) {
   // Angles may be in radians if all are below this fraction of the stop in degrees: 1 deg is 0.0175

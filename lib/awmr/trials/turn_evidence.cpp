@@ -141,9 +141,8 @@ std::string turn_text(const TurningRow& row) {
                      row.sides->right - row.sides->left);
 }
 
-/// Yaw rate r of a steered turn, divided by that of rolling wheels, u tan(d_r)/l_f. u is the speed
-/// of the surge runs with this force, d_r the steering angle. l_f is the distance from the centre
-/// of gravity to the front axle. Empty if u is unknown.
+/// Yaw rate of a steered turn, divided by the limit by rolling (turn_evidence.h). Empty if u is
+/// unknown.
 std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& speed,
                                        const Vehicle& vehicle) {
   const auto u = speed.at(vehicle.driven_wheels() * row.wheel_force);
@@ -156,11 +155,9 @@ std::optional<TurnShare> steered_share(const TurningRow& row, const SpeedCurve& 
                                *u, most)};
 }
 
-/// Yaw rate r of a differential turn, divided by that of rolling wheels, (u(n F'R) - u(n F'L))/(2
-/// d). u(tau) is the speed of the surge runs at the thrust tau, n the number of driven wheels. F'L
-/// and F'R are the forces of a left and a right wheel; d is half the track width. Empty if one of
-/// the speeds is unknown. Scatter of the surge runs may make the curve u(tau) too flat between the
-/// two forces, so the slope there counts as at least half of the mean slope from the origin.
+/// Yaw rate of a differential turn, divided by the limit by rolling (turn_evidence.h). Empty if one
+/// of the speeds is unknown. Scatter of the surge runs may make the curve u(tau) too flat between
+/// the two forces, so the slope there counts as at least half of the mean slope from the origin.
 std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& speed,
                                     const Vehicle& vehicle) {
   const int n = vehicle.driven_wheels();
@@ -180,9 +177,7 @@ std::optional<TurnShare> side_share(const TurningRow& row, const SpeedCurve& spe
                   difference, most)};
 }
 
-/// Yaw rate r of a steered turn, divided by the limit by grip. At this limit, the centripetal
-/// acceleration on the smallest possible circle, of radius l_f/tan(d_r), is kMaxAcceleration_mps2.
-/// l_f is the distance from the centre of gravity to the front axle, d_r the steering angle.
+/// Yaw rate of a steered turn, divided by the limit by grip (turn_evidence.h).
 TurnShare grip_share(const TurningRow& row, const Vehicle& vehicle) {
   const double radius_m = vehicle.front_axle_m / std::tan(row.steering_rad);
   const double most = std::sqrt(kMaxAcceleration_mps2 / radius_m);

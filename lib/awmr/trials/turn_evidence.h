@@ -1,8 +1,10 @@
 /// Checks that the yaw rates of a turning table are possible with rolling wheels and with the grip
 /// of tyres. Detects yaw rates in a wrong unit. Private to this folder.
 ///
-/// Limit by rolling. u(tau) is the speed of the surge runs at the thrust tau. In a turn, wheels
-/// roll no faster than straight ahead with the same force. The wheelbase is longer than l_f, so
+/// Limit by rolling. u(tau) is the speed of the surge runs at the thrust tau = n F' of n driven
+/// wheels with the force F'. d_r is the steering angle, l_f the distance from the centre of gravity
+/// to the front axle, and d half the track width. In a turn, wheels roll no faster than straight
+/// ahead with the same force. The wheelbase is longer than l_f, so
 ///
 ///     steered       r <= u(n F') tan(d_r)/l_f            up to 3 times as much is accepted
 ///     differential  r <= (u(n F'R) - u(n F'L))/(2 d)     up to 4 times as much is accepted

@@ -188,7 +188,7 @@ bool has_rate(TrialReader& reader, std::size_t row) {
 }
 
 /// Reads a run of a vehicle with steering: a steered turn or, with straight wheels, a differential
-/// one. Empty on a fault.
+/// turn. Empty on a fault.
 std::optional<Turn> by_steering_or_sides(TrialReader& reader, std::size_t row,
                                          const Vehicle& vehicle) {
   const auto left = reader.cell(row, "force_left");
@@ -270,8 +270,8 @@ std::optional<TurningRow> read_row(TrialReader& reader, std::size_t row, const V
                     .is_right_turn = turn->left < 0.0};
 }
 
-/// If all turns in the table of a vehicle with steering are differential, moves them to `rows`, so
-/// that the yaw resistance g3 is fitted to them. Adds the warning `turned-by-sides`.
+/// If all turns in the table of a vehicle with steering are differential, moves them to `rows`, to
+/// which the fit of the yaw resistance g3 then applies. Adds the warning `turned-by-sides`.
 void take_sides_alone(TrialSet<TurningRow>& set, std::vector<Finding>& findings) {
   if (!set.rows.empty() || set.by_sides.empty()) return;
   set.rows = std::exchange(set.by_sides, {});

@@ -190,8 +190,7 @@ std::optional<Contradiction> check_absent_steering(const Evidence& evidence) {
                        column + "=0"};
 }
 
-/// Detects steering angles far beyond the stop, which are probably the command or the counts of a
-/// servo.
+/// Detects steering angles far beyond the stop: probably the command or the counts of a servo.
 std::optional<Contradiction> check_large_angles(const Evidence& evidence, const std::string& column,
                                                 double largest_deg) {
   const double stop_deg = evidence.vehicle.steering_max_deg;
@@ -242,8 +241,8 @@ std::optional<Contradiction> check_radians(const Evidence& evidence, const std::
       scaled_mapping(evidence, column, degrees(1.0))};
 }
 
-/// Detects values that are not steering angles in degrees: radians, and a servo's angle, pulse
-/// length, percent or counts. Also detects any angle other than 0 of a vehicle without steering.
+/// Detects values that are not steering angles in degrees, and angles of a vehicle without
+/// steering.
 std::optional<Contradiction> check_steering(const Evidence& evidence) {
   if (!evidence.vehicle.has_steering()) return check_absent_steering(evidence);
   const double largest_deg = largest_steering_deg(evidence.log);

@@ -88,7 +88,7 @@ std::string ratios_in_words(const CoastFit& fit) {
 }
 
 /// Adds the finding `power-law-inadequate` if the AICc of another family is lower than that of the
-/// power law by at least kFamilyAicThreshold. Does nothing otherwise.
+/// power law by at least kFamilyAicThreshold.
 void compare_with_other_families(const std::vector<CoastFit>& fits, const std::string& file,
                                  MassResult& result) {
   const CoastFit& power = fits.front();

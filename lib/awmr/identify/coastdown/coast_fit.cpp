@@ -52,8 +52,7 @@ CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   return fit;
 }
 
-/// Free parameters of the curve g1(u)/a1 = c1/a1 + u^b1 + (q1/a1) u^2: those of b1, c1/a1 and q1/a1
-/// that the family has.
+/// The parameters b1, c1/a1 and q1/a1 that the family has.
 std::vector<TransformedParameter> shapes_of(Family family) {
   const FamilyTerms terms = terms_of(family);
   std::vector<TransformedParameter> shapes;

@@ -60,9 +60,8 @@ void free_within_errors(const CoastData& data, double prior_mps, CoastProblem& p
   problem.free_law(free, data.surge.covariance(places, places), prior_mps);
 }
 
-/// Fits the curves once, with a filter if `start` has one. `prior_mps`: standard deviation of the
-/// curves' noise, m/s, which weights the prior of the surge law against the curves; 0: the surge
-/// law is fixed.
+/// Fits the curves once, with a filter if `start` has one. `prior_mps`: see free_within_errors();
+/// 0: the surge law is fixed.
 CoastCandidate fit_once(const CoastData& data, const CoastStart& start, double prior_mps) {
   const Resistance<double> law = data.surge.law();
   CoastProblem problem(data.curves, data.surge.theta, start,
@@ -136,7 +135,7 @@ bool is_slow(const CoastStart& at, const CoastData& data) {
 ///     give its deceleration;
 ///   - `plain`, if the filter of `best` is slower than the motion and the residuals are correlated;
 ///   - `best`, if `fixed` has another m', and the filter is slower than the motion in only one of
-///     the two;
+///     these two fits;
 ///   - the point found by flat_direction(), where the sum of squares is lower than the standard
 ///     error of ln m' predicts.
 std::optional<CoastStart> competitor(const CoastCandidate& plain, const CoastCandidate& other,

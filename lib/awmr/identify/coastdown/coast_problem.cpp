@@ -58,8 +58,8 @@ T filtered(const T& y, const T& u, const T& next, const T& h, const T& lag_s) {
 }
 
 /// Residuals of one curve: modelled minus measured speeds. Parameters: the surge law (ln a, b, c,
-/// q), ln m', the filter's time constant T, and the run's initial speed u0 and time of motors-off
-/// t0.
+/// q), ln m', the filter's time constant T, and the run's initial speed u0 and time t0 of switching
+/// the motors off.
 struct CoastResidual {
   const CoastCurve* curve;
   double longest_step_s;
@@ -139,10 +139,11 @@ constexpr double kFilterStep = 0.01;
 /// Smallest time constant T of a filter in a search, s; T = 0 would be a division by 0.
 constexpr double kShortestLag_s = 1e-4;
 
-/// Finds the plateau of the speed before motors-off. It ends at the last sample within 4 standard
-/// deviations of the mean of the samples before it. A plateau needs more than eight samples, and at
-/// least eight samples after it. The standard deviation of the noise is the root mean square of the
-/// second differences over sqrt(6), because second differences of a smooth curve are small.
+/// Finds the plateau: constant speed before the motors were switched off. The plateau ends at the
+/// last sample within 4 standard deviations of the mean of the samples before it. A plateau needs
+/// more than eight samples, and at least eight samples after it. The standard deviation of the
+/// noise is the root mean square of the second differences over sqrt(6), because second differences
+/// of a smooth curve are small.
 CoastInitialState initial_state_of(const CoastCurve& curve) {
   const std::vector<double>& u = curve.speed_mps;
   double squares = 0.0;

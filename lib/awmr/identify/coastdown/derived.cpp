@@ -38,9 +38,8 @@ double derivative(const SteadyFit& surge, TransformedParameter c, double speed_m
   return high && low ? -(*high - *low) / (2.0 * h) : 0.0;
 }
 
-/// Derivative of ln m' (for a given stop time) by one coordinate of the surge law. For a power law
-/// the derivative is 1 by ln a1, and -1/(1 - b1) + ln u_max by b1, with the initial speed u_max =
-/// speed_mps. For other laws it is derivative().
+/// The same derivative, for a power law in closed form: 1 by ln a1, and -1/(1 - b1) + ln u_max by
+/// b1, with the initial speed u_max = speed_mps.
 double by_coordinate(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
   const Resistance<double> law = surge.law();
   if (law.coulomb > 0.0 || law.quadratic > 0.0) return derivative(surge, c, speed_mps);

@@ -101,8 +101,8 @@ BySet variance_components(const Rows& rows, const BySet& dof) {
           rows.coast_residuals.squaredNorm() / std::max(1.0, dof.coast)};
 }
 
-/// Satterthwaite's degrees of freedom of the first `count` variances V = Vs + Vc, with the
-/// contribution Vs of the surge rows and Vc of the curves:
+/// Effective degrees of freedom (Satterthwaite) of the first `count` variances V = Vs + Vc, with
+/// the contribution Vs of the surge rows and Vc of the curves:
 ///   V^2 / (Vs^2/dof_s + Vc^2/dof_c)
 Eigen::VectorXd satterthwaite(const Stacked& s, const BySet& variance, const BySet& dof,
                               Eigen::Index count) {

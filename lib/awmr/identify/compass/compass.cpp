@@ -131,8 +131,7 @@ double heading_error_rad(const Known& known) {
   return known.half * std::sqrt(worst);
 }
 
-/// Value of `function` at the fitted ellipse, with its 95 % interval. The derivatives of `function`
-/// by the parameters of the ellipse are computed by central differences.
+/// Value of `function` at the fitted ellipse, with its 95 % interval.
 template <class Function>
 WithInterval with_interval(const Known& known, const Function& function) {
   Parameters gradient;

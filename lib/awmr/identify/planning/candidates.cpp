@@ -308,10 +308,9 @@ ScrubPlan scrub_plan(const Model& model) {
   return plan;
 }
 
-/// Plans the turn with the motors off, at the speed u and the steering angle d_r. The yaw rate r is
-/// that of a vehicle with the wheelbase 2 l_f that rolls without slip about a centre on the line of
-/// the rear axle (tyres.h). The angle is limited so that the lateral acceleration u r is at most
-/// 0.2 g:
+/// At the speed u and the steering angle d_r, a vehicle with the wheelbase 2 l_f that rolls without
+/// slip about a centre on the line of the rear axle (tyres.h) has the yaw rate r. The lateral
+/// acceleration u r limits the angle:
 ///   r = u tan(d_r)/(2 l_f),   u r <= 0.2 g
 std::optional<CoastingTurn> coasting_turn(const Model& model) {
   const Vehicle& vehicle = model.vehicle;

@@ -174,9 +174,8 @@ double log_determinant(const Eigen::MatrixXd& covariance) {
   return symmetric_eigen(covariance).values.array().max(1e-300).log().sum();
 }
 
-/// Computes how a candidate trial changes the covariance C of the parameter coordinates: C_after =
-/// (C^-1 + J^T J)^-1. J has the derivatives of the trial's measurements, each divided by its
-/// standard deviation, by the coordinates.
+/// Computes C_after as suggest() in suggest.h describes. Here W = 1, because each measurement is
+/// divided by its standard deviation.
 SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
                         const Uncertainty& uncertainty, const Target& target) {
   const Eigen::MatrixXd j = jacobian_of(model, uncertainty.parameters, candidate.standardised);

@@ -225,8 +225,8 @@ double std_of(const SensorNoise& noise, LogChannel channel) {
   return 0.002;
 }
 
-/// Measurements of a channel: true values with noise, sampled every `stride` rows and held in
-/// between.
+/// Measurements of a channel: true values with noise, sampled every `stride` rows and repeated
+/// until the next sample.
 Measured measured(const std::vector<State<double>>& truth, LogChannel channel, std::size_t stride,
                   NoiseSource source, Random& random) {
   Measured result{std::vector<double>(truth.size()), std::vector<bool>(truth.size(), false), 0,

@@ -20,8 +20,8 @@ namespace {
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
 /// Steady rate g^-1(force) at a force, with its derivatives; 0 if the force is below Coulomb
-/// friction. The root is found in double precision. One Newton step from the root in the type T,
-/// which has derivatives, gives the derivatives of the implicit function.
+/// friction. Finds the root in double precision. One Newton step from the root in the type T, which
+/// has derivatives, then gives the derivatives of the implicit function.
 template <class T>
 T inverse(const Resistance<T>& law, const T& force) {
   const Resistance<double> plain = value_of(law);

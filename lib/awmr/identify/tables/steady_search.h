@@ -13,9 +13,9 @@
 namespace awmr {
 
 /// Ceres problem of a table fit, with one parameter block per coordinate. The coordinates of the
-/// family are variable, except `held`, which keeps its initial value. The initial guess of a
-/// variable coordinate is moved into its bounds. Not movable, because Ceres has pointers to its
-/// members. `problem` must outlive the object.
+/// family are variable, except `held`, which keeps its initial value. Moves the initial guess of a
+/// variable coordinate into its bounds. Not movable, because Ceres has pointers to its members.
+/// `problem` must outlive the object.
 class SteadySearch {
  public:
   SteadySearch(const SteadyProblem& problem, const TransformedParameters& initial_guess,

@@ -91,8 +91,8 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   const bool tried = std::ranges::any_of(
       candidates, [&](const FamilyCandidate& c) { return c.problem.noise == wanted; });
   if (!chosen && !options.family.family && subject.points.size() < kMinToCompare) {
-    // With so few runs, no family has an AICc. The power law is chosen, because no other family has
-    // fewer parameters.
+    // With so few runs, no family has an AICc. The power law has as few parameters as any other
+    // family.
     chosen = candidate_of(candidates, Family::kPower, wanted);
     choice.findings.push_back(not_compared(subject));
   }

@@ -50,8 +50,8 @@ const FamilyCandidate* candidate_of(const std::vector<FamilyCandidate>& candidat
                                     ErrorModel noise);
 
 /// The converged fit with the smallest AICc among the fits under the error model `noise`. Of fits
-/// with equal AICc, the one that was fitted first is returned. Null if no fit has an AICc, for
-/// example because there are too few runs.
+/// with equal AICc, returns the first. Null if no fit has an AICc, for example because there are
+/// too few runs.
 const FamilyCandidate* best_candidate(const std::vector<FamilyCandidate>& candidates,
                                       ErrorModel noise);
 

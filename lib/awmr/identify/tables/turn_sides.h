@@ -16,8 +16,8 @@ namespace awmr {
 ///
 ///     tau + s M = a3 r^b3,   for small M: ln tau = ln a3 + b3 ln r - M s/tau
 ///
-/// which is linear in ln a3, b3 and M. Needs two turns to each side and six in total. `yaw`: the
-/// subject of the turning runs `runs`.
+/// which is linear in ln a3, b3 and M. Needs two turns to each side and six turns in total. `yaw`:
+/// the subject of the turning runs `runs`.
 std::optional<Finding> compare_sides(const Subject& yaw, const TrialSet<TurningRow>& runs);
 
 }  // namespace awmr
