@@ -129,7 +129,6 @@ FamilyChoice yaw_family(const IdentifyOptions& options) {
   return options.yaw_family;
 }
 
-/// Moves the reports and findings of one step of the identification into the model's record.
 template <class Step>
 void record(Step& step, Model& model) {
   std::move(step.reports.begin(), step.reports.end(), std::back_inserter(model.record.reports));
@@ -172,7 +171,6 @@ SubjectFit identify_laws(const Vehicle& vehicle, const TrialData& data,
   return surge;
 }
 
-/// Estimates m' and I'z from coast-downs, if any.
 void identify_mass(const Vehicle& vehicle, const TrialData& data, const IdentifyOptions& options,
                    const SubjectFit& surge, MainValues& values, Reasons& reasons) {
   if ((!data.coastdown || data.coastdown->rows.empty()) && data.curves.empty()) return;
@@ -184,7 +182,6 @@ void identify_mass(const Vehicle& vehicle, const TrialData& data, const Identify
   reasons.curve_alone = mass.alone.has_value();
 }
 
-/// Fits the driving logs, if there are any.
 Result<void> identify_from_logs(const Vehicle& vehicle, const TrialData& data,
                                 const IdentifyOptions& options,
                                 const std::vector<ParameterId>& requested, MainValues& values,

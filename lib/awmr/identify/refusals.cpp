@@ -59,7 +59,6 @@ std::string table_reason(ParameterId id, const TrialData& data, const Reasons& r
   }
 }
 
-/// True if a log has one of these channels.
 bool is_logged(const TrialData& data, std::initializer_list<LogChannel> channels) {
   return std::ranges::any_of(data.logs, [&](const DrivingLog& log) {
     return std::ranges::any_of(channels, [&](LogChannel c) { return log[c].has_value(); });

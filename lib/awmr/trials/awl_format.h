@@ -11,7 +11,6 @@
 
 namespace awmr::awl {
 
-/// Number type of a column.
 enum class Kind { kFloat, kUnsigned, kByte };
 
 struct Column {
@@ -41,7 +40,6 @@ double value_in(std::string_view row, const Column& column);
 /// columns of bits, such as `fault`. 0 if the layout has no such column.
 unsigned bits_in(std::string_view row, const Layout& layout, std::string_view name);
 
-/// Position of a complete row.
 struct Place {
   std::size_t offset = 0;  ///< bytes from the beginning of the file
   std::size_t run = 1;     ///< number of the run, from 1; each start of the chip begins a run

@@ -386,8 +386,8 @@ std::vector<Finding> calibration_findings(const DrivingLog& log,
         {log.file, 0, Severity::kWarning, "heading-offset",
          fmt::format(
              "the course over ground differs from heading_deg by {:+.2f} +- {:.2f} deg (left "
-             "positive): the compass is rotated in the vehicle, its declination is missing, or the "
-             "vehicle drifts to one side; the fit estimates this offset, as if {} were given",
+             "positive): the compass is rotated in the vehicle, its declination is missing, or "
+             "the vehicle drifts to one side; the fit estimates this offset, as with {}",
              degrees(offset->value), degrees(offset->std_error),
              option_text("fit bias.heading_deg"))});
   }

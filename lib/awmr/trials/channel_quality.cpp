@@ -200,7 +200,6 @@ double largest_size(std::span<const double> values) {
   return most;
 }
 
-/// Consecutive rows with the same value.
 std::vector<RowSpan> equal_runs(std::span<const double> value) {
   std::vector<RowSpan> runs;
   for (std::size_t i = 0; i < value.size();) {

@@ -87,7 +87,8 @@ TrialSet<StopTimeRow> read_stop_times(TrialReader& reader, std::vector<Finding>&
     }
   }
   set.set_aside = static_cast<int>(set_aside.size());
-  note_rows_set_aside(reader, set_aside, "a coast-down from rest does not determine m'", findings);
+  note_rows_set_aside(reader, set_aside, "a coast-down from rest does not determine mass_norm",
+                      findings);
   find_repeated_rows(reader, kept,
                      {.settings = {"initial_speed_mps"}, .timed = "stop_time_s", .scatter = 0.01},
                      findings);

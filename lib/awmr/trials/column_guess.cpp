@@ -261,7 +261,6 @@ Words with_body_velocity(Words words) {
   return words;
 }
 
-/// Guesses which columns of the sample provide awmr's column `column`.
 std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample& sample,
                                     TrialKind kind) {
   std::vector<ColumnGuess> guesses;

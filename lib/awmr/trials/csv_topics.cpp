@@ -14,7 +14,6 @@
 namespace awmr {
 namespace {
 
-/// Text and header of one file.
 struct File {
   std::string path;
   std::string stem;
@@ -55,7 +54,6 @@ Result<std::vector<File>> read_files(std::span<const std::filesystem::path> path
   return files;
 }
 
-/// Number of files that have a column of each name.
 std::map<std::string, int> counts_of(const std::vector<File>& files) {
   std::map<std::string, int> counts;
   for (const File& file : files) {

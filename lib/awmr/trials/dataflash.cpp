@@ -117,7 +117,6 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
   return contents;
 }
 
-/// A topic and its requested fields.
 struct Listed {
   std::size_t topic = 0;  ///< index in Signals::topics
   /// Requested fields, in the order of Topic::columns.
@@ -174,7 +173,7 @@ Result<Signals> read_dataflash(std::string_view bytes, const std::string& file,
   if (signals.header.size() > kMaxSignals) {
     return input_error(ErrorCode::kTooLarge, file,
                        fmt::format("there are more than {} signals, the most that awmr reads; "
-                                   "export fewer",
+                                   "export fewer signals",
                                    kMaxSignals));
   }
   const auto take = [&](std::uint8_t type, std::string_view record, std::size_t offset) -> Status {

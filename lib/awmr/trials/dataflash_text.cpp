@@ -118,7 +118,6 @@ tl::unexpected<Error> error_at(const std::string& file, int line, const std::str
   return input_error(ErrorCode::kBrokenFile, fmt::format("{}:{}", file, line), why);
 }
 
-/// Adds the format that an FMT line defines.
 Status define(const Cells& cells, const std::string& file, int line, NamedFormats& formats) {
   const std::optional<std::string> record = binary_format(cells);
   if (!record) {
@@ -146,7 +145,6 @@ std::optional<TextTopic> topic_of_line(const Cells& cells, const dataflash::Form
   return TextTopic{format.name, *instance};
 }
 
-/// Formats and topics of the file, which must be known before its values are read.
 struct TextContents {
   NamedFormats formats = {};
   std::map<TextTopic, std::size_t> topics = {};  ///< number of records by topic
@@ -175,7 +173,6 @@ Result<TextContents> text_contents(std::string_view bytes, const std::string& fi
   return contents;
 }
 
-/// A topic and its requested fields.
 struct ListedText {
   std::size_t topic = 0;  ///< index in Signals::topics
   /// Requested fields, as indices in Format::fields, in the order of Topic::columns.
@@ -205,7 +202,6 @@ std::map<TextTopic, ListedText> list_text_topics(const TextContents& contents, c
   return listed;
 }
 
-/// Time of a line, ns; empty if invalid.
 std::optional<std::int64_t> time_of_line(const Cells& cells, const dataflash::Format& format) {
   const bool in_us = format.fields[*format.time].name == "TimeUS";
   const std::int64_t unit_ns = in_us ? 1'000 : 1'000'000;
@@ -260,7 +256,7 @@ Result<Signals> read_dataflash_text(std::string_view bytes, const std::string& f
   if (signals.header.size() > kMaxSignals) {
     return input_error(ErrorCode::kTooLarge, file,
                        fmt::format("there are more than {} signals, the most that awmr reads; "
-                                   "export fewer",
+                                   "export fewer signals",
                                    kMaxSignals));
   }
   AWMR_RETURN_IF_ERROR(for_each_line(whole, [&](const Cells& cells, int line) -> Status {

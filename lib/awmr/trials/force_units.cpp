@@ -71,7 +71,6 @@ bool is_full_power(double largest) {
       kFullScales, [&](const FullScale& scale) { return is_end_of_scale(largest, scale.end); });
 }
 
-/// Adds a unit unless it is already in the list.
 void add_unit(std::vector<ForceUnit>& units, const ForceUnit& unit) {
   const bool is_known =
       std::ranges::any_of(units, [&](const ForceUnit& one) { return one.words == unit.words; });

@@ -19,7 +19,6 @@ class HeldSignal {
   /// Integral from the time of the log's first row to t_s. Before the first row the command has its
   /// first value, after the last row its last value.
   double integral(double t_s) const;
-  /// Value of the command at t_s.
   double at(double t_s) const;
 
  private:

@@ -48,7 +48,6 @@ void join(std::optional<TrialSet<Row>>& all, TrialSet<Row> found) {
   }
 }
 
-/// Adds the steady runs of the logs to the surge and turning rows.
 void add_steady_runs(Trials& trials) {
   for (const DrivingLog& log : trials.data.logs) {
     SteadyRuns runs = steady_runs(log, trials.vehicle, {}, trials.findings);
@@ -72,7 +71,6 @@ void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
   }
 }
 
-/// Indices of all column mappings that were used by a file.
 std::vector<std::size_t> mappings_used(const TrialData& data) {
   std::vector<std::size_t> used;
   const auto add = [&](const std::vector<std::size_t>& more) {

@@ -106,15 +106,14 @@ bool are_regular(const std::vector<double>& t_s, const std::vector<std::size_t>&
   return static_cast<double>(usual) >= kMost * static_cast<double>(gaps_s.size());
 }
 
-/// Adds the note `only-changes`.
 void note_changes_only(LogChannel channel, const DrivingLog& log,
                        const std::vector<std::size_t>& rows, double resolution,
                        std::vector<Finding>& findings) {
   const ChannelInfo& about = info(channel);
   findings.push_back(
       {log.file, 0, Severity::kNote, "only-changes",
-       fmt::format("{} has {} values in {} rows; each differs from the one before it, mostly "
-                   "by the resolution of {:.3g}. awmr uses each value until the next one",
+       fmt::format("{} has {} values in {} rows; each value differs from the value before, "
+                   "mostly by the resolution of {:.3g}. awmr uses each value until the next one",
                    about.column, rows.size(), log.rows(), resolution / about.to_si)});
 }
 

@@ -81,8 +81,8 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
     findings.push_back(
         {log.file, 0, Severity::kWarning, "gyro-bias",
          fmt::format(
-             "yaw_rate_radps differs by {:.3g} +- {:.2g} rad/s from the rate of the heading: "
-             "a gyro bias; the fit estimates this bias, as if {} were given",
+             "yaw_rate_radps differs by {:.3g} +- {:.2g} rad/s from the rate of the heading: a "
+             "gyro bias; the fit estimates this bias, as with {}",
              bias->bias_radps, bias->std_error_radps, option_text("fit bias.yaw_rate_radps"))});
   }
   return {};

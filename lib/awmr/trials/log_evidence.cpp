@@ -203,7 +203,6 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   const bool apart = determinant > 0.19 * ss * dd && !steering_only && !sides_only;
   if (n < 10.0 || rr <= 0.0) return {};
   constexpr double kSignificant = 5.0;  // smallest significant coefficient, in standard errors
-  // Returns the coefficient if it is significant, else 0.
   const auto shown = [&](double coefficient, double variance_factor, double explained) {
     const double noise = std::max(0.0, rr - explained) / std::max(1.0, n - 2.0);
     return std::abs(coefficient) > kSignificant * std::sqrt(noise * variance_factor) ? coefficient

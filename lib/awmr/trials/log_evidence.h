@@ -60,7 +60,6 @@ std::vector<LogWindow> evidence_rows(const DrivingLog& log, double length_s);
 /// The integral of a channel over a window (trapezoidal rule).
 double integral_of(const DrivingLog& log, LogChannel channel, const LogWindow& window);
 
-/// Returns member(window) of every window.
 template <class Member>
 std::vector<double> series(const std::vector<EvidenceWindow>& windows, Member member) {
   std::vector<double> values;
@@ -104,7 +103,6 @@ std::string scaled_mapping(std::span<const ColumnMapping> mappings, std::string_
                            double factor, double offset = 0.0);
 std::string scaled_mapping(const Evidence& evidence, std::string_view column, double factor,
                            double offset = 0.0);
-/// The two mappings that swap the force columns.
 std::array<std::string, 2> swapped_mappings(const Evidence& evidence);
 
 /// Detects a log in which the vehicle never moves, so that its channels cannot be compared.

@@ -23,7 +23,6 @@ struct Sums {
 };
 using ChannelSums = std::array<Sums, kChannelCount>;
 
-/// Model and settings for predicting any rows of a log.
 struct Predictor {
   LogSignals signals;
   Plant<double> plant;

@@ -57,7 +57,6 @@ Result<CsvTable> table_of_columns(std::vector<std::string> header,
   return table_of(std::move(raw), std::move(sources), mappings, std::move(faults));
 }
 
-/// Table of a log of the emitted firmware (`.awl`).
 Result<CsvTable> table_of_awl(std::string_view bytes, const std::string& file,
                               std::span<const CsvColumn> columns,
                               std::span<const ColumnMapping> mappings) {

@@ -51,7 +51,6 @@ class Recording {
   /// Number of rows of data. Lines set aside, comments and empty lines are not counted.
   std::size_t rows() const { return rows_; }
   bool has_header() const { return !header_.names.empty(); }
-  /// Number of lines set aside.
   std::size_t set_aside() const { return set_aside_; }
   bool full() const { return full_; }
   /// Returns the finding `lines-set-aside` with its place in `file`; empty if no line was set

@@ -117,7 +117,6 @@ std::optional<double> likeliest_offset_s(const DrivingLog& a, const RoundedRows&
   return median(std::move(most->second));
 }
 
-/// Row of the log with the time nearest to `t_s`.
 std::size_t nearest_row(const DrivingLog& log, double t_s) {
   const auto after = std::ranges::lower_bound(log.t_s, t_s);
   if (after == log.t_s.begin()) return 0;

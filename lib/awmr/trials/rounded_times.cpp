@@ -137,10 +137,10 @@ void replace_rounded_times(std::vector<double>& t_s, const std::string& file, in
   if (rounded->even_s.empty()) {
     findings.push_back(
         {file, line, Severity::kWarning, "rounded-times",
-         fmt::format("t_s has unequal steps that are multiples of {:g} s: the times are probably "
-                     "rounded. The rows are not evenly spaced, so the times cannot be corrected. "
-                     "The fit can mistake their errors for smoothed or late sensors; write the "
-                     "time with more digits",
+         fmt::format("t_s has unequal steps that are multiples of {:g} s: the times are "
+                     "probably rounded. The rows are not evenly spaced, so the times cannot be "
+                     "corrected. The fit can mistake their errors for smoothing or latency of "
+                     "the sensors; write the time with more digits",
                      rounded->resolution_s)});
     return;
   }

@@ -111,7 +111,6 @@ double mean_of(const std::vector<double>& signal, Stretch s) {
   return sum / static_cast<double>(s.end - s.begin);
 }
 
-/// A steady run and its commands.
 struct SteadyRun {
   SteadySegment segment;
   double wheel_force = 0.0;   ///< F' of each wheel, the mean of both sides
@@ -145,7 +144,6 @@ std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicl
                    {left, right}};
 }
 
-/// Builds the row of a turning table from a steady run of a vehicle without steering.
 TurningRow sides_turning_row(const SteadyRun& run, const Vehicle& vehicle) {
   const auto [least, most] = std::minmax(run.sides.left, run.sides.right);
   return {.line = run.segment.line,

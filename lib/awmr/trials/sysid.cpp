@@ -38,7 +38,6 @@ struct SysIdField {
   SysIdUnit unit = SysIdUnit::kNone;
 };
 
-/// Format of a row.
 struct SysIdRow {
   std::size_t numbers;  ///< count of numbers in a row
   std::vector<SysIdField> fields;

@@ -16,7 +16,6 @@
 namespace awmr {
 namespace {
 
-/// A table that is checked, and the lists to which its findings and faults are added.
 struct Table {
   const std::filesystem::path& path;
   const std::string& file;
@@ -118,7 +117,6 @@ std::string limits_text(const Interval& force) {
   return fmt::format("wheel_force [{:g}, {:g}] of the vehicle", force.lo, force.hi);
 }
 
-/// Checks the forces of differential turns.
 void check_sides(const Table& table, const std::vector<TurningRow>& rows, const Tables& tables) {
   const auto [first, span] = beyond(rows, side_forces, side_limit(tables.vehicle));
   if (first == nullptr) return;
@@ -208,8 +206,9 @@ void warn_of_fast_coasts(const Table& table, int line, double fastest_mps,
   table.findings.push_back(
       {table.file, line, Severity::kWarning, "coast-beyond-surge",
        fmt::format("a coast-down begins at {:.3g} m/s, {:.2g} times the fastest surge run "
-                   "({:.3g} m/s): m' depends on a resistance that no run measured. Record faster "
-                   "surge runs, or check the unit of the speeds (km/h are 3.6 times m/s)",
+                   "({:.3g} m/s): mass_norm depends on a resistance that no run measured. "
+                   "Record faster surge runs, or check the unit of the speeds (km/h are 3.6 "
+                   "times m/s)",
                    fastest_mps, fastest_mps / driven_mps, driven_mps)});
 }
 
@@ -248,8 +247,8 @@ void warn_of_slow_coasts(const TrialData& data, std::vector<Finding>& findings) 
       {coast.file, coast.line, Severity::kWarning, "coast-below-surge",
        fmt::format(
            "the fastest coast-down begins at {:.3g} m/s, {:.2g} times the fastest surge run "
-           "({:.3g} m/s): one of the tables may have its speeds in another unit (km/h are "
-           "3.6 times m/s), which makes m' wrong. If both are in m/s, coast from a higher "
+           "({:.3g} m/s): one of the tables may have its speeds in another unit (km/h are 3.6 "
+           "times m/s), which makes mass_norm wrong. If both are in m/s, coast from a higher "
            "speed",
            coast.speed_mps, coast.speed_mps / driven_mps, driven_mps)});
 }

@@ -19,7 +19,6 @@
 namespace awmr {
 namespace {
 
-/// A wrong unit of a column.
 struct TableUnit {
   double times;             ///< ratio of printed to timed value if the column has this unit
   std::string_view column;  ///< column to correct

@@ -108,7 +108,6 @@ std::optional<Header> header_of(const std::filesystem::path& path) {
   return header;
 }
 
-/// Headers of all files; empty if one of them cannot be read.
 std::vector<Header> headers_of(std::span<const std::filesystem::path> files) {
   std::vector<Header> headers;
   for (const std::filesystem::path& path : files) {
@@ -167,7 +166,6 @@ bool is_required(const std::string& column) {
   return false;
 }
 
-/// Lists the kinds of trial that have this column.
 std::string trials_with(const std::string& column) {
   std::vector<std::string_view> kinds;
   for (const TrialKind kind : values_in(kTrialKindNames)) {

@@ -57,9 +57,9 @@ Finding mismatch(const TrialReader& reader, std::size_t row, const Rate& rate, d
   return reader.finding(
       row, Severity::kWarning, rate.code,
       fmt::format(
-          "{} is {}, but {} {} in elapsed_s {} gives {:.4g}: they differ by {:.2g}, and rounding "
-          "and timing explain only {:.2g}; the {} value {:.4g} is used (a fit with errors on the "
-          "time uses elapsed_s unchanged)",
+          "{} is {}, but {} {} in elapsed_s {} gives {:.4g}: the two values differ by {:.2g}, "
+          "but rounding and timing explain only {:.2g}; the {} value {:.4g} is used (a fit "
+          "with errors on the time uses elapsed_s unchanged)",
           rate.printed_column, printed, rate.amount_column, amount, elapsed_s, timed,
           std::abs(printed - timed), tolerance, use_printed ? "printed" : "timed",
           use_printed ? printed : timed));

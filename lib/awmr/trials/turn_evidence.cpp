@@ -36,7 +36,6 @@ constexpr double kFastestTurn_radps = 25.0;
 constexpr Interval kPossibleShare{0.03, 2.5};
 constexpr double kPossibleAcceleration_mps2 = 15.0;
 
-/// A wrong unit of a yaw rate.
 struct RateUnit {
   double times;             ///< values are too large by this factor if the file has this unit
   std::string_view column;  ///< column to correct

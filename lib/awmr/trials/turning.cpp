@@ -50,7 +50,6 @@ struct Turn {
   std::string equation;     ///< equation of computed_m, for messages
   std::string parameter;    ///< vehicle parameter in the equation: "front_axle_m"
   double length_m = 0.0;    ///< value of this parameter
-  // Values for the TurningRow.
   double steering_rad = 0.0;
   double wheel_force = 0.0;
   std::optional<SideForces<double>> sides = {};
@@ -66,7 +65,6 @@ void check_side(TrialReader& reader, std::size_t row, const char* column, double
                            value, turn.in_words));
 }
 
-/// Magnitude of yaw_rate_radps in the row; empty without a value.
 std::optional<double> printed_yaw_rate(TrialReader& reader, std::size_t row, const Turn& turn) {
   const auto rate = reader.cell(row, "yaw_rate_radps");
   if (!rate) return std::nullopt;

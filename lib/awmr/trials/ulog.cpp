@@ -16,7 +16,6 @@ namespace {
 constexpr std::string_view kMagic("\x55\x4C\x6F\x67\x01\x12\x35", 7);
 constexpr std::size_t kFileHeaderBytes = 16;
 
-/// A topic that the file announces.
 struct Subscription {
   std::size_t needed = 0;  ///< minimum size of a message, bytes
   /// Offset of the field `timestamp`; empty: not a time series.
@@ -67,7 +66,7 @@ Status subscribe(ByteReader message, std::size_t offset, Reading& reading) {
   if (reading.signals.header.size() > kMaxSignals) {
     return wrong(reading, offset,
                  fmt::format("there are more than {} signals, the most that awmr reads; export "
-                             "fewer",
+                             "fewer signals",
                              kMaxSignals));
   }
   if (!reading.subscriptions.emplace(*id, std::move(subscription)).second) {

@@ -129,8 +129,8 @@ EstimatorParameter by_logarithm(std::string name, double value, double error, do
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, MassResult result) {
   result.reason =
-      "a coast-down gives m' only together with the surge resistance (a1, b1), which "
-      "is not identified";
+      "a coast-down gives mass_norm (m') only together with the surge resistance (a1, b1), "
+      "which is not identified";
   if (curves.empty()) return result;
   const std::vector<CoastFit> fits = fits_of(curves, vehicle.surge_beta_range, family);
   const bool by_aicc = family.requested && !family.family;

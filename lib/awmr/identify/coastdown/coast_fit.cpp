@@ -39,7 +39,6 @@ std::optional<Eigen::MatrixXd> by_surge_law(CoastProblem& problem, const Eigen::
   return derivative;
 }
 
-/// True if m', the variances and the degrees of freedom are finite.
 bool is_finite(const CoastFit& fit) {
   return std::isnormal(std::exp(fit.log_mass_norm)) && std::isfinite(fit.variance) &&
          std::isfinite(fit.beta_variance) && fit.dof > 0.0 && std::isfinite(fit.dof);

@@ -17,7 +17,6 @@ namespace {
 /// withdrawn.
 constexpr double kClose = 10.0;
 
-/// The data of all candidates.
 struct CoastData {
   const std::vector<CoastCurve>& curves;
   const SteadyFit& surge;
@@ -121,7 +120,6 @@ std::vector<CoastCandidate> fit_filters(const CoastData& data, const CoastStart&
   return {fast, slow};
 }
 
-/// True if the filter has a larger time constant than the motion.
 bool is_slow(const CoastStart& at, const CoastData& data) {
   return at.lag_s > fall_time_s(data.curves, data.surge.law(), at.log_mass);
 }

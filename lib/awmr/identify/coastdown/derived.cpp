@@ -88,12 +88,12 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
     findings.push_back(
         {coastdown.file, run.line, Severity::kWarning, "implausible-deceleration",
          fmt::format(
-             "stopping from {:.3g} m/s in {:.3g} s means an initial deceleration of {:.1f} m/s^2 "
-             "({:.1f} g), more than a tyre can give. F_max (largest force of one motor) would be "
-             "{:.0f} N. With a tyre friction of {:g}, m' is at least {:.3g}. In a quarter of "
-             "their random vehicles, compare and validate raise m' to this value; tune does so "
-             "only by mass_factors of tune.json. Check the stop time, or record the coast-down "
-             "curve",
+             "stopping from {:.3g} m/s in {:.3g} s means an initial deceleration of {:.1f} "
+             "m/s^2 ({:.1f} g), more than a tyre can give. F_max (largest force of one motor) "
+             "would be {:.0f} N. With a tyre friction of {:g}, mass_norm is at least {:.3g}. "
+             "In a quarter of their random vehicles, compare and validate raise mass_norm to "
+             "this value; tune does so only by mass_factors of tune.json. Check the stop time, "
+             "or record the coast-down curve",
              run.initial_speed_mps, run.stop_time_s, deceleration, deceleration / kGravity_mps2,
              mass_kg / mass_norm, kTyreFriction, mass_norm_by_grip(surge, run.initial_speed_mps))});
   }
@@ -109,9 +109,9 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
   if (relative_std_error && *relative_std_error > kFragileShare) {
     findings.push_back(
         {coastdown.file, 0, Severity::kWarning, "fragile-mass",
-         fmt::format("the standard error of mass_norm is {:.0f} % of its value: m' from a stop "
-                     "time depends on the resistance at very low speed (b1 = {:.3f}). Record the "
-                     "whole coast-down curve, or more surge runs at low speed",
+         fmt::format("the standard error of mass_norm is {:.0f} % of its value: a value from a "
+                     "stop time depends on the resistance at very low speed (b1 = {:.3f}). "
+                     "Record the whole coast-down curve, or more surge runs at low speed",
                      100.0 * *relative_std_error, surge.beta)});
   }
 }

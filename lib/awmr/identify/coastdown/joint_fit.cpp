@@ -18,7 +18,6 @@ constexpr int kMaximumRounds = 200;
 /// change of the two noise variances.
 constexpr double kTolerance = 1e-8;
 
-/// One number for the surge rows and one for the coast-down curves.
 struct BySet {
   double surge = 0.0;
   double coast = 0.0;
@@ -163,7 +162,6 @@ std::optional<Rows> rows_at(const SteadyProblem& surge, const TransformedParamet
   return Rows{std::move(*surge_rows), std::move(*residuals), std::move(*jacobian)};
 }
 
-/// Marks the fit as unusable and removes its covariance.
 JointFit not_finite(JointFit joint) {
   joint.coast.usable = false;
   joint.coast.stop_reason = kNotFinite;

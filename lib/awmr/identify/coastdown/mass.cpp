@@ -42,8 +42,8 @@ std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResul
     if (curve.t_s.size() < kFewestRows) {
       result.findings.push_back(
           {curve.file, curve.line, Severity::kWarning, "no-deceleration",
-           fmt::format("only {} rows of this coast-down have a speed above 0, so the curve is not "
-                       "used for m'; record the speed at a higher rate",
+           fmt::format("only {} rows of this coast-down have a speed above 0, so the curve is "
+                       "not used for mass_norm; record the speed at a higher rate",
                        curve.t_s.size())});
       continue;
     }
@@ -53,8 +53,8 @@ std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResul
     }
     result.findings.push_back(
         {curve.file, curve.line, Severity::kWarning, "no-deceleration",
-         "the speed of this coast-down does not fall by more than its noise, "
-         "so the curve is not used for m'; record it until the vehicle stops"});
+         "the speed of this coast-down does not fall by more than its noise, so the curve is "
+         "not used for mass_norm; record the speed until the vehicle stops"});
   }
   return kept;
 }
@@ -68,9 +68,9 @@ std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
   const auto mass = mass_from_stop_time(surge, stops->rows);
   if (!mass) {
     result.reason = fmt::format(
-        "the surge exponent {:.4g} is 1 or more: with this law the vehicle never stops, so a stop "
-        "time does not determine m'. Choose a family with Coulomb friction ({}), or record the "
-        "speed of the coast-down as a curve",
+        "the surge exponent {:.4g} is 1 or more: with this law the vehicle never stops, so a "
+        "stop time does not determine mass_norm. Choose a family with Coulomb friction ({}), "
+        "or record the speed of the coast-down as a curve",
         surge[TransformedParameter::kBeta], option_text("family auto"));
     return std::nullopt;
   }
@@ -90,7 +90,6 @@ EstimatorParameter report_of_lag(const FittedLag& lag, double error, double dof)
           {}};
 }
 
-/// The finding `sensor-lag`.
 Finding lag_finding(const CoastModel& model, double value_s, double error_s,
                     const std::string& file) {
   const std::string also =
@@ -253,9 +252,9 @@ void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& f
        fmt::format(
            "mass_norm depends on which quantity of the surge runs has the measurement error, "
            "which is unknown. It is {:.3g} with errors on {}; the median over all such error "
-           "models is {:.3g} (weights in /estimates of model.json). Its interval, and the random "
-           "vehicles of tune and compare, cover all error models. Select one with {}, or record "
-           "a coast-down curve, whose m' depends less on the surge resistance",
+           "models is {:.3g} (weights in /estimates of model.json). Its interval, and the "
+           "random vehicles of tune and compare, cover all error models. Select one with {}, "
+           "or record a coast-down curve, whose mass_norm depends less on the surge resistance",
            std::exp(result.estimate->log_mass_norm), name_of(laws.front().noise), std::exp(median),
            option_text("noise"))});
 }
@@ -304,13 +303,13 @@ void withdraw_mass(MassResult& result) {
 /// The note `back-emf-assumed`. Surge runs of motors with back-EMF k_e (n driven wheels) give g1 +
 /// n k_e u instead of g1, but only g1 brakes a coast-down. m' = g1/|u_dot| is then too large.
 Finding assumed_back_emf(const std::string& file) {
-  return {
-      file, 0, Severity::kNote, "back-emf-assumed",
-      "mass_norm assumes that at a constant command the force of a motor does not fall with the "
-      "speed. For voltage-driven motors that coast at a command of 0, m' is too large by the "
-      "factor 1 + n k_e u/g1 (n: number of driven wheels, u: speed, g1: surge resistance divided "
-      "by F_max). Set motor.back_emf_s_per_m (k_e) in the vehicle file (0 for motors with a "
-      "constant force), or identify it from a log with driven and coasting sections"};
+  return {file, 0, Severity::kNote, "back-emf-assumed",
+          "mass_norm assumes that at a constant command the force of a motor does not fall with "
+          "the speed. For voltage-driven motors that coast at a command of 0, mass_norm is too "
+          "large by the factor 1 + n k_e u/g1 (n: number of driven wheels, u: speed, g1: surge "
+          "resistance divided by F_max). Set motor.back_emf_s_per_m (k_e) in the vehicle file (0 "
+          "for motors with a constant force), or identify it from a log with driven and coasting "
+          "sections"};
 }
 
 /// Adds the findings about m'. Adds `fragile-mass` only if m' comes from stop times alone.

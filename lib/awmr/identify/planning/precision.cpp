@@ -8,7 +8,6 @@
 namespace awmr {
 namespace {
 
-/// Computes Precision::half_width.
 std::optional<double> half_width_of(const Model& model, ParameterId id) {
   const Estimate& estimate = model[id];
   if (!estimate.value || !estimate.ci95 || estimate.source == Source::kGiven) return std::nullopt;

@@ -89,7 +89,6 @@ SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   return {left, left + difference};
 }
 
-/// Settings of the model's own trials.
 TablePlan plan_of(const Model& model) {
   TablePlan plan;
   double most_tau_turn_m = 0.0;
@@ -146,7 +145,6 @@ Result<RowNoise> noise_of(const Model& model, const TablePlan& plan,
   return noise;
 }
 
-/// Data shared by all runs.
 struct Experiment {
   Plant<double> truth{};
   Vehicle vehicle;
@@ -179,7 +177,6 @@ TrialData simulated_trials(const Experiment& experiment, const RecoverOptions& o
   return data;
 }
 
-/// Result of one run.
 struct OneRun {
   RecoverRun found;
   std::string why;             ///< reason of the first refusal

@@ -49,7 +49,6 @@ Error read_error(JsonObject json) {
   return error;
 }
 
-/// Parameter with this name. Adds a fault and returns empty if there is none.
 std::optional<ParameterId> read_parameter(JsonObject& json, const std::string& key,
                                           const std::string& name) {
   const auto id = parameter_by_name(name);

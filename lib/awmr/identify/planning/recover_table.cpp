@@ -67,7 +67,6 @@ std::optional<RecoverEstimate> estimate_in(std::span<const std::string> cells) {
                          .ci95 = {*lo, *hi}};
 }
 
-/// Reads the index of a run. Returns empty if the cell is not a whole number.
 std::optional<int> index_in(const std::string& cell) {
   int index = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), index);

@@ -16,7 +16,6 @@ namespace {
 /// fit is repeated without the run.
 constexpr double kInfluential = 1.0;
 
-/// Fitted coordinates without the run `row`; empty if the other runs do not determine a curve.
 std::optional<TransformedParameters> refit_without(std::size_t row, const Subject& subject,
                                                    const SteadyProblem& problem, bool log_linear,
                                                    const SteadyFit& fit) {

@@ -57,7 +57,7 @@ Finding not_compared(const Subject& subject) {
   return about(
       subject, Severity::kWarning, "families-not-compared",
       fmt::format("the {} resistance has {} rows, but a comparison of resistance families by "
-                  "AICc needs {}, so the power law is used. Record {} more rows",
+                  "AICc needs {} rows, so the fit uses the power law. Record {} more rows",
                   name_in(kFitSubjectNames, subject.name), subject.points.size(), kMinToCompare,
                   kMinToCompare - subject.points.size()));
 }
@@ -182,7 +182,6 @@ std::optional<Finding> obstacle(const Subject& subject, const SubjectOptions& op
   return std::nullopt;
 }
 
-/// Copies the choice and its findings into the result.
 void take(const Subject& subject, Choice choice, SubjectFit& result) {
   result.method = std::move(choice.method);
   if (!choice.fit) result.refusal_reason = choice.findings.back().message;

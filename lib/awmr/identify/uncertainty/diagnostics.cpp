@@ -138,8 +138,8 @@ std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
   const double p = fisher_f_tail(f, between_dof, pure_dof);
   return Diagnostic{"lack of fit", f, p,
                     verdict(p, "no significant lack of fit",
-                            "lack of fit: the runs are farther from the curve than repeated runs "
-                            "from each other")};
+                            "lack of fit: the runs are farther from the curve than repeated "
+                            "runs are from each other")};
 }
 
 Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::VectorXd& leverages,
