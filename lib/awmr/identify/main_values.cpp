@@ -95,8 +95,8 @@ void set_joint(const JointFit& joint, bool is_inadequate, MainValues& values) {
                    "joint with the surge runs", values);
 }
 
-/// Sets the surge family of the log fit. Terms that this family does not have become 0, even if a
-/// table fit has set them.
+/// Sets the surge family of the log fit. Terms outside this family become 0, also those of a table
+/// fit.
 void set_surge_family_of_logs(Family surge, Model& model) {
   model.surge_family = surge;
   const Estimate none = given(0.0, "not in the family");

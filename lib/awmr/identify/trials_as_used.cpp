@@ -10,8 +10,6 @@
 namespace awmr {
 namespace {
 
-/// Predicts the measured quantity of a run: steady speed, steady yaw rate or stop time, depending
-/// on the kind of trial.
 std::optional<double> predicted(const Model& model, TrialKind kind, double input) {
   const auto surge = fitted_law(model, TrialKind::kSurge);
   const auto yaw = fitted_law(model, TrialKind::kTurning);

@@ -31,7 +31,6 @@ constexpr unsigned kNotMeasured = kFaultHeadingStale | kFaultSpeedStale | kFault
 constexpr unsigned kBrownOut = 4;
 constexpr unsigned kWatchdog = 8;
 
-/// Returns a text that lists the first few items. `text_of` formats one item.
 template <class Items, class TextOf>
 std::string list_of(const Items& items, const TextOf& text_of) {
   constexpr std::size_t kMax = 4;
@@ -100,8 +99,7 @@ std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const s
   return measured;
 }
 
-/// Removes runs of fewer than kShortestLog rows, and reports them in a finding. Renumbers the
-/// remaining runs from 1.
+/// Removes and reports runs of fewer than kShortestLog rows. Renumbers the remaining runs from 1.
 std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std::string& file,
                                       AwlLog& log) {
   std::vector<Place> kept;

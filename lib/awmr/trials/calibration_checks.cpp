@@ -20,6 +20,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
+/// A fit below returns empty if a channel is missing, if there are fewer windows than this, or if the
+/// windows do not determine the result.
 constexpr std::size_t kMinWindows = 15;
 // Errors above this number of standard errors are significant.
 constexpr double kSignificance = 5.0;
@@ -117,8 +119,7 @@ struct CourseFit {
 };
 
 /// Fits the complex factor k between measured and integrated displacement (calibration_checks.h).
-/// `heading_factor` multiplies the headings, to test another scale of the heading. Empty if a
-/// channel is missing, with fewer than 15 windows, or if the windows do not determine k.
+/// `heading_factor` multiplies the headings, to test another scale of the heading.
 std::optional<CourseFit> course_fit(const DrivingLog& log, double heading_factor = 1.0) {
   for (const LogChannel channel :
        {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kHeading}) {
@@ -162,8 +163,7 @@ std::vector<double> integrated_rate(const DrivingLog& log) {
 }
 
 /// Ratio s of the position's scale to the speed's scale, for a log without heading
-/// (calibration_checks.h). Empty if a channel is missing, if there are fewer than 15 windows, or if
-/// the windows do not determine s.
+/// (calibration_checks.h).
 std::optional<Calibration> distance_scale(const DrivingLog& log) {
   for (const LogChannel channel :
        {LogChannel::kX, LogChannel::kY, LogChannel::kSpeed, LogChannel::kYawRate}) {
@@ -189,8 +189,7 @@ std::optional<Calibration> distance_scale(const DrivingLog& log) {
   return Calibration{scale, 0.5 * found->std_errors(0) / scale};
 }
 
-/// Ratio k of the change of heading to the integral of the yaw rate (calibration_checks.h). Empty
-/// if a channel is missing or with fewer than 15 windows.
+/// Ratio k of the change of heading to the integral of the yaw rate (calibration_checks.h).
 std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
   if (!log[LogChannel::kHeading] || !log[LogChannel::kYawRate]) return std::nullopt;
   const std::vector<LogWindow> windows = calibration_windows(log);
@@ -214,8 +213,7 @@ std::optional<Calibration> heading_over_rate(const DrivingLog& log) {
 }
 
 /// Ratio k of the change of the course over ground to the change of the heading psi
-/// (calibration_checks.h). Without a heading, psi is the integral of the yaw rate. Empty if a
-/// channel is missing, with fewer than 15 windows in motion, or if the windows do not determine k.
+/// (calibration_checks.h). Without a heading, psi is the integral of the yaw rate.
 std::optional<Calibration> course_over_heading(const DrivingLog& log) {
   // Leaves out windows with a displacement below this fraction of the longest displacement, because
   // noise makes their direction uncertain.

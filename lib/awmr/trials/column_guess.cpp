@@ -140,8 +140,7 @@ std::vector<double> first_of(const std::vector<double>& values) {
           values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), kShown))};
 }
 
-/// Adds guesses of the heading from the orientation quaternion of a message, if the file has all
-/// four components.
+/// Adds guesses of the heading from orientation quaternions with all four components.
 void add_quaternions(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   const std::set<std::string> names(sample.names.begin(), sample.names.end());
   for (const std::string& name : sample.names) {
@@ -183,8 +182,7 @@ void add_time(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
   }
 }
 
-/// Index of the file's column that the guess uses. Empty if the guess is a formula of several
-/// columns.
+/// Index of the file's column that the guess uses; empty for a formula of several columns.
 std::optional<std::size_t> source_of(const ColumnGuess& guess, const FileSample& sample) {
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
     const std::string name = quoted(sample.names[i]);

@@ -41,7 +41,6 @@ std::vector<Move> moves_between(const DrivingLog& log, const std::vector<std::si
   return moves;
 }
 
-/// Usual change per second: the 95 % quantile of the changes between successive readings.
 double common_rate(const std::vector<Move>& moves) {
   std::vector<double> rates;
   for (const Move& move : moves) rates.push_back(move.size / move.span_s);

@@ -140,8 +140,7 @@ std::vector<RowSpan> used_parts(const TrialReader& reader, RowSpan run,
   return parts;
 }
 
-/// Replaces each run by its parts that the options select (used_parts()). Adds a fault if no part
-/// is left.
+/// Replaces each run by its used_parts(). Adds a fault if no part is left.
 void keep_used(TrialReader& reader, const TrialOptions& options, std::vector<RowSpan>& runs) {
   std::vector<RowSpan> parts;
   for (const RowSpan run : runs) {
@@ -295,8 +294,7 @@ DrivingLog commands_of(TrialReader& reader, RowSpan rows) {
   return log;
 }
 
-/// Returns the channels with one constant value that are not measurements (constant_channels.h),
-/// and adds a finding for each.
+/// Returns the constant_channels(), which are not measurements, and adds a finding for each.
 std::vector<LogChannel> find_unmeasured(const TrialReader& reader, std::vector<Finding>& findings) {
   const CsvTable& table = reader.table();
   const auto values = [&](std::string_view column) -> std::optional<std::span<const double>> {

@@ -76,8 +76,8 @@ std::vector<double> picked(const std::vector<double>& values,
   return some;
 }
 
-/// Computes channel_quality() for a channel that has values only in `rows`. The result covers all
-/// rows of the log. Rows without a value are marked as no measurements.
+/// Computes channel_quality() for a channel that has values only in `rows`. In the result for all
+/// rows of the log, rows without a value are no measurements.
 ChannelQuality quality_in(const std::vector<std::size_t>& rows, LogChannel channel,
                           const DrivingLog& log, const std::vector<double>& values) {
   const std::vector<double> activity = activity_for(channel, log);

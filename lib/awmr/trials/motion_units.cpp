@@ -286,8 +286,7 @@ std::optional<Contradiction> check_speed(const Evidence& evidence) {
       "sheets"};
 }
 
-/// Detects a speed that is too large for a wheeled vehicle of this length, in logs without
-/// positions.
+/// Detects a speed too large for a vehicle of this length, in logs without positions.
 std::optional<Contradiction> check_speed_alone(const Evidence& evidence) {
   constexpr double kLargest_mps = 100.0;
   constexpr double kLargestLengthsPerSecond = 100.0;  // as in table_units.h

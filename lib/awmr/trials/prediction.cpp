@@ -49,8 +49,8 @@ void run(const Predictor& model, std::size_t begin, std::size_t end, const State
 }
 
 /// Predicts the next row from the measurements in `row`, and adds the squared errors to `sums`.
-/// State components that were not measured in `row` are taken from `state`, the long-horizon
-/// prediction for that row.
+/// Components without a measurement in `row` come from `state`, the long-horizon prediction for
+/// that row.
 void add_one_step(const Predictor& model, std::size_t row, State<double> state, ChannelSums& sums) {
   const DrivingLog& log = *model.signals.log;
   each_measurement(log, row, [&](LogChannel channel, double measured) {

@@ -51,8 +51,8 @@ struct LikeRuns {
   std::vector<double> readings;
 };
 
-/// Returns the column whose readings are compared: `timed` if it has a value in all rows. Otherwise
-/// `printed` if that has a value in all rows, else none.
+/// Returns the column of the compared readings: `timed` or else `printed`, if it has a value in all
+/// rows.
 std::optional<std::string_view> reading_of(const TrialReader& reader,
                                            const std::vector<std::size_t>& rows,
                                            const RepeatRule& rule) {

@@ -118,9 +118,7 @@ struct SteadyRun {
   SideForces<double> sides{};
 };
 
-/// Returns the steady run in a stretch of constant commands. Empty if the vehicle is never steady
-/// there, rests, or turns against its command. A vehicle with steering must also be driven forward
-/// with equal forces left and right.
+/// Returns the steady run in a stretch of constant commands (SteadyRule); empty if there is none.
 std::optional<SteadyRun> steady_run(const DrivingLog& log, const Vehicle& vehicle,
                                     const SteadyRule& rule, Stretch stretch) {
   const double left = mean_of(log.force_left, stretch);

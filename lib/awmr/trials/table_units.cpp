@@ -118,8 +118,8 @@ std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& sur
   return kRoom * fastest_run->speed_mps / std::min(1.0, share * share);
 }
 
-/// Returns the likely unit of a speed that exceeds the vehicle's top speed `top_mps`: the first
-/// unit whose correction brings the speed below it.
+/// Likely unit of a speed above the vehicle's top speed: the first unit whose correction gives a
+/// lower one.
 Smaller unit_below(double speed_mps, double top_mps) {
   constexpr Smaller kUnits[] = {{1.0 / 3.6, "the speed looks like km/h"},
                                 {1e-2, "the speed looks like cm/s"},

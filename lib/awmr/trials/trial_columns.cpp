@@ -133,8 +133,7 @@ std::string why_no_formula(const ColumnMapping& mapping) {
   return fmt::format(" (as arithmetic: {})", formula.error());
 }
 
-/// Returns the reason why no file can use a mapping. Empty if a file can use it, or if no header is
-/// known.
+/// Reason why no file can use a mapping; empty if a file can use it, or if no header is known.
 std::optional<std::string> unusable(const ColumnMapping& mapping,
                                     const std::vector<Header>& headers) {
   std::vector<std::string> files;

@@ -72,8 +72,7 @@ const CoastFit& best_of(const std::vector<CoastFit>& fits) {
   });
 }
 
-/// Text for a message: the ratios m'/a1, c1/a1 and q1/a1 with their standard errors, and the
-/// exponent b1, as far as the family has them.
+/// Text for a message: the ratios m'/a1, c1/a1, q1/a1 with standard errors, and the exponent b1.
 std::string ratios_in_words(const CoastFit& fit) {
   const double ratio = std::exp(fit.log_mass_norm);
   std::string words =

@@ -57,9 +57,7 @@ T filtered(const T& y, const T& u, const T& next, const T& h, const T& lag_s) {
   return next - behind + (y - u + behind) * exp(-h / lag_s);
 }
 
-/// Residuals of one curve: modelled minus measured speeds. Parameters: the surge law (ln a, b, c,
-/// q), ln m', the filter's time constant T, and the run's initial speed u0 and time t0 of switching
-/// the motors off.
+/// Residuals of one curve: modelled minus measured speeds. Parameters: see CoastProblem.
 struct CoastResidual {
   const CoastCurve* curve;
   double longest_step_s;
@@ -257,9 +255,8 @@ void CoastProblem::solve() {
   free_short_leads();
 }
 
-/// Also fits t0, the time of switching the motors off, of the runs without a detected plateau.
-/// Keeps this fit if it is usable and lowers AIC; else restores the fit with t0 fixed at the first
-/// sample.
+/// Also fits t0 of the runs without a detected plateau. Keeps this fit if it is usable and lowers
+/// AIC; else restores the fit with t0 fixed at the first sample.
 void CoastProblem::free_short_leads() {
   constexpr double kOfAic = 2.0;  // penalty in AIC for each fitted t0
   const std::vector<CoastInitialState> fixed = initial_;

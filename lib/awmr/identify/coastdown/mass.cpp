@@ -59,8 +59,7 @@ std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResul
   return kept;
 }
 
-/// Estimates m' from the stop times and adds the report to `result`. If that fails, `result` has
-/// the reason.
+/// Estimates m' from the stop times. Adds the report to `result`, or the reason if that fails.
 std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
                                          const std::optional<TrialSet<StopTimeRow>>& stops,
                                          MassResult& result) {
@@ -104,8 +103,7 @@ Finding lag_finding(const CoastModel& model, double value_s, double error_s,
                       value_s, error_s, also)};
 }
 
-/// Estimates m' from the curves and adds the report to `result`. If that fails, `result` has the
-/// reason.
+/// Estimates m' from the curves. Adds the report to `result`, or the reason if that fails.
 std::optional<MassEstimate> by_curves(const SteadyFit& surge, const std::vector<CoastCurve>& curves,
                                       const std::optional<CoastModel>& model, MassResult& result) {
   if (curves.empty()) {
@@ -259,8 +257,7 @@ void check_noise(const std::vector<NoiseAlternative>& laws, const std::string& f
            option_text("noise"))});
 }
 
-/// m' at the limit of the tyres' grip (mass_norm_by_grip()), if the coast-down from the highest
-/// initial speed begins with an implausible deceleration; else empty.
+/// MassResult::by_grip, from the coast-down with the highest initial speed.
 std::optional<double> demanded_by_grip(const SteadyFit& surge,
                                        const std::optional<TrialSet<StopTimeRow>>& stops,
                                        const std::vector<CoastCurve>& curves, double mass_norm) {

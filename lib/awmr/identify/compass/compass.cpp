@@ -170,8 +170,7 @@ double turned_by_gyro_rad(const FieldRecord& record) {
 }
 
 /// Compares the angle `turned`, rad, by the compass with the integral of the gyroscope's yaw rate.
-/// Adds the note `turn-not-checked` if there is no yaw rate. Errors (refused): opposite signs, or a
-/// difference above kTurnTolerance times |turned|.
+/// Errors (refused): opposite signs, or a difference above kTurnTolerance times |turned|.
 Status check_turn(const FieldRecord& record, double turned, std::vector<Finding>& findings) {
   if (record.yaw_rate_radps.empty()) {
     findings.push_back({record.file, 0, Severity::kNote, "turn-not-checked",
@@ -248,8 +247,6 @@ CompassCalibration calibration_of(const Known& known) {
           .heading_error_deg = degrees(heading_error_rad(known))};
 }
 
-/// Checks the fitted ellipse. Errors (refused): the gap without readings is too large, or the
-/// readings are too far from the ellipse.
 Status check_ellipse(const std::string& file, const Known& fit,
                      const std::pair<double, double>& gap_rad) {
   const double gap_deg = degrees(gap_rad.second);

@@ -129,8 +129,7 @@ double top_speed_mps(const Model& model) {
   return top;
 }
 
-/// Measurement errors that the rows of the simulated tables get. Errors (input): those of
-/// row_error().
+/// Measurement errors of the rows of the simulated tables. Errors (input): those of row_error().
 Result<RowNoise> noise_of(const Model& model, const TablePlan& plan,
                           const RecoverOptions& options) {
   constexpr double kStopWatch_s = 0.02;
@@ -283,7 +282,6 @@ std::string noise_in_words(const RowNoise& rows, const RecoverOptions& options) 
                      name_of(rows.turning.model), rows.stop_time_s, s.speed_mps);
 }
 
-/// Checks the simulated log. Errors (input): too few or too many rows.
 Status check_drive(const DrivePlan& drive) {
   constexpr double kMin = 20.0;
   constexpr double kMax = 1e6;
@@ -327,7 +325,6 @@ Result<Plant<double>> truth_of(const Model& model, RecoverPlan plan) {
   return model.plant_of_trials();
 }
 
-/// Checks the options. Errors (input): fewer than 2 runs, or trials that cannot be simulated.
 Status check_plan(const Model& model, const Plant<double>& truth, const RecoverOptions& options) {
   if (options.runs < 2) {
     return input_error(ErrorCode::kOutOfRange, option_text("runs"), "at least 2 runs are needed");

@@ -39,8 +39,6 @@ RecoveredParameter recovered_parameter(const RecoverTruth& truth, std::size_t pl
   return p;
 }
 
-/// Checks that the runs have a result. Errors: the error of the first run, if every run failed.
-/// Errors (refused): no run has estimated any parameter, or a requested one.
 Status check_recovered(const Recovery& recovery, const RecoverPart& whole) {
   if (whole.error) return tl::unexpected(*whole.error);
   std::vector<std::string_view> missing;

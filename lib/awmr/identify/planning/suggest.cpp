@@ -191,8 +191,7 @@ SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
   return trial;
 }
 
-/// Sorts the trials by the standard error of the target, smallest first. Trials with equal standard
-/// errors are sorted by the decrease of ln det C (d_gain), largest first.
+/// Sorts by the standard error of the target, smallest first; equal ones by d_gain, largest first.
 void sort_by_promise(std::vector<SuggestedTrial>& trials) {
   std::stable_sort(trials.begin(), trials.end(),
                    [](const SuggestedTrial& a, const SuggestedTrial& b) {

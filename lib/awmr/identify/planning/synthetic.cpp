@@ -177,8 +177,7 @@ CoastCurve simulate_coastdown(const Plant<double>& plant, double speed_mps, doub
 
 namespace {
 
-/// Writes the commands of a drive into `log`. Every plan.hold_s, thrust, force difference and
-/// steering change at random.
+/// Writes the commands of a drive (DrivePlan) into `log`.
 void command_drive(const Vehicle& vehicle, const DrivePlan& plan, DrivingLog& log) {
   Random random(plan.drive, 7);
   const auto rows = static_cast<int>(std::lround(plan.duration_s * plan.rate_hz));

@@ -12,8 +12,7 @@
 namespace awmr {
 namespace {
 
-/// A run is influential if a parameter changes by more than this number of standard errors when the
-/// fit is repeated without the run.
+/// A run is influential if a parameter changes by more than this without it, in standard errors.
 constexpr double kInfluential = 1.0;
 
 std::optional<TransformedParameters> refit_without(std::size_t row, const Subject& subject,

@@ -10,8 +10,7 @@
 namespace awmr {
 namespace {
 
-/// Magnitude of the derivative of a run's residual e by ln w, with the run's rate w. The unit of e
-/// is that of the quantity that has the error.
+/// |d e/d ln w| of one run; see noise_average.h.
 double residual_by_log_rate(ErrorModel noise, const SteadyFit& fit, const SteadyPoint& point) {
   const Resistance<double> law = fit.law();
   const double w = point.rate;

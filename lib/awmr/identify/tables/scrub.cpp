@@ -181,8 +181,6 @@ void note_standing(Model& model, const TrialSet<TurningRow>& turning,
                    standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
 }
 
-/// Adds `scrub-beyond-trials` for turns outside the yaw rates that g3 was fitted to, and
-/// `scrub-grows` for scrub that changes with the yaw rate.
 void note_limits(Model& model, const TrialSet<TurningRow>& turning, const ScrubMoments& met) {
   const YawScrub& scrub = *model.yaw_scrub;
   const Interval rates = scrub.yaw_rate_radps;

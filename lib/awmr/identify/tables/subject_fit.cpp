@@ -24,8 +24,7 @@ constexpr double kTablesPlainlyBetter = 10.0;
 /// the smallest families have p = 2 parameters.
 constexpr std::size_t kMinToCompare = 5;
 
-/// The chosen fit, with the index of its report in SubjectFit::reports. `fit` is empty if no fit is
-/// accepted.
+/// The chosen fit (empty if none is accepted), with the index of its report in SubjectFit::reports.
 struct Choice {
   std::optional<SteadyFit> fit;
   SteadyProblem problem;
@@ -80,8 +79,7 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
                            name_in(kFitSubjectNames, subject.name)));
 }
 
-/// Selects the fit of the requested family, or the one with the smallest AICc, under the error
-/// model `wanted`.
+/// Selects the requested family, or the one with the smallest AICc, under the error model `wanted`.
 Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, ErrorModel wanted,
                         const std::vector<FamilyCandidate>& candidates) {
   Choice choice;
