@@ -59,9 +59,9 @@ void set_given(const Vehicle& vehicle, Model& model);
 void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
 
 /// Sets m' from coast-downs, and I'z from m'. Without a surge law, sets only the exponent b1, from
-/// a power-law fit of the coast-down curves. If no surge law describes the surge runs
-/// (`SubjectFit::is_inadequate`), the values get no intervals. Precondition: set_law() was called
-/// with the surge fit, if there is one.
+/// a power-law fit of the coast-down curves. If the chosen surge law does not describe the surge
+/// runs (`SubjectFit::is_inadequate`), the values get no intervals. Precondition: set_law() was
+/// called with the surge fit, if there is one.
 void set_mass(const MassResult& mass, const SubjectFit& surge, MainValues& values);
 
 /// Sets the values, the families and the covariance that the logs determine.

@@ -104,8 +104,8 @@ bool is_shown(ParameterId id, const DrivingLog& log) {
   }
 }
 
-/// True if a missing value of `id` is an error: the user named the parameter, or a table or log
-/// should measure it and vehicle.json does not give it.
+/// True if it is an error that the data do not identify `id`: the user named the parameter, a table
+/// should measure it, or a log should measure it and it has no other value.
 bool is_required(ParameterId id, const TrialData& data, const IdentifyOptions& options,
                  const Estimate& estimate) {
   if (!options.requested.empty()) return true;

@@ -20,8 +20,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// A fit below returns empty if a channel is missing, if there are fewer windows than this, or if the
-/// windows do not determine the result.
+/// A fit below returns empty if a channel is missing, if there are fewer windows than this, or if
+/// the windows do not determine the result.
 constexpr std::size_t kMinWindows = 15;
 // Errors above this number of standard errors are significant.
 constexpr double kSignificance = 5.0;

@@ -24,7 +24,8 @@ std::optional<Read> keep(Result<Read> read, std::vector<Fault>& faults) {
   return std::nullopt;
 }
 
-/// Adds the content of one coast-down file. Several files may have curves, but only one stop times.
+/// Adds the content of one coast-down file. Several files may have curves, but only one file may
+/// have stop times.
 void add_coastdown(const std::filesystem::path& path, CoastdownSet set, TrialData& data,
                    std::vector<Fault>& faults) {
   if (const auto* curves = std::get_if<std::vector<CoastCurve>>(&set)) {

@@ -119,7 +119,7 @@ std::optional<double> top_speed_mps(const std::optional<TrialSet<SurgeRow>>& sur
 }
 
 /// Likely unit of a speed above the vehicle's top speed: the first unit whose correction gives a
-/// lower one.
+/// speed below it.
 Smaller unit_below(double speed_mps, double top_mps) {
   constexpr Smaller kUnits[] = {{1.0 / 3.6, "the speed looks like km/h"},
                                 {1e-2, "the speed looks like cm/s"},

@@ -38,7 +38,7 @@ double derivative(const SteadyFit& surge, TransformedParameter c, double speed_m
   return high && low ? -(*high - *low) / (2.0 * h) : 0.0;
 }
 
-/// The same derivative, for a power law in closed form: 1 by ln a1, and -1/(1 - b1) + ln u_max by
+/// Like derivative(), but in closed form for a power law: 1 by ln a1, and -1/(1 - b1) + ln u_max by
 /// b1, with the initial speed u_max = speed_mps.
 double by_coordinate(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
   const Resistance<double> law = surge.law();

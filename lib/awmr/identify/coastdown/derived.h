@@ -24,9 +24,10 @@ struct MassFromStopTime {
 };
 
 /// Computes m' from the time t_a in which a vehicle with the motors off stops from the speed u_max.
-/// The surge resistance g1 gives t_a = m' int_0^u_max dw/g1(w). For a power law m' = (1 - b1) a1
-/// t_a / u_max^(1 - b1). [paper (60)] Averages ln m' over the runs. Empty if the vehicle never
-/// stops under this law. Precondition: at least one run.
+/// The surge resistance g1 gives t_a = m' int_0^u_max dw/g1(w).
+/// For a power law m' = (1 - b1) a1 t_a / u_max^(1 - b1). [paper (60)]
+/// Averages ln m' over the runs. Empty if the vehicle never stops under this law. Precondition: at
+/// least one run.
 std::optional<MassFromStopTime> mass_from_stop_time(const SteadyFit& surge,
                                                     const std::vector<StopTimeRow>& runs);
 

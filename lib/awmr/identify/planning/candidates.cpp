@@ -20,8 +20,8 @@ constexpr double kRate_hz = 100.0;
 /// Stands for a predicted speed (m/s) or yaw rate (rad/s) of 0, because 0 has no logarithm.
 constexpr double kAtRest = 1e-6;
 
-/// Scatter of the model's trials of one kind: root mean square of predicted/measured - 1. Returns 5
-/// % (assumed) if there are fewer than three rows.
+/// Scatter of the model's trials of one kind: relative standard deviation of the predicted from the
+/// measured values. An assumed value of 5 % if there are fewer than three rows.
 double relative_scatter(const Model& model, TrialKind kind) {
   double squares = 0.0;
   int count = 0;

@@ -29,11 +29,12 @@ struct ScrubPlan {
   std::vector<ScrubTurn> turns;
   std::string about;  ///< see Suggestion::about_scrub
 };
-/// Plans differential turns that measure the tyre scrub, the yaw moment that tyres lose by sliding
-/// sideways. The yaw rates are 1/3, 2/3 and 1 times the highest measured one, or yaw_rate_max_degps
-/// if the vehicle file gives it. The mean wheel force is that of straight driving at half the
-/// highest speed of the surge trials; without these, the middle of the force range. Leaves out a
-/// turn if the wheel forces do not suffice even for the smallest possible scrub moment.
+/// Plans differential turns that measure the tyre scrub, the yaw moment that it takes to drag the
+/// tyres sideways. The yaw rates are 1/3, 2/3 and 1 times the highest measured one, or
+/// yaw_rate_max_degps if the vehicle file gives it. The mean wheel force is that of straight
+/// driving at half the highest speed of the surge trials; without these, the middle of the force
+/// range. Leaves out a turn if the wheel forces do not suffice even for the smallest possible scrub
+/// moment.
 ScrubPlan scrub_plan(const Model& model);
 
 /// Plans a turn with the motors off (CoastingTurn in suggest.h). Speed: half of the highest speed

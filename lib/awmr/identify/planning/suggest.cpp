@@ -191,7 +191,7 @@ SuggestedTrial evaluate(const CandidateTrial& candidate, const Model& model,
   return trial;
 }
 
-/// Sorts by the standard error of the target, smallest first; equal ones by d_gain, largest first.
+/// Sorts by the standard error of the target, smallest first; if equal, by d_gain, largest first.
 void sort_by_promise(std::vector<SuggestedTrial>& trials) {
   std::stable_sort(trials.begin(), trials.end(),
                    [](const SuggestedTrial& a, const SuggestedTrial& b) {

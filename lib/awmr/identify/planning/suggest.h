@@ -53,9 +53,9 @@ struct MissingParameter {
   std::string trial;  ///< description of the trial that measures the parameter
 };
 
-/// A differential turn with straight wheels, to measure the tyre scrub: the yaw moment that the
-/// tyres lose by sliding sideways. The choice between the differential, steering and combined modes
-/// depends on the scrub (compare --break-even).
+/// A differential turn with straight wheels, to measure the tyre scrub: the yaw moment that it
+/// takes to drag the tyres sideways. The choice between the differential, steering and combined
+/// modes depends on the scrub (compare --break-even).
 struct ScrubTurn {
   double yaw_rate_degps = 0.0;  ///< yaw rate to reach, > 0
   /// Wheel forces F' (over F_max) for this yaw rate: `least` for the smallest possible scrub

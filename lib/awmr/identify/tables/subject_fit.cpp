@@ -79,7 +79,8 @@ Finding nothing_to_choose(const Subject& subject, bool tried) {
                            name_in(kFitSubjectNames, subject.name)));
 }
 
-/// Selects the requested family, or the one with the smallest AICc, under the error model `wanted`.
+/// Selects the requested family, or the family with the smallest AICc, under the error model
+/// `wanted`.
 Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, ErrorModel wanted,
                         const std::vector<FamilyCandidate>& candidates) {
   Choice choice;

@@ -25,7 +25,7 @@ struct SubjectFit {
   /// True if the chosen law does not describe the rows: another family than the power law describes
   /// them much better (`power-law-inadequate`), or left and right turns differ (`turns-differ`).
   /// The values that follow from the law then get no intervals, because the wrong law, not the
-  /// measurements, then determines their errors.
+  /// measurements, determines their errors.
   bool is_inadequate = false;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;
