@@ -107,8 +107,8 @@ TablePlan plan_of(const Model& model) {
     return plan;
   }
   // tau_turn = 2 l_f F' sin d_r                                                        [paper (62)]
-  // All simulated turns have the same wheel force F'. With it, the largest yaw moment tau_turn needs
-  // the largest steering angle d_r.
+  // All simulated turns have the same wheel force F'. With it, the largest yaw moment tau_turn
+  // needs the largest steering angle d_r.
   const double stop_rad = radians(model.vehicle.steering_max_deg);
   plan.turning_wheel_force =
       most_tau_turn_m / (2.0 * model.vehicle.front_axle_m * std::sin(stop_rad));
