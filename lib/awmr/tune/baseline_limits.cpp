@@ -12,8 +12,7 @@
 namespace awmr {
 namespace {
 
-/// Report of a requirement that `value` does not meet. `sense` says whether `limit` is an upper or
-/// a lower limit of the value.
+/// Report of a requirement that `value` does not meet.
 ConstraintReport violated_limit(std::string name, double value, double limit, Sense sense) {
   return {.name = std::move(name),
           .value = value,
@@ -48,8 +47,8 @@ std::vector<ConstraintReport> violated_by_baseline(const Gains<double>& baseline
     if (c.required && residual(c) > 0.0) all.push_back(std::move(c));
   }
   add_bounds(baseline, requested.bounds, all);
-  // `activity_max` limits the control variation as a multiple of that of the baseline. The baseline
-  // itself has the multiple 1, so it violates every limit below 1.
+  // `activity_max` limits the control variation, as a multiple of its value with the baseline. The
+  // baseline itself has the multiple 1, so it violates every limit below 1.
   if (requested.activity_max && *requested.activity_max < 1.0) {
     all.push_back(violated_limit("activity_max", 1.0, *requested.activity_max, Sense::kAtMost));
   }

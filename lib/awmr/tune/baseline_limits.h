@@ -11,8 +11,8 @@ namespace awmr {
 
 /// Returns every requirement of the search that the baseline gains do not meet: constraints,
 /// requested bounds, activity limit and goals that are not soft. `objective`: the objective on the
-/// nominal vehicle and all drawn vehicles, 1 for the baseline gains. `requested`: the options as
-/// the user gave them, so that default bounds of the gains do not count.
+/// nominal vehicle and all drawn vehicles, normalised by the baseline gains. `requested`: the
+/// options as the user gave them, so that default bounds of the gains do not count.
 std::vector<ConstraintReport> violated_by_baseline(const Gains<double>& baseline,
                                                    const Objective& objective,
                                                    const ConstraintContext& context,

@@ -183,7 +183,7 @@ Result<ConfidenceSet> ConfidenceSet::make(const Model& model) {
   ConfidenceSet set;
   AWMR_ASSIGN_OR_RETURN(set.own_, model.plant());
   if (model.covariance.parameters.empty()) return set;
-  // The sampler copies the model for each plant, so the trials are left out.
+  // The sampler copies the model for each plant. Without the trials, the copy is fast.
   Model bare = model;
   bare.record = {};
   AWMR_ASSIGN_OR_RETURN(set.sampler_, PlantSampler::make(bare));

@@ -14,13 +14,13 @@
 namespace awmr {
 
 /// For each mode, computes the smallest damping ratio and the smallest delay margin of the heading
-/// loop (SampledHeadingLoop) with hold, servo, latency (including a fraction of a sample) and motor
-/// lag, over
+/// loop (SampledHeadingLoop). The loop includes hold, servo, latency (with its fraction of a
+/// sample) and motor lag. The minimum is over
 ///   - the plants of the 95 % ellipsoid of the model's covariance, projected on the parameters of
-///     the loop: a3, b3, q3 of the yaw resistance, I'z, and the servo's time constant T. Plants
-///     with a negative exponent or resistance term are left out. In standard normal coordinates n,
-///     the ellipsoid is |n| <= r. r^2 is the 0.95 quantile of the chi-squared distribution with
-///     PlantSampler::rank() degrees of freedom;
+///     the loop: a3, b3, q3 of the yaw resistance, the normalised inertia I'z, and the servo's time
+///     constant T. Plants with a negative exponent or resistance term are left out. In standard
+///     normal coordinates n, the ellipsoid is |n| <= r, where r^2 is the 0.95 quantile of the
+///     chi-squared distribution with PlantSampler::rank() degrees of freedom;
 ///   - all yaw rates in examined_rates_radps();
 ///   - the mass factors of `open`.
 /// Without a covariance, only the identified plant is examined. The heading law always uses the
@@ -34,8 +34,8 @@ namespace awmr {
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
                             const UnmodelledVariation& open, const Gains<double>& gains);
 
-/// Accepted error of the minima that the search finds: relative for a delay margin, absolute for a
-/// damping ratio.
+/// Accepted error of the minima that the search finds: absolute for a damping ratio, relative for a
+/// delay margin.
 inline constexpr double kCertificateTolerance = 2e-3;
 
 /// 95 % confidence set of the plant parameters on which the heading loop depends.

@@ -52,8 +52,8 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_se
   for (const Scenario& scenario : scenarios) {
     if (!std::holds_alternative<HeadingSteps>(scenario.guidance)) {
       faults.push_back({ErrorCode::kUnsupported, "",
-                        fmt::format("scenario '{}' commands no headings; give guidance of "
-                                    "type 'heading', on which gains are tuned",
+                        fmt::format("scenario '{}' commands no headings; gains are tuned on "
+                                    "heading steps, so give guidance of type 'heading'",
                                     scenario.name)});
     }
     if (scenario.held_tau_speed()) {
@@ -70,11 +70,10 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_se
                                     scenario.name)});
     }
     if (observer_is_searched && scenario.control.observer) {
-      faults.push_back(
-          {ErrorCode::kConflict, "",
-           fmt::format("scenario '{}' sets a disturbance_observer and one is to be tuned; "
-                       "remove one of the two",
-                       scenario.name)});
+      faults.push_back({ErrorCode::kConflict, "",
+                        fmt::format("scenario '{}' sets a disturbance_observer, but tune also "
+                                    "searches an observer; remove one of the two",
+                                    scenario.name)});
     }
     if (!names.insert(scenario.name).second) {
       faults.push_back({ErrorCode::kGivenTwice, "",
@@ -135,15 +134,15 @@ void check_goal(const TuningGoal& goal, std::vector<Fault>& faults) {
     }
     if (!allows(kGoalLimit, most)) {
       faults.push_back({ErrorCode::kOutOfRange, "",
-                        fmt::format("goals: the limit of {}, {}, is not above 0 or out of range; "
-                                    "give a number in {} ... {}",
+                        fmt::format("goals: {} has the limit {}, which is not above 0 or out of "
+                                    "range; give a number in {} ... {}",
                                     figure, most, kGoalLimit.min, kGoalLimit.max)});
     }
   }
   if (figures.empty()) {
     faults.push_back(
         {ErrorCode::kMissing, "",
-         "goals: a goal is without a limit; give at_most at least one metric with its limit"});
+         "goals: a goal is without a limit; give at least one metric with its limit in `at_most`"});
   }
   if (!allows(kGoalShare, goal.share)) {
     faults.push_back({ErrorCode::kOutOfRange, "",
@@ -169,15 +168,16 @@ void check_mode(const TuneOptions& options, const Vehicle& vehicle, std::vector<
   if (!options.mode) return;
   const std::span<const YawMode> modes = yaw_modes(vehicle);
   if (std::ranges::find(modes, *options.mode) == modes.end()) {
-    faults.push_back({ErrorCode::kUnsupported, "",
-                      fmt::format("mode: a vehicle of drive \"{}\" has no mode {}; remove \"mode\" "
-                                  "or give another",
-                                  name_in(kDriveNames, vehicle.drive), name_of(*options.mode))});
+    faults.push_back(
+        {ErrorCode::kUnsupported, "",
+         fmt::format(
+             "mode: a vehicle of drive \"{}\" has no mode {}; remove \"mode\" or give another mode",
+             name_in(kDriveNames, vehicle.drive), name_of(*options.mode))});
   }
   for (const TuningGoal& goal : options.goals) {
     if (!goal.mode || *goal.mode == *options.mode) continue;
     faults.push_back({ErrorCode::kConflict, "",
-                      fmt::format("goals: one is for mode {}, but \"mode\" tunes {} only; "
+                      fmt::format("goals: a goal is for mode {}, but \"mode\" tunes {} only; "
                                   "remove the goal or \"mode\"",
                                   name_of(*goal.mode), name_of(*options.mode))});
   }

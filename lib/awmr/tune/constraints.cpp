@@ -94,7 +94,7 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
   const Plant<double>& plant = vehicle.plant;
   const Interval force = forces_beyond_dead_zone(vehicle);
   const double wheels = driven_wheels(plant);
-  // Force that each wheel needs for constant speed, including the part that compensates back-EMF.
+  // Force that each wheel needs at constant speed, including the part that compensates back-EMF.
   const double held = plant.surge(speed_mps) / wheels + plant.back_emf_s_per_m * speed_mps;
   return {.steering = steered_moment_m(vehicle, speed_mps),
           .differential = wheels * plant.half_track_m * std::min(force.hi - held, held - force.lo)};
@@ -147,8 +147,8 @@ ConstraintReport noise_gain(const Gains<double>& gains, const ConstraintContext&
                   degrees(context.heading_noise_rad), 100.0 * context.limits.noise_share));
 }
 
-/// The constraints that are evaluated for one vehicle at a time. Late damping, delay margin and
-/// steering rate are not among them: they are evaluated over all vehicles of the context at once.
+/// The constraints that are evaluated for one vehicle at a time. constraints_of() adds late
+/// damping, delay margin and steering rate for all vehicles of the context together.
 std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
                                                const ConstraintContext& context,
                                                const DrawnVehicle& vehicle) {

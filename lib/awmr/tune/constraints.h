@@ -14,18 +14,19 @@ namespace awmr {
 
 /// Largest latency, in samples, for which the damping is computed.
 inline constexpr int kMaxLatencySamples = 20;
-/// mu I'z must exceed this share of the modelled yaw resistance, and mu_s m' this share of the
-/// surge resistance, so that the control laws can compensate model errors. The share is larger than
-/// the relative model error that `awmr validate` accepts by default (0.15).
+/// mu I'z must be at least this share of the modelled yaw resistance, and mu_s m' this share of the
+/// surge resistance, so that the control laws can compensate model errors. Chosen above the
+/// relative model error that `awmr validate` accepts by default (0.15).
 inline constexpr double kUnmodelledShare = 0.2;
 inline constexpr const char* kSteeringRate = "steering rate";
 /// Largest permitted value of (mu_s/eps_s) T_s, the gain of the speed loop times the sample time.
-/// The sampled speed loop is unstable from 2 on, so the gain margin is at least 4.
+/// The sampled speed loop becomes unstable at 2, so the limit 0.5 leaves a gain margin of at least
+/// 4.
 inline constexpr double kSpeedGainPerSample = 0.5;
 
 /// Yaw rates at which the heading loop is examined, as fractions of the highest expected yaw rate
-/// of the runs. Yaw rates below kSlowest_radps are replaced by kSlowest_radps, because sensors
-/// cannot distinguish them from rest.
+/// of the runs. Rates below kSlowest_radps are replaced by kSlowest_radps, because sensors cannot
+/// distinguish lower rates from rest.
 inline constexpr double kRateShares[] = {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0};
 inline constexpr double kSlowest_radps = radians(1.0);
 
@@ -58,7 +59,7 @@ struct ConstraintContext {
   /// Latency of the readings of heading and yaw rate, s, >= 0.
   double latency_s = 0.0;
   double motor_time_constant_s = 0.0;  ///< time constant of the motors, s, >= 0
-  /// Drawn vehicles, which must meet the constraints, too.
+  /// Drawn vehicles: the gains must also meet the constraints on each of them.
   std::vector<DrawnVehicle> draws = {};
 
   /// The nominal vehicle: the identified plant with the vehicle's own wheel forces.
@@ -70,29 +71,29 @@ struct ConstraintContext {
 /// forces_beyond_dead_zone() of the drawn vehicle (model/vehicle.h).
 Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle);
 
-/// Factor k in the yaw moment of the steering, which is proportional to tan(k d_r), d_r the
-/// steering angle: 1/2, or 1 with front-wheel drive.
+/// Returns the factor k of the steering's yaw moment, which is proportional to tan(k d_r) at the
+/// steering angle d_r: 1/2, or 1 with front-wheel drive.
 inline double steering_angle_factor(const Plant<double>& plant) {
   return plant.rear_driven > 0.0 ? 0.5 : 1.0;
 }
 
 /// Largest yaw moment of the steering at the steady speed u_d, m: l_f g1(u_d) tan(k d_max), with k
-/// of steering_angle_factor().
+/// from steering_angle_factor().
 double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 
-/// Largest yaw moment tau_turn, m, at the steady speed u_d: of the weaker of the modes steering and
-/// differential, or of `mode` if it is one of these two. A mode without any moment at that speed
-/// (steering at rest) is ignored.
+/// Returns the largest yaw moment tau_turn, m, of the weaker mode (steering or differential) at the
+/// steady speed u_d, or of `mode` if it is one of these two. A mode without any moment at that
+/// speed (steering at rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
-/// F'max and F'min are the limits of the wheel force after subtracting the dead zone. With
-/// front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF,
-/// k_e u_d is added to g1/4.
+/// F'max and F'min are the limits of the wheel force after subtracting the motor dead zone. With
+/// front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF (k_e
+/// per wheel), k_e u_d is added to g1/4.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
                            std::optional<YawMode> mode = {});
 
-/// Largest yaw moment tau_turn, m, at the steady speed u_d, of the stronger of the modes steering
-/// and differential.
+/// Returns the largest yaw moment tau_turn, m, of the stronger mode (steering or differential) at
+/// the steady speed u_d.
 double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 
 /// Computes every constraint, as value <= limit or value >= limit (ConstraintReport::sense). zeta
@@ -115,16 +116,18 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 /// The limits damping, late_damping, delayed_damping and noise_share are those of TuningLimits.
 ///
 /// Each constraint is reported for the vehicle (nominal or drawn) that is nearest to the limit, or
-/// violates it most. The controller always uses the nominal plant. On a drawn plant, the gain of
-/// the speed loop therefore changes by the ratio of the two m' (a factor on mu_s/eps_s), and that
-/// of the heading loop by the ratio of the two I'z (SampledHeadingLoop::input_gain).
+/// violates it most. The controller always uses the nominal plant. On a drawn plant, the gain
+/// mu_s/eps_s of the speed loop is therefore multiplied by the ratio m' nominal/drawn. The gain of
+/// the heading loop is multiplied by the ratio I'z nominal/drawn (SampledHeadingLoop::input_gain).
 ///
-/// T2 < T1: both forms are reported; only the one that `form` selects is required.
+/// T2 < T1: both forms are reported; only the form that ConstraintContext::form selects is
+/// required.
 ///
 /// Heading damping is the smallest over the vehicle's modes and the yaw rates of kRateShares,
-/// because the slope of g3 depends on the rate. For drawn plants, late damping and the delay margin
-/// are computed at the lowest and the highest rate only, because their matrices grow with the
-/// latency. For the nominal plant, late damping is computed at all rates.
+/// because the slope of the yaw resistance g3 depends on the rate. For the nominal plant, late
+/// damping is also computed at all these rates. For drawn plants, late damping and delay margin are
+/// computed at the lowest and the highest rate only, to save time: their matrices grow with the
+/// latency.
 ///
 /// Speed gain: the speed law cancels g1 with the delay of the hold, so the pole of the loop is
 ///   z = 1 - k_s (1 - exp(-a T_s))/a,   k_s = mu_s/eps_s,   a = g1'/m' >= 0,
@@ -135,14 +138,15 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 /// the time constants of servo and motors.
 ///
 /// An observer of bandwidth L is part of the sampled heading loop, and adds no gain on the measured
-/// heading. In the speed loop it replaces k_s by k_s + L: law and observer together command
-/// -(k_s + L) e_u - k_s L integral(e_u), and to first order the lag acts on the first term.
+/// heading. In the speed loop, k_s + L replaces k_s: law and observer together command -(k_s + L)
+/// e_u - k_s L integral(e_u) for the speed error e_u. To first order, the lag acts on the first
+/// term only.
 ///
 /// Noise gain: I'z lambda mu/eps is the gain of the heading law from the heading psi to the yaw
 /// moment tau_turn.
 ///
-/// I'z mu may exceed the largest yaw moment, because the allocation clips a larger request. The
-/// paper's mu (I'z mu = 0.64 m) does so in every mode.
+/// I'z mu may exceed the largest yaw moment, because the allocation clips the request. With the
+/// paper's mu (I'z mu = 0.64 m), it does so in every mode.
 std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
                                              const ConstraintContext& context);
 
@@ -157,8 +161,8 @@ double examined_rate_radps(double share, const ConstraintContext& context);
 /// The lowest and the highest yaw rate at which the heading loop is examined.
 Interval examined_rates_radps(const ConstraintContext& context);
 
-/// Residual of a constraint: -margin/max(|value|, |limit|), where the margin is the distance of the
-/// value from its limit. The residual is <= 0 if and only if the constraint is met.
+/// Residual of a constraint: -margin/max(|value|, |limit|), with ConstraintReport::margin. The
+/// residual is <= 0 exactly if the constraint is met.
 double residual(const ConstraintReport& constraint);
 
 /// The residual of each required constraint.

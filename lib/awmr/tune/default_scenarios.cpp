@@ -30,7 +30,8 @@ constexpr double kLongestHold_s = 20.0;
 /// Time for which each heading is commanded, as a multiple of the time that the turn takes
 /// (turning_time_s()).
 constexpr double kHoldOverTurn = 1.6;
-/// Longest time for each heading if the loop must be slow because of noise or latency, s.
+/// Longest time for which each heading is commanded, s. It applies to loops that noise or latency
+/// makes slow.
 constexpr double kLongestDecay_s = 60.0;
 /// Settling time after the turn, as a multiple of T + latency, T the lag of servo or motors.
 constexpr double kSettlingOverLag = 10.0;
@@ -79,8 +80,8 @@ double decay_time_s(const Model& model, const Plant<double>& plant, const Scenar
 /// Returns the time, s, that the weaker mode takes to turn by an angle:
 ///   angle/r + sqrt(angle I'z/N) + 10 (T + latency)
 /// The terms are the turn at the yaw rate r, the acceleration by N/I'z, and the settling of the
-/// loop. N is the largest moment of the weaker mode. r is the yaw rate of its steady turn, at most
-/// the highest measured yaw rate. T is the larger of the time constants of servo and motors.
+/// loop. N is the largest moment of the weaker mode. r is the yaw rate of a steady turn with N, at
+/// most the highest measured yaw rate. T is the larger of the time constants of servo and motors.
 double turning_time_s(const Model& model, const Plant<double>& plant, double speed_mps,
                       double angle_rad) {
   const double moment = turning_authority_m({plant, model.vehicle.wheel_force}, speed_mps);
@@ -105,7 +106,7 @@ struct Manoeuvre {
   double hold_s;
 };
 
-/// The manoeuvre with the time that the turn takes, without the decay of the error after it.
+/// The manoeuvre without time for the decay of the error after the turn.
 Manoeuvre turn_for(const Model& model, const Plant<double>& plant) {
   const double speed_mps = speed_for(model, plant);
   const auto hold_for = [&](double step_deg) {

@@ -13,7 +13,7 @@
 namespace awmr {
 namespace {
 
-/// Starts of feasible_start(): number of random ones, besides the baseline and the middle of the
+/// feasible_start(): number of random starts, in addition to the baseline and the middle of the
 /// bounds, and number of evaluations from each start.
 constexpr int kRandomStarts = 30;
 constexpr int kStartEvaluations = 300;
@@ -25,11 +25,12 @@ struct Feasibility {
   const ConstraintContext& context;
   std::span<const std::string> relaxed = {};
   Candidate best = {.violation = std::numeric_limits<double>::infinity()};
-  /// Among the gains that meet all other constraints, those that violate the `relaxed` ones least.
+  /// Among the gains that meet all other constraints, those that violate the constraints in
+  /// `relaxed` least.
   Candidate least = {.violation = std::numeric_limits<double>::infinity()};
 
-  /// Evaluates a point. Returns the largest residual of the constraints that are not in `relaxed`,
-  /// then of those in `relaxed`.
+  /// Evaluates a point. Returns two largest residuals: of the constraints not in `relaxed`, then of
+  /// the constraints in `relaxed`.
   std::pair<double, double> look_at(const Point& point) {
     const Gains<double> gains = with_friction_width(space.gains_at(point), context);
     constexpr double kNone = -std::numeric_limits<double>::infinity();
@@ -105,10 +106,10 @@ const DrawnVehicle& most_violated(const Feasibility& problem, const Gains<double
   return *most;
 }
 
-/// As search_from_starts(), but examines few of the drawn vehicles at most points, because all of
-/// them take almost a second for each point with a long latency. It begins with none of the drawn
-/// vehicles. As long as the gains it finds violate constraints of all drawn vehicles, it adds the
-/// one with the largest violation and searches again from these gains.
+/// As search_from_starts(), but examines few of the drawn vehicles at most points, because all
+/// vehicles take almost a second for each point if the latency is long. It begins with none of the
+/// drawn vehicles. While some drawn vehicle violates a constraint with the gains found, it adds the
+/// vehicle with the largest violation and searches again from these gains.
 void search_feasible(Feasibility& problem, std::uint64_t seed, const Gains<double>& baseline,
                      int starts) {
   ConstraintContext some = problem.context;

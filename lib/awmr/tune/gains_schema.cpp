@@ -36,8 +36,8 @@ void describe_constraints(JsonObject& json) {
     constraint.string("name");
     constraint.boolean("required");
     for (const char* key : {"value", "limit", "margin"}) constraint.number(key);
-    // Older files have no `sense`; in them, only the text `meaning` says whether the limit is an
-    // upper or a lower one.
+    // Older files have no `sense`. Their text `meaning` says whether the limit is an upper or a
+    // lower limit.
     if (constraint.has("sense")) constraint.choice("sense", kSenseNames);
     constraint.string("meaning");
     constraint.reject_unknown_keys();
@@ -84,7 +84,8 @@ void describe_quantiles(JsonObject json) {
   }
 }
 
-/// History of a search: the evaluations whose objective was better than that of all earlier ones.
+/// History of a search: each evaluation whose objective is better than that of all evaluations
+/// before it.
 void describe_history(JsonObject json) {
   json.number("evaluations", kNonNegative);
   json.number("global_evaluations", kNonNegative);
@@ -191,8 +192,8 @@ void describe_certificate(JsonObject json) {
   json.reject_unknown_keys();
 }
 
-/// Settling time and control variation, for the gains on the Pareto front of the search, and for
-/// named gains such as the tuned ones.
+/// Settling time and control variation, for the gains on the Pareto front of the search and for
+/// named gains such as "tuned".
 void describe_trade_off(JsonObject json) {
   const auto describe_point = [](JsonObject& point) {
     for (const char* key : {"settling_time_s", "control_variation"})

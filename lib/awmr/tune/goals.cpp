@@ -34,8 +34,8 @@ constexpr RunFigure kFiguresByName[kRunFigures] = {
 };
 
 /// Returns for each drawn vehicle its excess in one mode, the largest ratio of a metric to its
-/// limit (goals.h). It is the largest over the scenarios, because the runs of one vehicle are not
-/// independent. `outcomes` are sorted by vehicle, then mode, then scenario.
+/// limit (goals.h). The runs of one vehicle are not independent, so a vehicle counts once, with the
+/// largest excess over the scenarios. `outcomes` are sorted by vehicle, then mode, then scenario.
 std::vector<double> excesses(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                              std::size_t scenarios) {
   std::vector<double> all;

@@ -6,8 +6,8 @@
 /// is infinite if the run breaks off or a metric is not finite. The excess of a draw is the largest
 /// over its scenarios. In the search, a goal with the required share p is met in a mode if the p
 /// quantile of e over all draws is at most 1. The p quantile of n draws is the ceil(p n)-th
-/// smallest value, so with few draws it is the largest. After the search, the verdict (GoalVerdict)
-/// follows from the 95 % interval of the share of new draws that meet the goal.
+/// smallest value: with few draws, the largest. After the search, the verdict (GoalVerdict) follows
+/// from the 95 % interval of the share of new draws that meet the goal.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ inline constexpr std::size_t kRunFigures = 6;
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
 
-/// The metrics of a run that goals can limit and the evaluation reports. (The objective uses other
-/// metrics, see kObjectiveTerms.)
+/// The metrics of a run that goals can limit and the evaluation reports. The objective uses other
+/// metrics (kObjectiveTerms).
 struct RunOutcome {
   YawMode mode{};
   bool completed = false;  ///< true if the run settles after every heading step
@@ -65,9 +65,9 @@ struct GoalInMode {
 /// Returns each goal once for each of `modes` in which it must be met, sorted by goal, then mode.
 std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<const YawMode> modes);
 
-/// Returns a quantile of the excess in the goal's mode over the drawn vehicles, >= 0, for the
-/// goal's required share. The goal is met if the quantile is at most 1. `outcomes` are sorted by
-/// drawn vehicle, then mode, then scenario.
+/// Returns the p quantile of the excess over the drawn vehicles in the mode of `one`, >= 0, with p
+/// the goal's required share. The goal is met if the quantile is at most 1. `outcomes` are sorted
+/// by drawn vehicle, then mode, then scenario.
 double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                           std::size_t scenarios);
 

@@ -14,8 +14,8 @@
 namespace awmr {
 namespace {
 
-/// True if the heading loop is stable. delay_margin_s() takes the same time for every latency; the
-/// poles of a loop with a latency of many samples take long.
+/// True if the heading loop is stable. The latency is compared with the delay margin, because
+/// computing the poles of a loop with a latency of many samples takes long.
 bool is_stable(const SampledHeadingLoop& loop) {
   SampledHeadingLoop prompt = loop;
   prompt.command_delay_s = 0.0;
@@ -35,14 +35,14 @@ std::optional<UnstableLoop> unstable_heading(const Gains<double>& gains,
   return std::nullopt;
 }
 
-/// Slope of surge resistance and back-EMF of n driven wheels at the speed u, divided by m', 1/s:
-/// (g1'(u) + n k_e)/m'.
+/// Slope of the force that surge resistance and back-EMF of n driven wheels need at the speed u,
+/// divided by m', 1/s: (g1'(u) + n k_e)/m'.
 double surge_rate(const Plant<double>& plant, double speed_mps) {
   return (slope(plant.surge, speed_mps) + driven_wheels(plant) * plant.back_emf_s_per_m) /
          plant.mass_norm;
 }
 
-/// The speed loop at the speed of the context, with motor lag and the latency of the measured
+/// The speed loop at the speed of the context, with motor lag. `latency_s`: latency of the measured
 /// speed.
 SampledHeadingLoop sampled_speed_loop(const Gains<double>& gains, const ConstraintContext& context,
                                       double latency_s) {

@@ -6,18 +6,17 @@
 ///     ln J = sum_i w_i ln((x_i + f_i)/(x0_i + f_i)) / sum_i w_i,   w_i: weights
 ///
 /// The metrics are settling time, heading ITAE, overshoot, control variation, effort and speed
-/// ITAE. f_i is a floor in the unit of x_i: differences below it hardly change J, and a metric of
-/// 0, such as an overshoot, is allowed. The baseline scores exactly 1.
+/// ITAE. f_i is a floor in the unit of x_i. It makes a metric of 0, such as no overshoot, possible,
+/// and differences below it hardly change J. With the baseline gains, J is exactly 1.
 ///
-/// For several vehicles, ln J of a mode and scenario is the average of the mean over all vehicles
-/// and the mean over the worst tail_share of them (CVaR). The objective is the geometric mean of J
-/// over modes and scenarios. Each soft goal adds max(0, q - 1) in each of its modes, q the quantile
-/// of its excess (goals.h).
+/// For several vehicles, ln J of a mode and scenario is the average of two means: over all
+/// vehicles, and over the worst tail_share of them (CVaR). The objective is the geometric mean of J
+/// over modes and scenarios. Each soft goal adds max(0, q - 1) in each of its modes, with q the
+/// quantile of its excess over the limit (goals.h).
 ///
 /// J uses geometric means, because another baseline then only multiplies J by a constant. The
-/// baseline changes the optimum only by the choice of the worst vehicles and by the weight of soft
-/// goals. In a sum of ratios, by contrast, a metric that is large with the baseline would hardly
-/// count.
+/// baseline changes the optimum only through the choice of the worst vehicles and the weight of
+/// soft goals. In a sum of the ratios, a metric that is large with the baseline would hardly count.
 #pragma once
 
 #include <array>
@@ -52,13 +51,14 @@ inline constexpr ObjectiveTerm kObjectiveTerms[] = {
 
 /// Substitute for the settling time, s, of a run that does not settle after every step:
 ///   T max(1, ITAE/sum_j(b T_j^2/2))
-/// T is the scenario's duration, T_j the time for which step j is commanded, b = 0.5 deg the
-/// narrowest settling band. The factor on T makes the substitute depend on the gains: with T only,
-/// the search would select the least active gains. Precondition: heading guidance.
+/// T is the scenario's duration, T_j the time for which heading step j is commanded, and b = 0.5
+/// deg the narrowest settling band. If the substitute were T alone, all gains that do not settle
+/// would have the same settling time, and the search would select the least active of them.
+/// Precondition: heading guidance.
 double unsettled_s(const Scenario& scenario, double itae_degs2);
 
 /// The metrics x_i of one run, in the order of kObjectiveTerms. An absent settling time is replaced
-/// by ModeScore::unsettled_s, any other absent metric by 0.
+/// by ModeScore::unsettled_s, other absent metrics by 0.
 std::array<double, std::size(kObjectiveTerms)> figures_of(const ModeScore& score);
 
 /// Returns the objective J of one run. It is exactly 1 with the baseline gains, and infinite or NaN
@@ -87,8 +87,8 @@ struct ObjectiveSetting {
 };
 
 /// Standard normal random numbers for the sensor noise of all runs, sorted by scenario, then
-/// vehicle. Empty if they would take more than kMaxNoiseBytes; each run then generates the same
-/// numbers itself.
+/// vehicle. Empty if they would need more memory than kMaxNoiseBytes; each run then generates the
+/// same numbers itself.
 using RunNoise = std::vector<std::vector<DrawnNoise>>;
 inline constexpr double kMaxNoiseBytes = 64e6;
 RunNoise draw_noise(const ObjectiveSetting& setting);
@@ -99,10 +99,11 @@ struct Evaluation {
   std::vector<ModeScore> scores;
   /// Geometric mean of the objective over scenarios, in the order of modes().
   std::vector<double> mode_objective;
-  /// For each mode, the sum of the control variation of all runs, divided by that of the baseline.
+  /// For each mode, the sum of the control variation of all runs, divided by this sum with the
+  /// baseline gains.
   std::vector<double> mode_activity;
   /// Quantile of the excess of each goal in each mode (goals.h), sorted by goal, then mode. A goal
-  /// is met if it is at most 1.
+  /// is met if its quantile is at most 1.
   std::vector<double> goal_quantile;
   /// Settling time and control variation, as means over all runs.
   TradeOffPoint trade_off;
@@ -118,7 +119,7 @@ class Objective {
   Objective(ObjectiveSetting setting, const Gains<double>& baseline);
 
   /// Simulates every mode of every vehicle for each set of gains that was not evaluated before. The
-  /// result of one set depends neither on the others nor on the number of cores.
+  /// result of a set does not depend on the other sets or on the number of cores.
   std::vector<Evaluation> operator()(std::span<const Gains<double>> gains) const;
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }
@@ -138,7 +139,7 @@ class Objective {
   /// Scores of the baseline gains, sorted by vehicle, then mode, then scenario.
   std::vector<ModeScore> baseline_scores_;
   Evaluation baseline_;
-  /// Cache of evaluations by the values of the gains: the stages of a search repeat some gains.
+  /// Cache of evaluations by gains, because the stages of a search repeat some gains.
   using GainNumbers = std::array<double, sizeof(Gains<double>) / sizeof(double)>;
   mutable std::map<GainNumbers, Evaluation> known_;
   mutable std::mutex known_mutex_;

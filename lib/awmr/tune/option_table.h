@@ -20,8 +20,7 @@ inline constexpr NumberRule kBetweenZeroAndOne{
 /// Range of the limits on damping ratios and of noise_share. A limit below 1e-6 would have no
 /// effect.
 inline constexpr NumberRule kLimitShare{.min = 1e-6, .max = 1.0};
-/// Ranges of two numbers of a goal: the limit of a metric, and the required share of drawn
-/// vehicles.
+/// Ranges for a goal: the limit of a metric, and the required share of drawn vehicles.
 inline constexpr NumberRule kGoalLimit{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kGoalShare{.min = kMinGoalShare, .max = kMaxGoalShare};
 inline constexpr NumberRule kMassFactor{.min = kMinMassFactor, .max = kMaxMassFactor};

@@ -8,7 +8,7 @@
 namespace awmr {
 namespace {
 
-/// A mode uses gains of its own if they lower its objective to at most this share.
+/// A mode uses its own gains if they lower its objective to at most this share.
 constexpr double kWorthOwnGains = 0.95;
 
 /// Removes the elements of other modes.
@@ -17,7 +17,7 @@ void keep_only(YawMode mode, Results& results) {
   std::erase_if(results, [mode](const auto& one) { return one.mode != mode; });
 }
 
-/// Returns the results of a tuning for all modes in one of them.
+/// Returns the results of one mode from a tuning for all modes.
 Tuning in_mode(Tuning tuning, YawMode mode) {
   tuning.mode = mode;
   keep_only(mode, tuning.scores);
@@ -32,8 +32,8 @@ Tuning in_mode(Tuning tuning, YawMode mode) {
   return tuning;
 }
 
-/// True if the gains `own` are clearly better than the gains `common`. `objective`: of the runs of
-/// one mode.
+/// True if the gains `own` have an objective that is lower by at least 5 % than with `common`, and
+/// at least as many runs settle. `objective`: objective of the runs of one mode.
 bool is_better(const Gains<double>& own, const Gains<double>& common, const Objective& objective) {
   const double limit = kWorthOwnGains * objective(common).objective;
   const ObjectiveSetting& runs = objective.setting();
@@ -41,7 +41,8 @@ bool is_better(const Gains<double>& own, const Gains<double>& common, const Obje
          settled_share(runs, own) >= settled_share(runs, common);
 }
 
-/// Sets the objectives of `tuning`, the results for all modes, to those in the runs of one mode.
+/// Replaces the objectives of `tuning`, which are over all modes, by the objectives in the runs of
+/// one mode.
 void evaluate_in(const Objective& objective, const Scenario& held_out, Tuning& tuning) {
   tuning.objective = objective(tuning.gains).objective;
   tuning.baseline_objective = objective.baseline().objective;

@@ -1,4 +1,4 @@
-/// Gains of their own for the modes of yaw control. Private to tune/.
+/// Separate gains for each mode of yaw control. Private to tune/.
 #pragma once
 
 #include <functional>
@@ -10,10 +10,10 @@
 
 namespace awmr {
 
-/// Searches gains for each mode alone. A mode keeps the gains in `common` if its search fails, if
-/// its objective is not lower by at least 5 %, or if fewer of its runs settle. Returns all modes as
-/// one Tuning: the gains of combined mode in Tuning::gains, those of the other modes in
-/// Tuning::own; Tuning::certificate has all modes. Empty if all modes keep the gains in `common`.
+/// Searches gains for each mode alone. A mode keeps the gains of `common` if its search fails, if
+/// its objective falls by less than 5 %, or if fewer of its runs settle. Returns one Tuning with
+/// all modes: the gains of combined mode in Tuning::gains, those of the other modes in Tuning::own,
+/// and a certificate for all modes. Empty if all modes keep the gains of `common`.
 ///
 /// `setting`: the setting in which `common` was tuned for all modes. `search`: tunes for one mode
 /// in that setting. `held_out`: a scenario that the searches do not use.

@@ -82,8 +82,8 @@ class HeadingPoles {
   }
 
   bool is_met(const Gains<double>& gains) {
-    // The drawn vehicles are examined only if the nominal vehicle and the drawn vehicle that last
-    // violated a constraint meet all of them, because it takes longer.
+    // To save time, all drawn vehicles are examined only if two vehicles meet all constraints: the
+    // nominal vehicle and the drawn vehicle that last violated a constraint.
     double broken = violation(gains, own_);
     if (broken <= 0.0 && !last_violating_.draws.empty()) broken = violation(gains, last_violating_);
     if (broken <= 0.0 && !context_.draws.empty()) broken = violation_of_draws(gains);
@@ -138,9 +138,10 @@ class HeadingPoles {
   double least_broken_ = std::numeric_limits<double>::infinity();
 };
 
-/// Returns gains with the same poles, whose boundary layers contain the errors at the start of a
-/// scenario, S = lambda e (e: the largest heading step) and e_u = u_d. Then only the actuators
-/// saturate, not the control laws. With k = mu/epsilon and k_s = mu_s/epsilon_s, the conditions are
+/// Returns gains with the same poles and wider boundary layers, which contain the errors at the
+/// start of a scenario: S = lambda e (e: the largest heading step) and the speed error u_d. Then
+/// only the actuators saturate, not the control laws. With k = mu/epsilon and k_s = mu_s/epsilon_s,
+/// the conditions are
 ///   mu >= lambda k e,   mu_s >= k_s u_d
 Gains<double> with_wide_layers(Gains<double> gains, const ConstraintContext& context) {
   const double k = gains.heading.mu / gains.heading.epsilon;

@@ -22,9 +22,9 @@ namespace awmr {
 Gains<double> place_poles(const ConstraintContext& context,
                           const ObserverGains<double>& observer = {});
 
-/// Returns two initial guesses of the search: first, the result of place_poles() with boundary
-/// layers widened to contain the initial errors (the poles stay the same); second, the unchanged
-/// result. The default bounds of the gains lie around these two.
+/// Returns two initial guesses of the search: first, the result of place_poles() with wider
+/// boundary layers, which contain the initial errors (the poles stay the same); second, the
+/// unchanged result. The default bounds of the gains follow from these two.
 std::array<Gains<double>, 2> starting_poles(const ConstraintContext& context,
                                             const ObserverGains<double>& observer = {});
 

@@ -14,8 +14,8 @@
 namespace awmr {
 namespace {
 
-/// NLopt minimises one number for each point. A point that was not simulated, or whose runs break
-/// off, has the number kRejected + violation, which is larger than the objective of any useful
+/// NLopt minimises one number for each point. If a point is not simulated, or its runs break off,
+/// this number is kRejected + violation. kRejected is larger than the objective of any useful
 /// gains.
 constexpr double kRejected = 1e3;
 /// Added to the residuals of all constraints if a run breaks off.
@@ -193,7 +193,7 @@ void Problem::report() const {
   const auto total = static_cast<std::size_t>(options_.global_evaluations) +
                      static_cast<std::size_t>(options_.local_evaluations);
   // The evaluations at the starts of the search are not part of the budget, so the count can exceed
-  // it.
+  // the budget.
   options_.progress(std::min(static_cast<std::size_t>(evaluations), total), total);
 }
 

@@ -20,8 +20,8 @@ inline constexpr unsigned kMaxDimensions = 6;
 /// Natural logarithms of the searched values; the last one is 0 if no observer is searched.
 using Point = std::array<double, kMaxDimensions>;
 
-/// Fills in each absent bound of a gain. The lower bound is the smallest value of this gain in
-/// `gains` divided by kBoundFactor, the upper bound its largest value times kBoundFactor.
+/// Fills in each absent bound of a gain: its smallest value in `gains` divided by kBoundFactor, and
+/// its largest value times kBoundFactor.
 void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds);
 
 /// Ranges of the logarithms of the gains, and conversions between points and gains.
@@ -34,7 +34,7 @@ class SearchSpace {
   /// The corners of the bounds.
   Point lower_corner() const;
   Point upper_corner() const;
-  /// Returns the gains at the point. They are clamped to the bounds, because exp() rounds.
+  /// Returns the gains at the point, clamped to the bounds because exp() rounds.
   Gains<double> gains_at(const Point& point) const;
   Point point_of(const Gains<double>& gains) const;
 
@@ -57,8 +57,9 @@ struct Candidate {
   bool feasible() const { return simulated && valid && violation <= 0.0; }
 };
 
-/// True if `a` is better than `b`. Feasible candidates come first, ordered by objective; the others
-/// follow, ordered by violation.
+/// True if `a` is better than `b`. A feasible candidate is better than an infeasible one. Of two
+/// feasible candidates, the one with the smaller objective is better; of two infeasible ones, the
+/// one with the smaller violation.
 bool better(const Candidate& a, const Candidate& b);
 
 /// A point with its evaluation.
@@ -84,7 +85,7 @@ class Problem {
   /// True: points that violate a constraint are also simulated, because the local search needs
   /// their objective.
   bool simulate_all = false;
-  /// For each constraint, the largest residual with which it counts as met: 0, except for a
+  /// For each constraint, the largest residual with which it still counts as met: 0, except for a
   /// constraint that active_constraints() relaxes.
   std::vector<double> tolerated;
   Candidate nearest;    ///< the best candidate so far, in the order of better()

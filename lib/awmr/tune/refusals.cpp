@@ -65,16 +65,16 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
   return refused_at(
       requested, fmt::format("/goals/{}", goals[worst].goal - objective.goals().data()),
       ErrorCode::kNoGains,
-      fmt::format(
-          "no gains within the bounds reach the goal \"{}\": of {} evaluated, the nearest ({}) "
-          "need {:.3g} times its limits.{} Make the goal soft, raise its limits, or increase "
-          "local_evaluations{}",
-          goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
-          e.goal_quantile[worst], unsettled_text(objective, context, found.nearest.gains),
-          is_rate_limited ? ". One default scenario is slow, because it limits the heading rate "
-                            "to the highest measured yaw rate; " +
-                                option_text("heading_rate_limit") + " none removes that scenario"
-                          : ""));
+      fmt::format("no gains within the bounds reach the goal \"{}\": of {} evaluated sets, the "
+                  "nearest ({}) would need limits {:.3g} times as high.{} In tune.json, set `soft` "
+                  "of this goal to true, raise its limits, or increase `local_evaluations`{}",
+                  goals[worst].name(), found.evaluations, in_words(found.nearest.gains),
+                  e.goal_quantile[worst], unsettled_text(objective, context, found.nearest.gains),
+                  is_rate_limited
+                      ? ". One default scenario is slow, because it limits the heading rate "
+                        "to the highest measured yaw rate; " +
+                            option_text("heading_rate_limit") + " none removes that scenario"
+                      : ""));
 }
 
 /// Names of the violated constraints.
@@ -96,16 +96,17 @@ tl::unexpected<Error> infeasible(const Candidate& nearest, const ConstraintConte
   const std::vector<std::string> changes = single_changes(nearest.gains, context, requested);
   return refused_at(
       requested, pointer_to(worst->name), ErrorCode::kNoGains,
-      fmt::format("no gains within the bounds meet the constraints: the nearest ({}) violate '{}', "
-                  "{:.4g} against a limit of {:.4g} ({}). {}",
-                  in_words(nearest.gains), worst->name, worst->value, worst->limit, worst->meaning,
-                  changes.empty()
-                      ? fmt::format("No change of a single limit or bound of tune.json permits "
-                                    "gains. Violated: {}",
-                                    fmt::join(violated(all), ", "))
-                      : fmt::format("{} of tune.json alone permits gains ({}): {}",
-                                    changes.size() == 1 ? "This change" : "Each of these changes",
-                                    kSmallerMaySuffice, fmt::join(changes, "; "))));
+      fmt::format(
+          "no gains within the bounds meet the constraints: the nearest gains ({}) violate '{}', "
+          "{:.4g} against a limit of {:.4g} ({}). {}",
+          in_words(nearest.gains), worst->name, worst->value, worst->limit, worst->meaning,
+          changes.empty()
+              ? fmt::format("No change of a single limit or bound of tune.json permits "
+                            "gains. Violated: {}",
+                            fmt::join(violated(all), ", "))
+              : fmt::format("{} of tune.json alone permits gains ({}): {}",
+                            changes.size() == 1 ? "This change" : "Each of these changes",
+                            kSmallerMaySuffice, fmt::join(changes, "; "))));
 }
 
 tl::unexpected<Error> not_found(const SearchResult& found, const Objective& objective,
@@ -116,9 +117,8 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
   if (!e.valid) {
     return refused_at(
         requested, "/scenarios", ErrorCode::kDiverges,
-        fmt::format("runs diverge with all {} gains that were tried; the nearest to the "
-                    "limits are {}. Give slower "
-                    "scenarios or narrower bounds",
+        fmt::format("runs diverge with all {} sets of gains that were tried; the gains nearest to "
+                    "the limits are {}. Give slower scenarios or narrower `bounds`",
                     found.evaluations, gains));
   }
   const bool is_activity = found.broken_most.starts_with("activity");
@@ -126,7 +126,7 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
       requested, is_activity ? "/activity_max" : pointer_to(found.broken_most), ErrorCode::kNoGains,
       fmt::format(
           "no gains within the bounds meet every limit: the nearest of {} evaluated sets ({}) "
-          "violate '{}' by {:.0f} %; {}, or increase local_evaluations",
+          "violate '{}' by {:.0f} %; {}, or increase `local_evaluations`",
           found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
           is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
 }

@@ -1,6 +1,5 @@
-/// Errors for searches that find no gains. The message names the constraint that no gains meet, and
-/// the limit to relax. The error's place is the JSON pointer of this limit in tune.json
-/// (TuneOptions::file). Private to tune/.
+/// Errors for searches that find no gains. Each error points to the limit to relax, by its JSON
+/// pointer in tune.json (TuneOptions::file). Private to tune/.
 #pragma once
 
 #include <vector>

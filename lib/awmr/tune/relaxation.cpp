@@ -152,7 +152,7 @@ std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& c
         const double number = in_two_digits(limit, strict + share * (loose - strict));
         if (limit.relaxed_by_less ? number < strict : number > strict) add(number);
       }
-      // T2 < T1 is always required, so its margin is not relaxed beyond the default.
+      // The margin of T2 < T1 is not relaxed beyond its default.
       const bool may_exceed_default = !sets(limit, "T2 < T1 (strict)");
       for (const double factor : kBeyond) {
         const double number = limit.relaxed_by_less ? std::min(strict, loose) / factor
@@ -190,9 +190,9 @@ std::optional<Gains<double>> start_without(const Limit& limit, TuneOptions optio
 }
 
 /// Returns a less strict value of `limit` with which tune() finds gains to start its search. Empty
-/// if there is none. The first value that is tried is the one that some gains just meet. With this
-/// value, the search for a start can fail, because the default bounds of the gains depend on the
-/// limit. Then the value is made less strict until the search succeeds.
+/// if there is none. First tries the value that some gains just meet. The search for a start can
+/// fail with this value, because the default bounds of the gains depend on the limit. Then tries
+/// less strict values (kSteps) until the search succeeds.
 std::optional<double> number_that_permits(const Limit& limit, const ConstraintContext& context,
                                           const Gains<double>& nearest,
                                           const TuneOptions& requested) {

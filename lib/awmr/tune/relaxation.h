@@ -11,11 +11,11 @@
 namespace awmr {
 
 /// Note in messages that propose changes. The smallest sufficient change is not searched, because
-/// each try takes up to some seconds.
+/// each tried change takes up to some seconds.
 inline constexpr const char* kSmallerMaySuffice = "smaller changes may also suffice";
 
-/// Advice for a constraint that no gains meet: the limit to relax or, for a constraint without a
-/// limit in tune.json, another change.
+/// Advice for a constraint that no gains meet: the limit to relax or, if tune.json has no such
+/// limit, another change.
 std::string advice_on(const std::string& constraint);
 
 /// Pointer in tune.json to the limit of a constraint; "/bounds" if it has none.
@@ -30,18 +30,19 @@ struct RelaxedLimit {
   ConstraintContext context;  ///< the context in which the limit has this value
 };
 
-/// For each limit of the context that can be relaxed, some less strict values, strictest first:
+/// Returns, for each limit of the context that can be relaxed, some less strict values, strictest
+/// first:
 ///   - limits that are stricter than their default: up to the default
 ///   - limits of damping and noise: also beyond the default, up to half or twice of it
 ///   - the limit of the steering rate: up to 20 times the present one, and up to twice the rate of
 ///     the servo
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);
 
-/// Returns the changes of tune.json, as text such as "`limits/late_damping` 0.55", each of which
-/// alone permits gains that meet the constraints that need no simulation. A change is a new value
-/// of one limit, of one requested bound or of `form`. Each change is confirmed by the search with
-/// which tune() finds its first gains, but from fewer initial guesses. `nearest`: the gains with
-/// the smallest violation, used as a further initial guess.
+/// Returns changes of tune.json, as text such as "`limits/late_damping` 0.55". Each change alone
+/// permits gains that meet the constraints that need no simulation. A change is a new value of one
+/// limit, of one requested bound or of `form`. It is confirmed by the search with which tune()
+/// finds its first gains, but from fewer initial guesses. `nearest`: the gains with the smallest
+/// violation, used as a further initial guess.
 std::vector<std::string> single_changes(const Gains<double>& nearest,
                                         const ConstraintContext& context,
                                         const TuneOptions& requested);

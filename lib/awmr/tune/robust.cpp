@@ -77,11 +77,10 @@ std::size_t UnmodelledVariation::combinations() const {
 
 namespace {
 
-/// Returns a sampler of the model's covariance that ignores mass_norm_by_grip, a larger m' (three
-/// times the identified m' for the paper's vehicle). It is the m' with which a coast-down does not
-/// need more grip than tyres have. The gains must meet the constraints on all draws, so draws with
-/// this m' would make the gains slower for every mass. Users can request such draws with
-/// `mass_factors`.
+/// Returns a sampler of the model's covariance that ignores mass_norm_by_grip, the larger m' with
+/// which a coast-down needs no more grip than tyres have (paper's vehicle: three times the
+/// identified m'). The gains must meet the constraints on all draws, so draws with this m' would
+/// make the gains slower for every mass. Users can request such draws with `mass_factors`.
 Result<PlantSampler> sampler_of(Model model) {
   model.mass_norm_by_grip.reset();
   return PlantSampler::make(model);

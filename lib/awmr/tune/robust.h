@@ -29,8 +29,8 @@ struct NamedCandidate {
   Gains<double> gains;
 };
 
-/// Simulates every set of gains in every mode and scenario on the drawn vehicles of the setting.
-/// (Its first vehicle, the nominal one, is left out.)
+/// Simulates every set of gains in every mode and scenario on the drawn vehicles of the setting,
+/// without its first vehicle, the nominal one.
 std::vector<EvaluatedRuns> run_candidates(const ObjectiveSetting& setting,
                                           const std::vector<NamedCandidate>& candidates);
 
@@ -42,7 +42,7 @@ struct EvaluationResult {
   /// Share of the vehicles that meet each goal, sorted by gains, then goal, then mode.
   std::vector<EvaluatedGoal> goals;
 };
-/// Properties of the runs that evaluation_of() needs: modes, scenarios, tail share and goals.
+/// Properties of the runs that evaluation_of() needs.
 struct EvaluationSetup {
   std::vector<YawMode> modes;
   std::vector<std::string> scenarios;  ///< names of the scenarios, in the order of the runs

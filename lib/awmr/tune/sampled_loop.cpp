@@ -19,8 +19,8 @@
 namespace awmr {
 namespace {
 
-/// A pole z of the sampled loop as s T_s = ln(z): s is the pole of the continuous loop with the
-/// same response at the samples, T_s the sample time.
+/// A pole z of the sampled loop, expressed as s T_s = ln(z). s is the pole of the continuous loop
+/// with the same response at the samples, and T_s the sample time.
 struct Pole {
   double decay = 0.0;    ///< sigma T_s = -Re(s) T_s; negative: unstable
   double damping = 0.0;  ///< zeta = sigma/|s|
@@ -47,7 +47,7 @@ Matrix5 held_over(const SampledHeadingLoop& loop, double time_s) {
   continuous(1, lag ? 3 : 4) = loop.input_gain * loop.direct_share;
   continuous(2, 2) = -1.0 / loop.servo_time_constant_s;
   continuous(2, 4) = 1.0 / loop.servo_time_constant_s;
-  // Without motor lag, the state w_motor has no effect, so any time constant will do.
+  // Without motor lag, the state w_motor has no effect, so its time constant is arbitrary.
   const double motor_s = lag ? loop.motor_time_constant_s : loop.sample_time_s;
   continuous(3, 3) = -1.0 / motor_s;
   continuous(3, 4) = 1.0 / motor_s;
@@ -194,8 +194,8 @@ class CompensatedLoop {
     const std::complex<double> z = std::polar(1.0, omega_radps * t_s);
     const Eigen::Vector4cd by = plant_.gamma0 + plant_.gamma1 * std::conj(z);  // |z| = 1
     // Solves (z I - Phi) x = by for the states x = (psi, r, servo, motor), the last state first.
-    // This is possible because a state depends only on those after it, and servo and motor not on
-    // each other.
+    // This is possible because a state depends only on states after it, and servo and motor do not
+    // depend on each other.
     const Eigen::Matrix4d& phi = plant_.phi;
     const std::complex<double> motor = by(3) / (z - phi(3, 3));
     const std::complex<double> servo = by(2) / (z - phi(2, 2));
@@ -275,9 +275,9 @@ std::optional<double> next_crossing_s(const CompensatedLoop& open,
   return next_s;
 }
 
-/// Computes the delay, s, at which the loop becomes unstable, by fixed-point iteration: the delay
-/// depends on its own fraction f of a sample. Stops if |P| does not cross 1 in one of the ranges.
-/// The ranges were computed for the initial f, so at least one step succeeds.
+/// Computes the delay, s, at which the loop becomes unstable, by fixed-point iteration, because the
+/// delay depends on its own fraction f of a sample. Stops if |P| does not cross 1 in one of the
+/// ranges. The ranges are those of the initial f, so at least one step succeeds.
 double settled_delay_s(const SampledHeadingLoop& loop, const std::vector<Interval>& ranges,
                        double part, double present_s) {
   constexpr int kSteps = 30;

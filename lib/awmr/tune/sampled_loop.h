@@ -4,9 +4,9 @@
 
 namespace awmr {
 
-/// Heading loop linearised at one yaw rate r0, for S inside the boundary layer. psi is the
-/// deviation from the commanded heading, w the commanded yaw acceleration tau_turn/I'z, and s the
-/// share of the yaw moment that left and right wheel forces make:
+/// Heading loop linearised at one yaw rate r0, with the sliding variable S inside the boundary
+/// layer. psi is the deviation from the commanded heading, and w the commanded yaw acceleration
+/// tau_turn/I'z. The difference of left and right wheel forces makes the share s of the yaw moment:
 ///
 ///     psi_dot = r
 ///     r_dot   = -a r + q (s w_motor + (1 - s) w_servo)  a = g3'(r0)/I'z, the plant's own damping
@@ -15,8 +15,9 @@ namespace awmr {
 ///     w = c r_j - (lambda + k) r_j - lambda k psi_j     the law, k = mu/eps, held over T_s;
 ///                                                       r_j, psi_j: the readings n samples ago
 ///
-/// The heading law uses the parameters of the model: c is g3'(r0)/I'z of the model, and q is the
-/// ratio of the model's I'z to that of the plant. For the plant of the model, c = a and q = 1.
+/// The heading law uses the parameters of the model, which can differ from those of the plant: c is
+/// g3'(r0)/I'z of the model, and q is the model's I'z divided by the plant's. If the plant is that
+/// of the model, c = a and q = 1.
 ///
 /// With an observer of bandwidth L (control/disturbance_observer.h), the law subtracts the
 /// estimated disturbance d_hat = I'z (y + L r), y the state of the observer:
@@ -24,8 +25,8 @@ namespace awmr {
 ///     w       = c r_j - (lambda + k + L) r_j - lambda k psi_j - y_j
 ///     y_(j+1) = y_j + T_s L ((lambda + k) r_j + lambda k psi_j)
 ///
-/// Without hold and servo, and with the plant of the model, c cancels a: the poles are -lambda, -k
-/// and, with an observer, -L. Hold and servo delay the cancellation by about tau = T + T_s/2. The
+/// Without hold and servo, and with c = a and q = 1, the poles are -lambda, -k and, with an
+/// observer, -L. Hold and servo delay the cancellation of a by c by about tau = T + T_s/2. The
 /// remaining term a r - a r(t - tau), about a tau r_dot, multiplies the inertia by 1 + a tau. The
 /// delay also reduces the phase: for lambda k << (lambda + k)/tau, a damping ratio zeta requires
 /// about (lambda + k) tau <= 1/(4 zeta^2). The functions below use the exact discretisation.
@@ -46,8 +47,8 @@ struct SampledHeadingLoop {
   double command_delay_s = 0.0;
 };
 
-/// A pole z with |z| below this decays within one sample, and damping_ratio() counts it with the
-/// damping ratio 1.
+/// A sampled pole z with |z| below this value decays by a factor of 10 or more in one sample, so
+/// damping_ratio() counts it with the damping ratio 1.
 inline constexpr double kGoneWithinASample = 0.1;
 /// Smallest damping ratio zeta = -Re(s)/|s| over the poles s = ln(z)/T_s of the closed loop, z the
 /// eigenvalues of its matrix from one sample to the next. In [-1, 1]; positive exactly if the loop
@@ -60,12 +61,12 @@ double damping_ratio(const SampledHeadingLoop& loop);
 /// k_e of n driven wheels, and m' replaces I'z. Positive exactly if the loop is stable.
 double speed_damping_ratio(const SampledHeadingLoop& loop);
 
-/// Like damping_ratio(), but poles that decay much faster than the slowest one count less, because
-/// their effect is hardly seen. With sigma = -Re(s) the decay rate of a pole, it is the smallest
-/// max(zeta, sigma/(20 sigma_slowest)) over the poles. A value of 0.25 therefore permits poles with
-/// zeta < 0.25 that decay at least five times as fast as the slowest one. A latency of many samples
-/// adds such poles. The slowest pole is that of the loop without observer, and not that of a servo
-/// or motor that does not turn the vehicle in this mode.
+/// Like damping_ratio(), but poles that decay much faster than the slowest pole count less, because
+/// they hardly affect the response. With sigma = -Re(s) the decay rate of a pole, the result is the
+/// smallest max(zeta, sigma/(20 sigma_slowest)) over the poles. A limit of 0.25 therefore permits
+/// poles with zeta < 0.25 that decay at least five times as fast as the slowest pole. A latency of
+/// many samples adds such poles. sigma_slowest is computed without observer, and without the servo
+/// or motors if they do not turn the vehicle in this mode.
 double dominant_damping_ratio(const SampledHeadingLoop& loop);
 
 /// Delay margin: smallest additional delay of the command, s, that makes the loop unstable. 0 if
@@ -76,9 +77,9 @@ double dominant_damping_ratio(const SampledHeadingLoop& loop);
 /// The loop has a pole z = e^(j w T_s) of the frequency w, rad/s, on the unit circle exactly where
 ///     P(w, f) = e^(j w D),
 ///     P(w, f) = C(z) (z I - Phi)^-1 (Gamma0(f) + Gamma1(f)/z) e^(j w f T_s).
-/// Phi, Gamma0 and Gamma1 describe the plant held over T_s (HeldPlant), C the control law. |P| = 1
-/// determines w, and the phase of P determines D. P hardly depends on f, so a fixed-point iteration
-/// over f converges.
+/// Phi, Gamma0 and Gamma1 describe the plant held over T_s (HeldPlant), and C the control law. The
+/// condition |P| = 1 determines w, then the phase of P determines D. P hardly depends on f, so a
+/// fixed-point iteration over f converges.
 double delay_margin_s(const SampledHeadingLoop& loop);
 
 }  // namespace awmr

@@ -20,8 +20,8 @@ namespace {
 /// Individuals of the evolution strategy ISRES in each generation. With NLopt's default of 20 (n +
 /// 1) for n gains, the default budget would end in the first generation.
 constexpr unsigned kPopulation = 40;
-/// If a local search lowers the objective by at least this, another one begins at its result. While
-/// no gains meet the constraints, their violation takes the place of the objective.
+/// If a local search lowers the objective by at least this, the next local search begins at its
+/// result. While no gains meet the constraints, their violation replaces the objective.
 constexpr double kWorthwhile = 1e-4;
 /// Evaluations of the local search on all drawn vehicles, if the gains from which it starts are
 /// feasible on all of them.
@@ -29,8 +29,8 @@ constexpr int kFinishEvaluations = 24;
 /// Factor of slowed() for the second start of the local searches.
 constexpr double kSlower = 0.8;
 
-/// Values that NLopt requests of a point. NLopt requests the objective and the residuals of the
-/// constraints separately.
+/// Values of a point that NLopt requests: the objective and the residuals of the constraints, in
+/// separate calls.
 class NloptCallbacks {
  public:
   virtual ~NloptCallbacks() = default;
@@ -119,8 +119,8 @@ nlopt_result run(nlopt_opt search, NloptCallbacks& callbacks, unsigned constrain
 
 bool failed(nlopt_result code) { return code < 0 && code != NLOPT_ROUNDOFF_LIMITED; }
 
-/// Runs ISRES by generations, so that the points of a generation are evaluated in parallel. NLopt
-/// requests one point at a time, so the seeded search is restarted for each generation and replays
+/// Runs ISRES by generations, to evaluate the points of a generation in parallel. NLopt requests
+/// one point at a time, so this function restarts the seeded search for each generation and replays
 /// the known values. The result equals that of a sequential run.
 nlopt_result search_globally(Problem& problem, const TuneOptions& options, const Point& start) {
   // NLopt has one random generator per process, so global searches take turns.
@@ -224,10 +224,10 @@ Result<std::string> search_near(Problem& problem, int most_evaluations) {
 
 namespace {
 
-/// Local search on all drawn vehicles. It starts from the best of `found`, the best gains on the
-/// few vehicles of `searched`, and of `starts`. The order on few vehicles can be misleading, above
-/// all if noise dominates the metrics, so `starts` are evaluated on all vehicles, too. Starts that
-/// are much worse than `found` on the few vehicles are left out.
+/// Local search on all drawn vehicles, from the best of `found` and `starts` on all vehicles.
+/// `found`: the best gains on the few vehicles of `searched`. Few vehicles can favour the wrong
+/// gains, above all if noise dominates the metrics. Starts that are much worse than `found` on the
+/// few vehicles are left out.
 Result<std::string> finish(Problem& problem, const Objective& searched, const Gains<double>& found,
                            std::span<const Gains<double>> starts, int most_evaluations) {
   constexpr double kMuchWorse = 1.25;

@@ -38,10 +38,11 @@ struct SearchResult {
 Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
                                    int most_evaluations);
 
-/// Runs search_locally() in parallel from the best point of `problem` and from gains with slower
-/// poles, with half of `most_evaluations` each. The best point often lies where several constraints
-/// meet. COBYLA, whose models of the constraints are linear, can fail to move from there. Returns
-/// the reasons for stopping. Errors (program fault): a failure of NLopt.
+/// Runs search_locally() in parallel from two starts, the best point of `problem` and gains with
+/// slower poles, with half of `most_evaluations` each. The second start is needed because the best
+/// point often lies where several constraints meet. COBYLA, whose models of the constraints are
+/// linear, can fail to move from there. Returns the reasons for stopping. Errors (program fault): a
+/// failure of NLopt.
 Result<std::string> search_near(Problem& problem, int most_evaluations);
 
 /// Searches the logarithms of the gains with NLopt. `searched` is the objective on the nominal

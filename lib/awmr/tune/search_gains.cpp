@@ -38,7 +38,7 @@ ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) 
   return setting;
 }
 
-/// The baseline of one search: the given gains for its mode (for all modes: those of combined
+/// The baseline of one search: the given gains for its mode (for all modes: the gains of combined
 /// mode), or gains by pole placement.
 Baseline baseline_of(const TuneOptions& options, const Gains<double>& poles) {
   if (!options.baseline) return {poles, kPolePlacement};
@@ -53,8 +53,8 @@ Status check_baseline(const Objective& objective, const Baseline& baseline) {
                      "give another baseline, or slower scenarios");
 }
 
-/// Factors of slowed(), to start the search also from slower poles. If the sensor noise is large,
-/// only slower poles meet the limits on noise.
+/// Factors of slowed() for further starts of the search. If the sensor noise is large, only slower
+/// poles meet the limits on noise.
 constexpr double kSlowerStarts[] = {0.7, 0.5, 0.35, 0.25};
 
 /// Bandwidths of the observer from which the search starts, rad/s.
@@ -124,8 +124,8 @@ std::optional<Tuning> with_needed_observer(const Model& model, const ObjectiveSe
   if (!limit_observer(context, options.observer)) return std::nullopt;
   if (options.notice) {
     options.notice(
-        "some runs settle only with a disturbance observer, so the search is repeated with one, "
-        "which takes about as long again");
+        "some runs settle only with a disturbance observer, so the search is repeated with an "
+        "observer, which takes about as long again");
   }
   Result<Tuning> observed = search_gains(model, setting, context, options, held_out);
   if (!observed || settled_share(setting, observed->gains) < share + kWorthIt) {
@@ -155,8 +155,7 @@ struct Searched {
 };
 
 /// Error (refused) if no run settles with the tuned gains, not even without sensor noise. `scores`:
-/// the results of the nominal vehicle. Usually one of them settles, and nothing needs to be
-/// simulated.
+/// runs of the nominal vehicle. Usually one of these runs settles, so nothing else is simulated.
 Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
   if (std::ranges::any_of(scores, has_settled)) return {};
   const Gains<double>& gains = s.settled.gains;
@@ -189,11 +188,12 @@ struct ModesAlone {
   bool is_any_better = false;     ///< Tuning::is_mode_better_alone
 };
 
-/// Examines gains for each mode alone in the runs of the mode: those by pole placement with wide
-/// boundary layers (with them, the objective is smaller for most vehicles), and the tuned gains
-/// made faster. With the ratio of these poles to those for all modes, they are made faster by its
-/// square root and by its fourth root. They need not meet the constraints, which the search for one
-/// mode will do.
+/// Tries two kinds of gains for each mode alone, in the runs of this mode:
+///   - gains by pole placement with wide boundary layers, which give most vehicles a smaller
+///     objective;
+///   - the tuned gains, made faster by the square root and the fourth root of a ratio: lambda by
+///     pole placement for this mode, divided by lambda by pole placement for all modes. These gains
+///     need not meet the constraints, because the search for one mode ensures that.
 ModesAlone modes_alone(const Searched& s) {
   constexpr double kMuchFaster = 0.75;  // of the settling time
   constexpr double kBetter = 0.97;      // of the objective

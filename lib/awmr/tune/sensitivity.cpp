@@ -11,10 +11,10 @@ namespace {
 
 /// Bisection steps for each end of an interval.
 constexpr int kHalvings = 6;
-/// Shares of the reduction of mu and mu_s that are tried on all draws, in this order. The last is
-/// the best gains themselves.
+/// Fractions of the reduction of mu and mu_s that are tried on all draws, in this order. 0: the
+/// best gains themselves.
 constexpr double kReductions[] = {1.0, 0.75, 0.5, 0.25, 0.0};
-/// A constraint is active if its residual is above this. The residual is 0 at the limit and
+/// A constraint is active if its residual is above this value. The residual is 0 at the limit and
 /// negative if the constraint is met.
 constexpr double kActive = -0.01;
 /// Evaluations of the local search with a relaxed limit (active_constraints()).
@@ -40,9 +40,9 @@ Interval room(const Point& from, const Pair& pair, const SearchSpace& space) {
           std::min(upper[pair[0]] - from[pair[0]], upper[pair[1]] - from[pair[1]])};
 }
 
-/// Interval around 0 by which the logarithms of both gains of a pair can be shifted together, so
-/// that the gains meet every constraint and the objective is at most `most`. Found by bisection,
-/// because the objective increases towards both ends.
+/// Range, around 0, by which the logarithms of both gains of a pair can be shifted together while
+/// the gains meet every constraint and the objective is at most `most`. Found by bisection, because
+/// the objective increases towards both ends.
 Interval stretch(Problem& problem, const Point& from, const Pair& pair, double most) {
   const auto is_good = [&](double by_ln) {
     const Point point = scaled(from, pair, by_ln);
@@ -102,8 +102,8 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
   TuneOptions quiet = options;
   quiet.progress = {};
   const Point point = SearchSpace(options).point_of(best.gains);
-  // Returns the smallest objective that a local search finds with the constraint of index `wider`
-  // relaxed by kWider, or with no relaxed constraint if there is no such index.
+  // Returns the smallest objective that a local search finds if constraint number `wider` is
+  // relaxed by kWider. If there is no such constraint, none is relaxed.
   const auto searched = [&](std::size_t wider) -> Result<double> {
     Problem problem(quiet, context, objective);
     if (wider < problem.tolerated.size()) problem.tolerated[wider] = kWider;
@@ -118,8 +118,8 @@ Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& opti
     if (residuals[i] > kActive) active.push_back({.name = problem.names()[i]});
   }
   if (active.empty()) return active;
-  // A further search can find better gains even without a relaxed limit. The improvement is
-  // therefore measured from the result of such a search.
+  // A further search can find better gains even without a relaxed limit, so the improvement is
+  // measured from the result of such a search.
   AWMR_ASSIGN_OR_RETURN(const double without, searched(residuals.size()));
   for (ActiveConstraint& one : active) {
     const auto place = std::ranges::find(problem.names(), one.name) - problem.names().begin();

@@ -20,11 +20,11 @@ struct SettledGains {
   Interval speed_mu;
 };
 
-/// Reduces mu of the best gains, then mu_s, at constant mu/epsilon and mu_s/epsilon_s. Selects the
-/// smallest mu that meets every constraint and has an objective at most kIndifferent/2 worse than
-/// that of `best` on the draws of the search; then the smallest mu_s, with an objective at most
-/// kIndifferent worse. Inside the boundary layers only the two ratios act, so without this rule the
-/// seed of the search would determine mu.
+/// Reduces mu of the best gains, then mu_s, at constant mu/epsilon and mu_s/epsilon_s. Inside the
+/// boundary layers only these two ratios act, so without this rule the seed of the search would
+/// determine mu. Selects the smallest mu that meets every constraint and has an objective at most
+/// kIndifferent/2 worse than that of `best` on the draws of the search. Then selects the smallest
+/// mu_s with an objective at most kIndifferent worse.
 ///
 /// The reduced gains must also meet the constraints, and be at most kIndifferent worse than `best`,
 /// on the draws of `all`. Otherwise both reductions are made smaller (kReductions), or `best` is
@@ -32,9 +32,9 @@ struct SettledGains {
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 
-/// Returns the constraints that are active at `best` (within 1 % of the limit). Each has the
-/// improvement of the objective that a local search finds if the constraint is relaxed by kWider.
-/// Errors: those of search().
+/// Returns the constraints that are active at `best` (within 1 % of the limit). For each, a local
+/// search finds by how much the objective improves if the constraint is relaxed by kWider. Errors:
+/// those of search().
 Result<std::vector<ActiveConstraint>> active_constraints(const TuneOptions& options,
                                                          const ConstraintContext& context,
                                                          const Objective& objective,

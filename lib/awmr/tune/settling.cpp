@@ -252,9 +252,9 @@ std::string describe(const std::vector<SettlingChange>& changes, std::string_vie
 
 std::string no_change_settles(std::string_view runs) {
   return fmt::format(
-      "No change was found that lets {} settle. Tried were four times the duration and no "
-      "heading-rate limit. With gains by pole placement in place of a search, also an observer, "
-      "gains for one mode only and relaxed limits were tried",
+      "No change was found that lets {} settle. Tried: four times the duration; no heading-rate "
+      "limit; an observer, gains for one mode only and relaxed limits (these three with gains by "
+      "pole placement in place of a search)",
       runs);
 }
 

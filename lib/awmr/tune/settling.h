@@ -1,4 +1,4 @@
-/// Share of the runs that settle with given gains, and changes that let more runs settle. Each
+/// Share of the runs that settle with given gains, and changes with which more runs settle. Each
 /// change is confirmed by simulation. Private to tune/.
 #pragma once
 
@@ -21,8 +21,8 @@ bool has_settled(const ModeScore& run);
 /// Share of the runs of the setting that settle with these gains, [0, 1].
 double settled_share(const ObjectiveSetting& setting, const Gains<double>& gains);
 
-/// True if at least `share` of the runs of the setting settle. Simulates a few vehicles first. If
-/// too many of their runs do not settle, the others are not simulated.
+/// True if at least `share` of the runs of the setting settle. To save time, it simulates a few
+/// vehicles first, and the other vehicles only if `share` can still be reached.
 bool enough_settle(const ObjectiveSetting& setting, const Gains<double>& gains, double share);
 
 /// Share of the runs that settle with noise-free sensors, [0, 1].
@@ -47,36 +47,38 @@ ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);
 std::vector<SettlingChange> scenario_changes(const ObjectiveSetting& setting,
                                              const Gains<double>& gains, double share);
 
-/// Searches changes that let more runs settle. Each set of poles is placed once, because this takes
-/// up to some seconds, and one tuning tries the same changes in several scenarios and modes.
+/// Searches changes with which more runs settle. It keeps the gains of each pole placement, which
+/// takes up to some seconds, because one tuning tries the same changes in several scenarios and
+/// modes.
 class SettlingSearch {
  public:
   explicit SettlingSearch(const ConstraintContext& context) : context_(context) {}
 
-  /// True if there are a scenario and a mode whose runs need an observer: fewer than kSettledShare
-  /// of the runs settle with the given gains, but with an observer and gains by pole placement,
-  /// half of the others settle, too, or kSettledShare of all. To save time, the runs with the
-  /// observer use only a few vehicles (on_few_vehicles()).
+  /// True if an observer lets runs settle in at least one scenario and mode, under two conditions.
+  /// Fewer than kSettledShare of the runs settle with the given gains. And with an observer and
+  /// gains by pole placement, at least half of the other runs settle, too, or kSettledShare of all
+  /// runs. To save time, the runs with the observer use only a few vehicles (on_few_vehicles()).
   bool observer_helps(const ObjectiveSetting& setting, const Gains<double>& gains);
 
   /// Tries one change of gains or limits at a time. Returns the changes with which at least `share`
   /// of the runs settle:
-  ///   - an observer, if the gains have none, with gains by pole placement; if it does not suffice,
-  ///     together with a relaxed limit of the steering rate
+  ///   - an observer with gains by pole placement, if the gains have no observer. If that does not
+  ///     suffice, the limit of the steering rate is relaxed, too
   ///   - gains for one mode only, by pole placement, if several modes are tuned
-  ///   - a relaxed limit (relaxed_limits()), with the given gains or with gains by pole placement;
-  ///     of each limit the strictest of the tried values
+  ///   - a relaxed limit (relaxed_limits()), with the given gains or with gains by pole placement.
+  ///     Of the tried values of a limit, the strictest that suffices is returned
   std::vector<SettlingChange> changes(const ObjectiveSetting& setting, const Gains<double>& gains,
                                       double share);
 
  private:
-  /// Gains by pole placement that meet the constraints of `changed`, the context with the change
-  /// that `change` names.
+  /// Gains by pole placement that meet the constraints of `changed`, the context after the change.
+  /// `change`: name of the change, the key of the cache `poles_`.
   const std::vector<Gains<double>>& poles(const std::string& change,
                                           const ConstraintContext& changed,
                                           const ObserverGains<double>& observer = {});
-  /// Bandwidth, rad/s, of an observer that lets at least `share` of the runs settle, together with
-  /// gains by pole placement. Empty if there is none, or if the vehicle has no force left.
+  /// Bandwidth, rad/s, of an observer with which at least `share` of the runs settle, together with
+  /// gains by pole placement. Empty if there is none, or if the vehicle has no force left to
+  /// compensate a disturbance.
   std::optional<double> settling_bandwidth_radps(const ObjectiveSetting& setting,
                                                  const std::string& change,
                                                  const ConstraintContext& changed, double share);

@@ -66,9 +66,9 @@ double mean_saturated(double m, double s) {
          s * (normal_density(above) - normal_density(below)) - 1.0;
 }
 
-/// Part of E[w^2] in steering_rate_rms_degps() that is due to fed-forward friction, (rad/s^2)^2.
-/// While a heading is held, noise n of the yaw rate and noise n_psi of the heading are independent.
-/// With the friction width w0 = rest_speed, the friction that the heading law feeds forward is
+/// Part of E[w^2] in steering_rate_rms_degps() that fed-forward friction causes, (rad/s^2)^2. While
+/// a heading is held, the noise n of the yaw rate and n_psi of the heading are independent. With
+/// the friction width w0 = rest_speed, the heading law feeds forward the friction
 ///   b = B if |n| < w0, else 0,   B = g3(w0)/I'z sat(-lambda n_psi/w0)
 /// With b', n' and B' the values at the next sample, the part is half the mean square change of b
 /// from one sample to the next,
@@ -103,8 +103,8 @@ double resting_mean_square(const Resistance<double>& g3, const Gains<double>& ga
          2.0 * rests_share * mean_of_product(friction, linear) * (1.0 - rho);
 }
 
-/// RMS rate of the steering command, deg/s, as steering_rate_rms_degps(), in the mode in which the
-/// steering makes the fraction `share` of the yaw moment.
+/// As steering_rate_rms_degps(), for the mode in which the steering makes the fraction `share` of
+/// the yaw moment.
 double steering_rate_at(double share, const Gains<double>& gains,
                         const ConstraintContext& context) {
   const Plant<double>& plant = context.plant;
@@ -168,8 +168,8 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider) {
-  // The heading law has a corrective term mu S/epsilon. With the largest permitted friction width,
-  // the fed-forward friction grows with S this fraction as fast as the corrective term.
+  // At the largest permitted friction width, the fed-forward friction grows with S at this fraction
+  // of the rate of the corrective term mu S/epsilon.
   constexpr double kMinFrictionShare = 0.1;
   HeadingGains<double>& heading = gains.heading;
   constexpr double kNarrowest = feed_forward_rest_speed<double>();
@@ -188,7 +188,7 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
                                 is_own ? &HeadingGains<double>::combined_friction_width_radps
                                        : &HeadingGains<double>::friction_width_radps,
                                 widths, *limit * (1.0 + wider), share, context);
-    // With an observer, all modes have the width of the first mode, whose steering command has the
+    // With an observer, all modes get the width of the first mode, whose steering command has the
     // most noise.
     if (gains.observer.is_on()) break;
   }

@@ -6,9 +6,9 @@
 
 namespace awmr {
 
-/// RMS rate of the steering command, deg/s, due to sensor noise while a heading is held; the
-/// largest value over the modes. Motion of the vehicle due to the noise is neglected. From the
-/// yaw-rate noise n and the heading noise n_psi, the heading law computes the yaw acceleration
+/// RMS rate of the steering command, deg/s, that sensor noise causes while a heading is held; the
+/// largest value over the modes. The motion of the vehicle that the noise causes is neglected. From
+/// the yaw-rate noise n and the heading noise n_psi, the heading law computes the yaw acceleration
 ///   w = G(n, n_psi)/I'z - (lambda + k + L) n - lambda k n_psi,   k = mu/eps,
 /// with L the bandwidth of the observer, and G the fed-forward yaw resistance (fed_forward()):
 ///   G = g3(n);   with Coulomb friction, for |n| < w0: g3(w0) sat(-lambda n_psi/w0)
@@ -23,10 +23,11 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 /// gains. The width of a mode is the smallest in the following range with which the mode's steering
 /// rate is at most the limit times (1 + wider):
 ///   0.02 <= w <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
-/// c3 is the Coulomb friction in yaw. With w = 10 c3 eps/(I'z mu), the fed-forward friction grows
-/// with S a tenth as fast as the corrective term mu S/eps. If no w in this range meets the limit, w
-/// is the upper bound. Without a limit, without steering or without Coulomb friction, w is 0.02
-/// rad/s. With an observer, all modes have the width of the mode with the most noise.
+/// c3 is the Coulomb friction in yaw. With a wider w, the fed-forward friction would compensate
+/// little: at w = 10 c3 eps/(I'z mu), it grows with S only a tenth as fast as the corrective term
+/// mu S/eps. If no w in this range meets the limit, w is the upper bound. Without a limit, without
+/// steering or without Coulomb friction, w is 0.02 rad/s. With an observer, all modes have the
+/// width of the mode whose steering command has the most noise.
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 
@@ -35,9 +36,9 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
 double servo_rate_degps(const Vehicle& vehicle, const Plant<double>& plant);
 
 /// Warning `noise-beyond-servo`: with the tuned gains, sensor noise alone requests a higher RMS
-/// rate of the steering than the servo has. The default limit of this rate permits that if feeding
-/// forward the yaw resistance already needs it. Absent for vehicles without steering, and for
-/// tunings without this limit (`--nominal`).
+/// rate of the steering than the servo can reach. The default limit of this rate permits that if
+/// the feed-forward of the yaw resistance alone causes such a rate. Absent for vehicles without
+/// steering, and for tunings without this limit (`--nominal`).
 std::optional<Finding> noise_beyond_servo(const Vehicle& vehicle, const Plant<double>& plant,
                                           const Tuning& tuning);
 

@@ -10,8 +10,7 @@
 namespace awmr {
 namespace {
 
-/// Weights of the LQI law by Bryson's rule. The acceptable values that they are computed from are
-/// described at TradeOff::named.
+/// Weights of the LQI law by Bryson's rule, from the acceptable values at TradeOff::named.
 LqiWeights<double> lqi_weights(const ConstraintContext& context) {
   const double error_rad = context.step_rad / 6.0;
   return {.heading_rad = error_rad,

@@ -13,9 +13,8 @@ namespace awmr {
 /// control variation. Sorted by settling time.
 std::vector<TradeOffPoint> front_of(std::vector<TradeOffPoint> points);
 
-/// Returns the settling time and the control variation of two kinds of gains: the Pareto front of
-/// `met`, the feasible gains of a search; and named gains such as the paper's (TradeOff::named),
-/// simulated in the runs of that search.
+/// Returns the Pareto front of `met`, the feasible gains of a search, and the points of named gains
+/// such as the paper's (TradeOff::named), simulated in the runs of that search.
 TradeOff trade_off_of(const Objective& searched, const ConstraintContext& context,
                       std::vector<TradeOffPoint> met, const Gains<double>& tuned,
                       const Gains<double>& baseline);

@@ -29,9 +29,9 @@
 namespace awmr {
 namespace {
 
-/// Returns the cause of runs that do not settle in one scenario and mode, and the changes that let
-/// them settle. To save time, causes and changes of the gains are tried on the nominal vehicle and
-/// the first drawn vehicles only. `is_varied`: the drawn vehicles have unmodelled variation.
+/// Returns why runs do not settle in one scenario and mode, and the changes with which they settle.
+/// To save time, it tries causes and changes of the gains only on the nominal vehicle and the first
+/// drawn vehicles. `is_varied`: the drawn vehicles have unmodelled variation.
 UnsettledRuns unsettled_in(const ObjectiveSetting& setting, const ConstraintContext& context,
                            const Gains<double>& gains, bool is_varied, SettlingSearch& search) {
   const YawMode mode = *setting.mode;
@@ -98,8 +98,8 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
           option_text("nominal")));
 }
 
-/// Number that is XORed with the seed, so that the tuned gains are evaluated on other drawn
-/// vehicles than those of the search.
+/// XORed with the seed, so that the tuned gains are evaluated on vehicles that the search did not
+/// use.
 constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 
 /// Returns the sets of gains to evaluate: the tuned ones, the baseline, the paper's, and the tuned
@@ -138,8 +138,7 @@ Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const T
   return {};
 }
 
-/// Inputs of the search: the setting of the runs and the context of the constraints, both for all
-/// modes.
+/// Inputs of the search, for all modes: the setting of the runs and the context of the constraints.
 struct TuningProblem {
   ObjectiveSetting setting;
   ConstraintContext context;
@@ -187,11 +186,11 @@ constexpr double kMaxSearchSteps = 1e11;
 
 /// Expected duration on two cores, s, above which a search is announced.
 constexpr double kLongSearch_s = 10.0;
-/// Time of a search on two cores, divided by its number of RK4 steps, s: 0.9e-7 to 1.7e-7 for four
-/// vehicles on a processor with AVX2.
+/// Time of a search on two cores, divided by its number of RK4 steps, s. Measured for four vehicles
+/// on a processor with AVX2: 0.9e-7 to 1.7e-7.
 constexpr double kTimeOfStep_s = 1e-7;
-/// Typical numbers of evaluations, to estimate the duration: kOnAllDraws on all drawn vehicles in
-/// the last part of the search, kOnNewDraws on newly drawn vehicles after it.
+/// Typical numbers of evaluations, to estimate the duration: kOnAllDraws in the last part of the
+/// search (on all drawn vehicles), kOnNewDraws after the search (on newly drawn vehicles).
 constexpr double kOnAllDraws = 12.0;
 constexpr double kOnNewDraws = 3.0;
 
@@ -291,11 +290,11 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   if (options.one_set || !may_be_faster) return common;
   if (options.notice) {
     options.notice(
-        "one mode alone may settle much faster, so gains are also searched for each mode, which "
-        "takes one to three times as long again");
+        "a mode may settle much faster with its own gains, so gains are also searched for each "
+        "mode, which takes one to three times as long as the first search");
   }
-  // If the gains for all modes have an observer, those of each mode need one too. Otherwise, a mode
-  // would no longer reject constant disturbances.
+  // If the gains for all modes have an observer, the gains of each mode need an observer, too.
+  // Otherwise, a mode would not reject constant disturbances.
   TuneOptions of_modes = options;
   if (common.gains.observer.is_on() && !of_modes.observer) {
     of_modes.observer.emplace();

@@ -25,8 +25,9 @@
 
 namespace awmr {
 
-/// Definition of the reaching time constant, which must be below T1 = 1/lambda. S = e_dot + lambda
-/// e is the sliding variable of the heading law, e the heading error (model/gains.h).
+/// Definition of the reaching time constant, with which the heading law decreases its sliding
+/// variable S = e_dot + lambda e (model/gains.h; e: heading error). It must be below T1 = 1/lambda,
+/// with which e decays once S = 0.
 enum class ReachingForm {
   kPaper,   ///< decay time of V = S^2/2: T2 = eps/(2 mu)                               [paper (95)]
   kStrict,  ///< decay time of S itself: eps/mu = 2 T2
@@ -52,9 +53,9 @@ struct ObjectiveWeights {
 };
 
 /// Bounds of each gain in the search. Symbols and units as in model/gains.h. The default bounds of
-/// a gain follow from two sets of gains by pole placement: with the smallest mu, and with wide
-/// boundary layers (pole_placement.h). The lower bound is the smaller of the two values divided by
-/// kBoundFactor, the upper bound the larger one times kBoundFactor.
+/// a gain follow from its values in two sets of gains, both by pole placement: one with the
+/// smallest mu, one with wide boundary layers (pole_placement.h). The lower bound is the smaller
+/// value divided by kBoundFactor, the upper bound the larger value times kBoundFactor.
 struct GainBounds {
   std::optional<Interval> lambda = {};         ///< 1/s
   std::optional<Interval> mu = {};             ///< rad/s^2
@@ -69,7 +70,7 @@ inline constexpr double kBoundFactor = 10.0;
 struct TuningLimits {
   /// Largest RMS rate of the steering command due to sensor noise, deg/s, > 0, while a heading is
   /// held at the largest u_d of the scenarios (steering_rate_rms_degps() in steering_rate.h). If
-  /// absent, a nominal search has no limit, and a robust search has the larger of
+  /// absent, a nominal search has no limit, and a robust search uses the larger of
   ///   - 0.9 of the servo's rate limit, which counts as at most 2 d_max/T, T its time constant;
   ///   - 1.25 times the rate that noise causes through the feed-forward of the yaw resistance g3
   ///     alone, without Coulomb friction.
@@ -77,7 +78,7 @@ struct TuningLimits {
   /// Smallest damping ratio of the heading loop without latency and motor lag, [1e-6, 1].
   double damping = 0.7;
   /// Smallest damping ratio with latency and motor lag, [1e-6, 1]. Poles that decay much faster
-  /// than the slowest one count less (dominant_damping_ratio() in sampled_loop.h).
+  /// than the slowest pole count less (dominant_damping_ratio() in sampled_loop.h).
   double late_damping = 0.25;
   /// Smallest damping ratio with motor lag and with twice the latency plus one sample, [1e-6, 1].
   double delayed_damping = 0.05;
@@ -87,8 +88,8 @@ struct TuningLimits {
   double noise_share = 0.25;
 };
 
-/// Conditions for which the constraints are evaluated: the largest speed, heading step and yaw
-/// rate. They are computed from the scenarios and the vehicle.
+/// Speed, heading step and yaw rate for which the constraints are evaluated. tune() computes them
+/// from the scenarios and the vehicle.
 struct ExaminedRange {
   double speed_mps = 1.0;                 ///< largest u_d of the scenarios, >= 0
   double step_rad = radians(60.0);        ///< largest change of the commanded heading, >= 0
@@ -96,8 +97,8 @@ struct ExaminedRange {
 };
 
 /// Reference gains of the objective: each metric of a run is divided by its value with these gains.
-/// A search for one mode uses the gains of this mode, a search for all modes those of combined
-/// mode.
+/// A search for one mode uses the gains of this mode. A search for all modes uses the gains of
+/// combined mode.
 struct Baseline {
   ModeGains gains{};
   /// kPolePlacement, kPaperSource or the file from which the gains were read.
@@ -117,20 +118,21 @@ struct ObserverSearch {
 };
 inline constexpr double kObserverShare = 0.5;
 
-/// Number of drawn vehicles in the search. Only its last part uses all draws. The number holds if
-/// three modes are tuned; if one mode is tuned it is 12, so that the number of runs stays the same.
-/// If UnmodelledVariation::combinations() is larger, that number is used.
+/// Number of drawn vehicles on which the search evaluates gains if it tunes three modes. A search
+/// for one mode uses 12, so the number of runs is the same. With unmodelled variation, the search
+/// uses at least UnmodelledVariation::combinations() vehicles. Only the last part of the search
+/// uses all drawn vehicles.
 inline constexpr int kSearchedDraws = 4;
 /// Gains count as equally good if their objectives differ relatively by less than this. settle()
 /// (sensitivity.h) selects among them.
 inline constexpr double kIndifferent = 1e-3;
-/// An active constraint is relaxed by this fraction of its limit, to measure how much of the
-/// objective the limit costs (ActiveConstraint::wider_gains).
+/// Fraction by which the limit of an active constraint is relaxed, to measure by how much the limit
+/// worsens the objective (ActiveConstraint::wider_gains).
 inline constexpr double kWider = 0.1;
 
 /// Variation of the vehicle that neither trials nor data sheets determine, such as payload and
-/// battery voltage. Each drawn vehicle gets the next combination of a mass factor and a wheel-force
-/// range; the nominal plant is not varied.
+/// battery voltage. The drawn vehicles take the combinations of mass factor and wheel-force range
+/// in turn. The nominal plant is not varied.
 struct UnmodelledVariation {
   std::vector<double> mass_factors = {};  ///< factors on both m' and I'z; empty: 1
   /// ranges of the wheel force F'; empty: the vehicle's own
@@ -167,34 +169,34 @@ inline constexpr int kGoalDraws = 500;
 struct TuneOptions {
   /// Path of the options' file, for error messages.
   std::string file = "tune.json";
-  /// true: tune on the identified plant only, with noise-free sensors without latency and motors
-  /// without lag. false (robust): tune also on `draws` plants from the model's covariance, with the
-  /// noise, latency and lag of LoopConditions. The gains meet every constraint on all of these
+  /// true: tune on the identified plant only, with ideal sensors (no noise, no latency) and motors
+  /// (no lag). false (robust): tune also on `draws` plants from the model's covariance, with the
+  /// noise, latency and lag of LoopConditions. The gains then meet every constraint on all these
   /// plants.
   bool nominal = false;
   int draws = 32;  ///< vehicles drawn for the search, 0 ... 1000
   /// Number of further vehicles that are drawn to evaluate the tuned gains, 0 ... 100000.
   int evaluation_draws = 50;
   UnmodelledVariation open = {};  ///< robust search only
-  /// Share of the draws in the tail, which are the worst ones, (0, 1]. The objective averages the
-  /// mean over all draws and the mean over the tail (CVaR).
+  /// Share of the drawn vehicles that form the tail, the worst of them, (0, 1]. The objective
+  /// averages two means: over all drawn vehicles and over the tail (CVaR, conditional value at
+  /// risk).
   double tail_share = 0.2;
   TuningLimits limits = {};
-  /// The only mode to tune for; absent: all modes of the vehicle. It does not change the default
-  /// scenarios.
+  /// The only mode to tune for; absent: all modes of the vehicle. The default scenarios are the
+  /// same in both cases.
   std::optional<YawMode> mode = {};
   /// Gains that the objective compares with. Absent: the gains with the fastest poles that the
   /// constraints allow (pole_placement.h).
   std::optional<Baseline> baseline = {};
-  /// In each mode, largest control variation as a multiple of that of the baseline gains, > 0.
-  /// Absent: no limit.
+  /// Largest control variation (Metrics::control_variation) in each mode, as a multiple of its
+  /// value with the baseline gains, > 0. Absent: no limit.
   std::optional<double> activity_max = {};
   /// Required form of the condition T2 < T1. With kPaper, eps/mu may be twice as large as with
   /// kStrict.
   ReachingForm form = ReachingForm::kStrict;
   /// The reaching time constant (ReachingForm) must be at most margin T1, T1 = 1/lambda. In (0, 1).
-  /// A smaller margin makes the approach to the sliding surface faster, compared with the motion on
-  /// it.
+  /// With a smaller margin, S decays faster compared with the heading error.
   double margin = 0.8;
   ObjectiveWeights weights;
   int global_evaluations = 80;  ///< >= 1
@@ -209,26 +211,27 @@ struct TuneOptions {
   GainBounds bounds;
   /// search of an observer; absent: see adds_observer
   std::optional<ObserverSearch> observer = {};
-  /// true: if runs need an observer to settle, the search is repeated with one, with the defaults
-  /// of ObserverSearch. Dry friction in yaw is the usual cause. The search is repeated under two
-  /// conditions. Fewer than 95 % of the runs settle with the tuned gains (if no gains meet the
-  /// limits: with the gains nearest to them). And an observer lets the runs of a scenario and mode
-  /// settle (SettlingSearch::observer_helps() in settling.h). The result with the observer is kept
-  /// if it increases the share of settled runs by at least 0.05. false: no observer is tuned. Not
-  /// used if `observer` is present.
+  /// true: if runs need an observer to settle, the search is repeated with an observer that has the
+  /// defaults of ObserverSearch. Dry friction in yaw is the usual cause. The search is repeated if
+  /// two conditions hold:
+  ///   - fewer than 95 % of the runs settle with the tuned gains (if no gains meet the limits: with
+  ///     the gains nearest to the limits);
+  ///   - in simulations, an observer lets the runs of a scenario and mode settle
+  ///     (SettlingSearch::observer_helps() in settling.h).
+  /// The result with the observer is kept if it increases the share of settled runs by at least
+  /// 0.05. false: no observer is tuned. Not used if `observer` is present.
   bool adds_observer = true;
   std::vector<TuningGoal> goals = {};  ///< robust search only
-  /// false: if one mode alone may be much faster (Tuning::alone, Tuning::is_mode_better_alone),
-  /// gains are searched for each mode (with_own_gains() in own_gains.h). true: one set of gains for
-  /// all modes. Not used if `mode` is present.
+  /// true: tune() returns one set of gains for all modes. false: if one mode alone may be much
+  /// faster (Tuning::alone, Tuning::is_mode_better_alone), tune() also searches gains for each mode
+  /// (with_own_gains() in own_gains.h). Not used if `mode` is present.
   bool one_set = false;
   /// Called with the number of evaluated sets of gains and with the budget, which is
   /// global_evaluations + local_evaluations. The last stage of the search, on all draws, is not
-  /// counted. If the search is repeated with an observer (adds_observer) or for each mode
-  /// (one_set), the number begins at 0 again.
+  /// counted. A search that is repeated (adds_observer, one_set) counts from 0 again.
   Progress progress = {};
-  /// Called with the expected duration before a search of more than about 10 s, and with the reason
-  /// before the search is repeated with an observer (adds_observer) or for each mode (one_set).
+  /// Called with a text for the user: the expected duration before a search of more than about 10
+  /// s, and the reason before the search is repeated (adds_observer, one_set).
   std::function<void(std::string_view)> notice = {};
 };
 
@@ -257,7 +260,8 @@ struct ConstraintReport {
   double margin = 0.0;
   Sense sense = Sense::kAtMost;
   std::string meaning{};  ///< formula or description with the unit, for the user
-  /// false: the constraint is only reported (the form of T2 < T1 that is not required).
+  /// false: the constraint is only reported, as for the form of T2 < T1 that TuneOptions::form does
+  /// not select.
   bool required = true;
 };
 
@@ -273,7 +277,7 @@ struct ModeScore {
   bool has_failed = false;
 };
 
-/// An evaluation of the search whose objective was better than that of all earlier ones.
+/// An evaluation whose objective is better than that of all evaluations before it.
 struct SearchStep {
   int evaluation = 0;  ///< number of the evaluation, from 1
   /// Objective of the evaluated gains, which meet every constraint.
@@ -282,10 +286,10 @@ struct SearchStep {
 
 /// Progress of a search.
 struct SearchHistory {
-  /// Improvements of the objective, in the order of the evaluations, at most kMaxHistorySteps. The
-  /// history covers only evaluations on the draws of the search (kSearchedDraws). The result can
-  /// differ from the last step, because the last stage uses all draws, and settle() selects among
-  /// equally good gains.
+  /// Improvements of the objective, in the order of the evaluations, at most kMaxHistorySteps. They
+  /// include only evaluations on the few vehicles of the search (kSearchedDraws). The final gains
+  /// can differ from the last step, because the last stage of the search uses all drawn vehicles,
+  /// and settle() selects among equally good gains.
   std::vector<SearchStep> best;
   int global_evaluations = 0;  ///< number of evaluations by the global search
   /// Number of evaluations by the global and the local searches on the draws of the search.
@@ -300,7 +304,7 @@ struct EvaluatedFigure {
   std::string name;  ///< such as "heading_iae_degs"
   double median = 0.0;
   double q95 = 0.0;        ///< 95 % quantile
-  double tail_mean = 0.0;  ///< mean over the worst draws, tail_share of all (CVaR)
+  double tail_mean = 0.0;  ///< mean over the worst draws, a share tail_share of all (CVaR)
 };
 
 /// Name of the tuned gains in EvaluatedGains::gains.
@@ -354,8 +358,8 @@ struct RobustTuning {
 };
 
 /// Settling time and control variation of one set of gains, each as the mean over the modes,
-/// scenarios and plants of the search. The settling time of a run that does not settle is the
-/// scenario's duration.
+/// scenarios and plants of the search. A run that does not settle counts with the scenario's
+/// duration.
 struct TradeOffPoint {
   double settling_time_s = 0.0;
   double control_variation = 0.0;  ///< 1/s, as Metrics::control_variation
@@ -367,11 +371,12 @@ struct NamedTradeOff {
 struct TradeOff {
   /// Pareto front of the feasible gains that the search evaluated, sorted by settling time.
   std::vector<TradeOffPoint> front;
-  /// Points of named gains in the same runs, without gains with which a run breaks off. "lqi" is
-  /// the LQI law (control/heading_lqi.h) with weights by Bryson's rule. With p the largest heading
-  /// step, the acceptable values are: p/6 for the heading error, p/1.5 per second for the yaw rate,
-  /// p/6 times 4 seconds for the integral of the error, and a quarter of the largest moment of the
-  /// weaker mode for the yaw moment.
+  /// Points of named gains in the same runs. Gains with which a run breaks off are left out. "lqi"
+  /// is the LQI law (linear-quadratic with integral, control/heading_lqi.h). Its weights follow
+  /// from Bryson's rule: 1 over the square of an acceptable value. With p the largest heading step,
+  /// the acceptable values are p/6 for the heading error, p/1.5 per second for the yaw rate, and
+  /// p/6 times 4 seconds for the integral of the error. For the yaw moment, it is a quarter of the
+  /// largest moment of the weaker mode.
   std::vector<NamedTradeOff> named;
 };
 
@@ -388,9 +393,9 @@ struct ModeCertificate {
   /// Smallest additional delay, s, that makes the loop unstable; infinity if no delay does.
   WorstCase delay_margin_s = {};
 };
-/// Worst cases of the heading loop over the model's 95 % confidence set: the smallest damping ratio
-/// and delay margin that a search found (tune/certificate.h). The sampled loop has hold, servo,
-/// latency and motor lag.
+/// Smallest damping ratio and delay margin of the heading loop that a search found in the model's
+/// 95 % confidence set (tune/certificate.h). The sampled loop includes hold, servo, latency and
+/// motor lag.
 struct Certificate {
   /// Number of parameters in the model's covariance. 0: only the model's own values were examined.
   int parameters = 0;
@@ -416,17 +421,19 @@ struct SettlingChange {
 /// Sensor noise as the cause of runs that do not settle.
 struct NoiseEffect {
   double share_without = 0.0;  ///< share of the runs that settle without noise, [0, 1]
-  double time_factor = 1.0;    ///< these runs last so many times the duration of the scenarios
-  /// True: all these runs are of the identified vehicle, because drawn vehicles do not settle
+  /// duration of these runs, as a multiple of the duration of the scenarios
+  double time_factor = 1.0;
+  /// True: these runs are of the identified vehicle only, because drawn vehicles do not settle
   /// without noise either.
   bool is_of_identified = false;
 };
-/// The error of an identified quantity, as the cause of runs that do not settle.
+/// Error of an identified quantity that keeps runs from settling.
 struct UnsettlingError {
-  std::string quantity;              ///< for messages, such as "the yaw resistance g3"
-  std::string trial;                 ///< trial that identifies the quantity, for messages
-  double settled_share = 0.0;        ///< share of the runs that settle without this error, [0, 1]
-  double share_of_identified = 0.0;  ///< and without any error: of the identified vehicle
+  std::string quantity;        ///< for messages, such as "the yaw resistance g3"
+  std::string trial;           ///< trial that identifies the quantity, for messages
+  double settled_share = 0.0;  ///< share of the runs that settle without this error, [0, 1]
+  /// share that settles without any error, i.e. of the identified vehicle, [0, 1]
+  double share_of_identified = 0.0;
 };
 /// Scenario and mode in which fewer than 95 % of the runs settle with the tuned gains.
 struct UnsettledRuns {
@@ -436,19 +443,20 @@ struct UnsettledRuns {
   std::string why = {};
   /// Effect of sensors without noise; absent if the noise is not the cause.
   std::optional<NoiseEffect> noise = {};
-  /// The error of the model that most keeps runs from settling. Absent if most of these runs do not
-  /// settle with the identified vehicle either.
+  /// The error of the model that keeps the most runs from settling. Absent if most of these runs do
+  /// not settle with the identified vehicle either.
   std::optional<UnsettlingError> error = {};
-  /// Changes with which the runs settle, by SettlingSearch (settling.h). Empty if the noise
-  /// keeps runs from settling. If all runs of the identified
-  /// vehicle settle, only changes of the scenario.
+  /// Changes with which the runs settle, found by SettlingSearch (settling.h). Empty if noise is
+  /// the cause. If enough runs of the identified vehicle settle, these are only changes of the
+  /// scenario.
   std::vector<SettlingChange> changes = {};
   /// Number of vehicles on which the changes of the gains were tried.
   std::size_t vehicles = 0;
 };
 
-/// A mode in which gains for this mode alone settle much faster than the tuned gains, with a lower
-/// objective. Both are evaluated on the nominal vehicle and the first drawn vehicles.
+/// A mode that settles much faster, with a lower objective, if it has gains for this mode alone.
+/// These gains and the tuned gains are evaluated on the nominal vehicle and the first drawn
+/// vehicles.
 struct ModeAlone {
   YawMode mode{};
   double settling_time_s = 0.0;        ///< mean settling time, s, with gains for this mode alone
@@ -460,9 +468,9 @@ struct Tuning {
   Gains<double> gains{};
   /// The only mode that the gains are for; absent: all modes of the vehicle.
   std::optional<YawMode> mode = {};
-  /// If the modes have gains of their own: the tunings of the other modes, while `gains` and the
-  /// other members are those of combined mode (`certificate`: of all modes). Empty: `gains` are for
-  /// all modes.
+  /// If each mode has its own gains: the tunings of differential and steering mode. `gains` and the
+  /// other members then belong to combined mode, but `certificate` to all modes. Empty: `gains` are
+  /// for all modes.
   std::vector<Tuning> own = {};
   std::vector<ConstraintReport> constraints;
   double objective = 0.0;         ///< objective over all modes, scenarios and plants
@@ -473,8 +481,8 @@ struct Tuning {
   double baseline_objective = 0.0;  ///< objective of the baseline: 1 plus the terms of soft goals
   std::vector<ModeScore> baseline_scores;
   /// Required constraints, requested bounds, activity limit and goals that the baseline gains do
-  /// not meet. If there are any, the tuned gains can have a larger objective than the baseline,
-  /// because they meet all of them.
+  /// not meet. The tuned gains meet all of them, and can therefore have a larger objective than the
+  /// baseline.
   std::vector<ConstraintReport> baseline_violates;
   std::string algorithm;
   /// Number of sets of gains that the search evaluated, on some or all drawn vehicles.
@@ -483,17 +491,17 @@ struct Tuning {
   std::uint64_t seed = 0;
   /// Number of evaluated sets of gains whose runs were simulated. The others violate a constraint.
   int simulated = 0;
-  /// Ranges of mu and mu_s in which the gains are about equally good. In mu_as_good, with constant
-  /// mu/epsilon, the constraints are met and the objective on the draws of the search is at most
-  /// kIndifferent/2 worse than the best. The smallest mu is selected. With this mu and constant
-  /// mu_s/epsilon_s, the objective in speed_mu_as_good is at most kIndifferent worse than the best.
+  /// Ranges of mu and mu_s in which the gains are about equally good. `mu_as_good` is for constant
+  /// mu/epsilon: the gains meet the constraints, and the objective on the draws of the search is at
+  /// most kIndifferent/2 worse than the best. settle() selects the smallest mu. `speed_mu_as_good`
+  /// is for this mu and constant mu_s/epsilon_s: the objective is at most kIndifferent worse than
+  /// the best.
   Interval mu_as_good, speed_mu_as_good;
   std::vector<ActiveConstraint> active;
   std::string arithmetic;  ///< rounding of the runs: BatchArithmetic::rounding
   SearchHistory history;
   /// Scores and objective of the tuned gains in a scenario that the search did not use
-  /// (held_out_scenario()). For information only. With the baseline gains, the objective is 1
-  /// there.
+  /// (held_out_scenario()). For information only. The baseline gains have the objective 1 in it.
   std::vector<ModeScore> held_out_scores;
   double held_out_objective = 0.0;
   std::optional<Certificate> certificate;  ///< always present after tune()
@@ -517,9 +525,10 @@ struct Tuning {
 ///   psi   30 deg. If the time for each heading would exceed 20 s, psi is reduced in steps of
 ///         5 deg, down to 5 deg
 ///   hold  time for which each heading is commanded: 1.6 times the time that the weaker mode takes
-///         to turn by 2 psi without exceeding the measured yaw rates, rounded to 5, 10, 15 or 20 s;
-///         at least the time of the turn plus 4/lambda + epsilon/mu of pole placement under the
-///         default limits (the error decays to 2 %), rounded up to 1 s, at most 60 s
+///       to turn by 2 psi without exceeding the measured yaw rates, rounded to 5, 10, 15 or 20 s.
+///       At least the time of the turn plus 4/lambda + epsilon/mu, in which the error decays to 2
+///       %, with the gains of pole placement under the default limits. This minimum is rounded up
+///       to 1 s. At most 60 s
 /// The paper's vehicle has 30 then -30 deg at 1 m/s, 10 s each. [paper 4.3] Errors (input): those
 /// of Model::plant().
 Result<Scenario> default_tuning_scenario(const Model& model);
@@ -527,18 +536,18 @@ Result<Scenario> default_tuning_scenario(const Model& model);
 ///   1. default_tuning_scenario(), with heading steps. It favours fast gains, and reaches yaw rates
 ///      above the measured ones.
 ///   2. The same with the heading rate limited to the highest measured yaw rate. It favours gains
-///      that are accurate where the model is valid. Left out if the model has no measured yaw rate,
-///      or if `choice` (--heading-rate-limit) is not empty: then the caller applies `choice`.
-///   3. Only if TuneOptions::observer is present: the last scenario of this list with a constant
-///      disturbance added, because without a disturbance an observer only adds noise. The moment is
-///      kPush times the largest moment of the weaker mode (turning_authority_m()). The force is
-///      kPush times g1(u_d), against the motion.
+///      that are accurate where the model is valid. Left out if the model has no measured yaw rate.
+///      Also left out if `choice` (--heading-rate-limit) is not empty; the caller then applies
+///      `choice`.
+///   3. Only if TuneOptions::observer is present: scenario 2 (or 1, if 2 is left out) with a
+///      constant disturbance, because without a disturbance an observer only adds noise. The yaw
+///      moment is kPush times the largest moment of the weaker mode (turning_authority_m()). The
+///      force is kPush times the surge resistance g1(u_d), against the motion.
 /// Errors (input): those of Model::plant().
 Result<std::vector<Scenario>> default_tuning_scenarios(const Model& model,
                                                        const TuneOptions& options,
                                                        const HeadingRateChoice& choice = {});
-/// Size of the disturbance in the default scenarios, relative to the largest yaw moment and to the
-/// surge resistance g1(u_d).
+/// Disturbance of default scenario 3, as a fraction of the largest yaw moment and of g1(u_d).
 inline constexpr double kPush = 0.1;
 /// Suffix of the name of a default scenario with a heading-rate limit.
 inline constexpr std::string_view kLedSuffix = "_led";
@@ -548,8 +557,8 @@ inline constexpr std::string_view kLedSuffix = "_led";
 Result<Scenario> held_out_scenario(const Model& model);
 
 /// Tunes the gains by a global search, then local searches (search.h). Deterministic: model,
-/// options and the instruction set (Tuning::arithmetic) determine every bit of the result, for any
-/// number of cores.
+/// options and the instruction set of the processor (Tuning::arithmetic) determine every bit of the
+/// result; the number of cores does not matter.
 ///
 /// Errors (refused):
 ///   - no gains within the bounds meet the constraints, the activity limit and the goals that are

@@ -24,7 +24,7 @@ void read_weights(JsonObject& root, ObjectiveWeights& weights) {
   json->reject_unknown_keys();
 }
 
-/// Raises the default numbers of drawn vehicles to a multiple of the number of combinations of
+/// Rounds the default numbers of drawn vehicles up to a multiple of the number of combinations of
 /// `open`.
 void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
   const auto combinations = static_cast<int>(open.combinations());
@@ -33,8 +33,8 @@ void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
   }
 }
 
-/// Rejects options about drawn vehicles if `nominal` is set, because a nominal search draws none.
-/// The number 0 is accepted.
+/// Rejects options about drawn vehicles if `nominal` is set, because a nominal search draws none. A
+/// number of 0 draws is accepted.
 void reject_draws(JsonObject& json, const TuneOptions& options) {
   if (!options.nominal) return;
   for (const auto& [key, conflicts] :
@@ -116,8 +116,7 @@ void read_goals(JsonObject& json, TuneOptions& options) {
   }
 }
 
-/// Reads the scenarios, whose paths are relative to `directory`. Their faults are added to
-/// `faults`.
+/// Reads the scenarios. Their paths are relative to `directory`. Adds their faults to `faults`.
 void read_scenarios(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
                     std::vector<Fault>& faults) {
   if (!json.has("scenarios")) return;
@@ -140,8 +139,8 @@ void read_scenarios(JsonObject& json, const std::filesystem::path& directory, Tu
 
 constexpr std::string_view kTuneSchema = "awmr.tune/1";
 
-/// Reads tune.json. Paths in it are relative to `directory`. Faults of the files that it names are
-/// added to `faults`.
+/// Reads tune.json. Paths in tune.json are relative to `directory`. Adds the faults of the files
+/// that tune.json names to `faults`.
 TuneConfig config_from_json(JsonObject& object, const std::filesystem::path& directory,
                             std::vector<Fault>& faults) {
   TuneConfig config;

@@ -12,8 +12,7 @@
 
 namespace awmr {
 
-/// Content of tune.json, with the files that it names. The output lists these files as its
-/// provenance.
+/// Content of tune.json, with the files that it names. The output lists these files as inputs.
 struct TuneConfig {
   TuneOptions options;
   std::vector<std::filesystem::path> scenario_files;  ///< of `options.scenarios`
@@ -27,11 +26,12 @@ struct TuneConfig {
 Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name);
 
 /// Reads tune.json (`awmr.tune/1`). Unknown keys are errors, and every key is optional:
-///   schema, mode (the only one tuned for), one_set (true: one set of gains for all modes), form ("paper" | "strict"), margin,
+///   schema, mode (the only mode to tune for), one_set (true: one set of gains for all modes),
+///   form ("paper" | "strict"), margin,
 ///   weights {settling, itae, overshoot, control_variation, effort, speed_itae},
 ///   bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   observer {bandwidth_radps [lo, hi], yaw_max_m, surge_max},
-///   no_observer (true: none is added),
+///   no_observer (true: tune() adds no observer),
 ///   nominal, or draws (32), judged_draws (draws of the evaluation: 50; with goals 500) and
 ///   tail_share,
 ///   activity_max,

@@ -45,10 +45,9 @@ std::string advice_for(const std::string& scenario, YawMode mode,
   if (!found->why.empty()) return ": " + found->why;
   if (const auto& noise = found->noise) {
     return fmt::format(
-        ". With sensors without noise{}, {:.0f} % settle{}: {} the heading by more than the "
-        "larger of {:g} deg and {:g} % of the step, the permitted error of a settled run. Use "
-        "sensors with less noise, or filter their readings (keys noise and noise_correlation_s "
-        "of vehicle.json){}",
+        ". With noise-free sensors{}, {:.0f} % settle{}: {} the heading out of the settling band, "
+        "the larger of {:g} deg and {:g} % of the step. Use sensors with less noise, or filter "
+        "their readings and enter the new `noise` and `noise_correlation_s` in vehicle.json{}",
         noise->is_of_identified ? " and the identified values of all parameters" : "",
         100.0 * noise->share_without,
         noise->time_factor > 1.0
@@ -62,9 +61,9 @@ std::string advice_for(const std::string& scenario, YawMode mode,
   std::string advice;
   if (const auto& error = found->error) {
     advice = fmt::format(
-        ". With the identified values of all parameters, {:.0f} % settle: errors of the model "
-        "keep runs from settling, most of all the error of {} (with its identified value, {:.0f} "
-        "% settle). Record {}, and identify again",
+        ". With the identified values of all parameters, {:.0f} % settle, so errors of the model "
+        "keep runs from settling. The largest effect has the error of {}: with its identified "
+        "value alone, {:.0f} % settle. Record {}, and identify again",
         100.0 * error->share_of_identified, error->quantity, 100.0 * error->settled_share,
         error->trial);
     if (found->changes.empty()) return advice;
@@ -75,7 +74,8 @@ std::string advice_for(const std::string& scenario, YawMode mode,
          (found->changes.empty() ? no_change_settles(runs) : describe(found->changes, runs));
 }
 
-/// Runs of which fewer than 95 % settle, with the same advice.
+/// Scenarios and modes in which fewer than 95 % of the runs settle, with the same advice for all of
+/// them.
 struct FewSettled {
   std::string runs;    ///< share of each scenario and mode: "40 % (SCENARIO, MODE), 0 % (...)"
   std::string advice;  ///< advice_for()
@@ -152,8 +152,8 @@ void note_pushes(const TuneOptions& options, std::vector<Finding>& findings) {
   if (!options.observer || is_pushed) return;
   findings.push_back(
       {"", 0, Severity::kWarning, "observer-unpushed",
-       "no scenario has a disturbance, so the search did not test how the observer rejects one. "
-       "Give a scenario with a `disturbance`, or no scenarios to use the default ones"});
+       "no scenario has a disturbance, so the search did not test how the observer rejects it. "
+       "Give a scenario with a `disturbance`, or give no scenarios to use the default scenarios"});
 }
 
 /// Adds a note if the tuned gains have a larger objective than the baseline, because the baseline
@@ -174,17 +174,16 @@ void note_baseline(const Tuning& tuning, std::vector<Finding>& findings) {
                    option_text("baseline"))});
 }
 
-/// Adds a note if the modes have gains of their own, or if gains for one mode alone settle much
-/// faster than gains for all modes.
+/// Adds a note if the modes have their own gains, or if a mode settles much faster with gains for
+/// this mode alone.
 void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
   if (!tuning.own.empty()) {
-    findings.push_back(
-        {"", 0, Severity::kNote, "gains-by-mode",
-         fmt::format(
-             "modes have gains of their own, because with one set for all modes some settle more "
-             "slowly than they can. simulate, compare, pil and the firmware use the gains of the "
-             "selected mode. For one set: {}",
-             option_text("one_set"))});
+    findings.push_back({"", 0, Severity::kNote, "gains-by-mode",
+                        fmt::format("modes have their own gains, because some modes settle more "
+                                    "slowly than necessary with one set for all modes. simulate, "
+                                    "compare, pil and the firmware use the gains of the "
+                                    "selected mode. For one set: {}",
+                                    option_text("one_set"))});
     return;
   }
   if (tuning.alone.empty()) return;
@@ -200,8 +199,8 @@ void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
                    modes, option_text("mode MODE"))});
 }
 
-/// Adds findings about requests that the vehicle cannot meet: headings and speeds of the scenarios,
-/// and the sensor and motor conditions of the drawn vehicles (unattainable_requests()).
+/// Adds the findings of unattainable_requests() for the scenarios and for the sensor and motor
+/// conditions of the drawn vehicles.
 void note_scenarios(const Model& model, const TuneOptions& options, const Tuning& tuning,
                     std::vector<Finding>& findings) {
   std::vector<Scenario> scenarios = options.scenarios;

@@ -9,7 +9,7 @@
 
 namespace awmr {
 
-/// Reads a number of option_table.h. If the key is absent, the value stays as it is; an absent
+/// Reads a number of option_table.h. If the key is absent, a required value stays as it is, and an
 /// optional number or interval becomes empty.
 struct ReadOption {
   JsonObject& json;

@@ -25,8 +25,8 @@ double largest_step_rad(const Scenario& scenario) {
   return largest;
 }
 
-/// Expected highest yaw rate in runs of the scenario, rad/s: the rate that turns by the largest
-/// heading step within 1 s, or the heading-rate limit if that is lower.
+/// Expected highest yaw rate in runs of the scenario, rad/s: the largest heading step per second,
+/// or the heading-rate limit if that is lower.
 double reached_radps(const Scenario& scenario) {
   const double in_a_second = largest_step_rad(scenario) / 1.0;
   return scenario.shaping ? std::min(in_a_second, scenario.shaping->rate_max_radps) : in_a_second;
@@ -55,7 +55,7 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
     context.step_rad = std::max(context.step_rad, largest_step_rad(s));
     context.fastest_radps = std::max(context.fastest_radps, reached_radps(s));
   }
-  // The vehicle cannot turn faster than in a steady turn at the largest moment of its stronger
+  // The vehicle cannot turn faster than in a steady turn with the largest moment of the stronger
   // mode.
   const auto steady = steady_rate(plant.yaw, largest_moment_m(context.own(), context.speed_mps));
   if (steady) context.fastest_radps = std::clamp(*steady, kSlowest_radps, context.fastest_radps);
@@ -76,8 +76,8 @@ void limit_steering_rate(ConstraintContext& context) {
   constexpr double kShareOfServo = 0.9;
   constexpr double kOverFeedForward = 1.25;
   const Gains<double> none{{0.0, 0.0, 1.0}, {0.0, 1.0}};
-  // The default of the limit does not include Coulomb friction, because with_friction_width()
-  // selects a friction width that keeps the noise due to friction within the limit.
+  // The default limit leaves out Coulomb friction, because with_friction_width() selects a friction
+  // width that keeps the noise of the fed-forward friction within the limit.
   ConstraintContext without_friction = context;
   without_friction.plant.yaw.coulomb = 0.0;
   context.limits.steering_rate_rms_degps =

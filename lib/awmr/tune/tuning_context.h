@@ -19,7 +19,7 @@ namespace awmr {
 ConstraintContext context_of(const TuneOptions& options, const Plant<double>& plant,
                              const Vehicle& vehicle, const std::vector<Scenario>& scenarios);
 
-/// default_tuning_scenario(), but its duration does not include the decay of the heading error,
+/// As default_tuning_scenario(), but without adding the decay of the heading error to the duration,
 /// which takes long to compute. For context_of(), which does not use the duration. Errors (input):
 /// those of Model::plant().
 Result<Scenario> examined_scenario(const Model& model);

@@ -16,8 +16,8 @@ namespace {
 /// Largest steering angle that a message proposes, deg.
 constexpr double kLargestAngle_deg = 60.0;
 
-/// Returns the changes, as text, each of which alone lets the steering make `moment_m`: a larger
-/// steering stop, or a higher speed.
+/// Returns changes, as text: a larger steering stop, or a higher speed. Each change alone lets the
+/// steering make `moment_m`.
 std::vector<std::string> steering_changes(const DrawnVehicle& vehicle, double speed_mps,
                                           double moment_m) {
   const Plant<double>& plant = vehicle.plant;
@@ -38,7 +38,7 @@ std::vector<std::string> steering_changes(const DrawnVehicle& vehicle, double sp
   return changes;
 }
 
-/// Returns the changes, as text, each of which alone lets the mode turn the vehicle.
+/// Returns changes, as text. Each change alone lets the mode turn the vehicle.
 std::vector<std::string> changes(const TurningMoment& moment, const DrawnVehicle& vehicle) {
   const Plant<double>& plant = vehicle.plant;
   std::vector<std::string> found;
@@ -54,8 +54,9 @@ std::vector<std::string> changes(const TurningMoment& moment, const DrawnVehicle
   return found;
 }
 
-/// True if the vehicle can do its whole turn while it accelerates: the scenario starts below its
-/// speed, and has only one heading, which is commanded from the start.
+/// True if the vehicle can turn while it accelerates: the scenario starts below its commanded speed
+/// and has only one heading step. Then the thrust, and with it the steering moment, is larger than
+/// at steady speed.
 bool turns_while_accelerating(const Scenario& scenario) {
   return std::get<HeadingSteps>(scenario.guidance).steps.size() == 1 &&
          scenario.initial.u_mps < scenario.speed_mps;

@@ -1,4 +1,4 @@
-/// Check whether the motors can turn the vehicle at all. It compares the largest yaw moment of each
+/// Checks whether the motors can turn the vehicle at all: compares the largest yaw moment of each
 /// mode with the yaw resistance at a small yaw rate. Private to tune/.
 #pragma once
 
@@ -12,14 +12,15 @@
 
 namespace awmr {
 
-/// Yaw moments of one mode at the speed u_d, m: the largest possible one, and the one needed to
-/// turn.
+/// Yaw moments of one mode at the speed u_d, m: the largest possible moment, and the moment needed
+/// to turn.
 struct TurningMoment {
   YawMode mode{};
   double speed_mps = 0.0;    ///< u_d
   double available_m = 0.0;  ///< the largest moment
   /// Moment needed to turn: the yaw resistance g3 at kSlowest_radps, plus tyre scrub. The scrub
-  /// moment is multiplied by the share of `available_m` that left and right wheel forces make.
+  /// moment is multiplied by the share of `available_m` that the difference of left and right wheel
+  /// forces makes.
   double needed_m = 0.0;
 
   bool turns() const { return available_m > needed_m; }
