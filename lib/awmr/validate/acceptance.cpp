@@ -20,14 +20,13 @@
 namespace awmr {
 namespace {
 
-/// Fraction of the predicted drives that are within the limits. With a larger fraction, the limits
-/// are wider and detect fewer differences.
+/// Fraction of the predicted drives that are within the limits. A larger fraction makes the limits
+/// wider, so that they detect fewer differences.
 constexpr double kLevel = 0.95;
 /// Shortest time that can be compared, s.
 constexpr double kShortest_s = 2.0;
-/// Number of the first random stream of the predicted drives. Drive i draws its latencies, its
-/// initial state and its added noise from the stream kReadingsStream + i. The number is large
-/// enough that the simulator uses none of these streams.
+/// Drive i draws its latencies, its initial state and its added noise from the random stream
+/// kReadingsStream + i. The number is so large that the simulator uses none of these streams.
 constexpr std::uint64_t kReadingsStream = std::uint64_t{1} << 40;
 
 Status check_options(const AcceptanceOptions& options) {
@@ -72,8 +71,7 @@ struct LoggedDrive {
 
 /// A simulated drive, reduced to the means of each channel over windows of half a second.
 struct PredictedDrive {
-  /// Scenario time at the end of the run, s. Do not use windows after this time: they have no
-  /// simulated values.
+  /// Scenario time at the end of the run, s. Windows after this time have no simulated values.
   double end_s = 0.0;
   std::vector<WindowMeans> windows;  ///< window means by channel
 };
@@ -135,9 +133,8 @@ PredictedBand prediction_of(const DriveChannel& channel, const std::vector<Windo
     for (const WindowMeans& draw : draws) squares += std::pow(draw.mean[w] - series.mean[w], 2);
     series.spread[w] = std::sqrt(squares / (n - 1.0));
   }
-  // A standard deviation of 0 would make distances infinite. It occurs if all predicted drives are
-  // equal, such as for a command that stays at its limit. Therefore the standard deviations get a
-  // small lower bound.
+  // Standard deviations get a small lower bound, because 0 would make distances infinite. 0 occurs
+  // if all predicted drives are equal, such as for a command that stays at its limit.
   const double most = *std::max_element(series.spread.begin(), series.spread.end());
   double size = channel.noise;
   for (const double mean : series.mean) size = std::max(size, std::abs(mean));
@@ -193,9 +190,9 @@ Compared compare_channel(const DriveChannel& channel, std::vector<WindowMeans> d
   return one;
 }
 
-/// For each predicted drive, the largest ratio of distance to usual distance
-/// (Compared::largest/Compared::usual) over the channels. The usual distance makes channels
-/// comparable that have different distributions.
+/// Returns for each predicted drive the largest ratio of distance to usual distance
+/// (Compared::largest/Compared::usual) over the channels. The ratio makes channels with different
+/// distributions comparable.
 std::vector<double> factors_of_draws(const std::vector<Compared>& channels, std::size_t draws) {
   std::vector<double> factors(draws);
   for (const Compared& one : channels) {
@@ -255,8 +252,8 @@ void take_verdict(const std::vector<Compared>& channels, Acceptance& result) {
     result.channels.push_back(evaluate(one, allowed));
     reached = std::max(reached, result.channels.back().distance / one.usual);
   }
-  // p counts the logged drive among the n predicted ones. If the model is right, the rank of the
-  // logged drive among all n + 1 drives is uniformly distributed.
+  // p is the rank of the logged drive among all n + 1 drives (n predicted drives and itself),
+  // divided by n + 1. If the model is right, this rank is uniformly distributed.
   const auto as_far = std::count_if(factors.begin(), factors.end(),
                                     [&](double factor) { return factor >= reached; });
   result.p_value = static_cast<double>(as_far + 1) / static_cast<double>(factors.size() + 1);

@@ -18,8 +18,8 @@ namespace awmr {
 
 struct AcceptanceOptions {
   YawMode mode = YawMode::kCombined;
-  /// Number of predicted drives, 39 ... 10000. With fewer than 39, the p-value is too coarse to
-  /// compare with 0.05.
+  /// Number of predicted drives, 39 ... 10000. With fewer than 39 drives, the p-value is too coarse
+  /// to compare with 0.05.
   int draws = 200;
   std::uint64_t seed = 1;
   /// Time in the log, s, at which the scenario begins. Absent: the time of the first row with a
@@ -29,8 +29,8 @@ struct AcceptanceOptions {
 };
 
 /// One channel of the drive, compared with the predicted drives. Measured and predicted values are
-/// averaged over windows of half a second. The distance of a window is its measured mean minus the
-/// mean of the predictions, in magnitude, divided by the standard deviation of the predictions.
+/// averaged over windows of half a second. The distance of a window is |measured mean - mean of the
+/// predicted drives|, divided by the standard deviation of the predicted drives.
 struct ChannelAcceptance {
   std::string channel;  ///< name: "heading_rad", "force_left"
   std::string unit;
@@ -39,22 +39,22 @@ struct ChannelAcceptance {
   /// True: `noise` was estimated from the log, because neither scenario nor vehicle gives it.
   bool noise_from_log = false;
   double distance = 0.0;  ///< largest distance of a window, >= 0
-  /// Limit of `distance`. The limits of all channels together are chosen so that 95 % of the
-  /// predicted drives are within them.
+  /// Limit of `distance`. The limits of all channels are chosen together, so that 95 % of the
+  /// predicted drives are within every limit.
   double allowed = 0.0;
   bool inside = false;  ///< true: distance <= allowed
   /// Scenario time, s, of the first window whose distance is larger than allowed; absent if there
-  /// is none
+  /// is no such window
   std::optional<double> outside_since_s = {};
-  double difference = 0.0;  ///< measured minus predicted mean in the window with the largest
-                            ///< distance, in `unit`
+  /// measured minus predicted mean, in `unit`, in the window with the largest distance
+  double difference = 0.0;
 };
 
 /// A possible cause of the difference between the logged drive and the prediction: a change of one
 /// property of the vehicle or its sensors, or an external force.
 struct FaultHypothesis {
   std::string what;    ///< changed quantity: "mass_norm", "bias of the yaw rate"
-  double value = 0.0;  ///< value that explains the drive best, in `unit`
+  double value = 0.0;  ///< value with which the simulation is nearest to the drive, in `unit`
   std::string unit;    ///< unit of `value`; "times": a factor on the model's value
   /// Fraction in [0, 1] of the sum of squared distances that disappears with this change.
   double explained = 0.0;
@@ -66,8 +66,8 @@ struct Acceptance {
   std::string scenario;
   YawMode mode{};
   double from_s = 0.0;  ///< time in the log at which the scenario begins
-  /// Duration of the comparison, s. It ends when the log, the scenario or the shortest simulated
-  /// run ends.
+  /// Duration of the comparison, s. The comparison ends when the log, the scenario or the shortest
+  /// simulated run ends.
   double duration_s = 0.0;
   int draws = 0;
   /// Fraction of all drives (predicted and logged) that are at least as far from the prediction as
@@ -80,14 +80,13 @@ struct Acceptance {
 };
 
 /// Simulates the scenario with vehicles drawn from the model's covariance, and compares the logged
-/// drive with these predicted drives. (A model without covariance is itself the vehicle of every
-/// drive.) The predicted drives start from the state at the beginning of the logged drive. Sensor
-/// noise, sensor latency and motor lag are those of the scenario or the vehicle. If neither gives a
-/// value, noise is estimated from the log, and latencies and lag are drawn between 0 and twice the
-/// defaults of LoopConditions.
-/// Errors (input): the vehicle does not have the yaw mode of the options; the log has no command,
-/// or less than 2 s of the scenario; from_s is not within the log; options.draws is out of range;
-/// the errors of simulate(), controller_for() and PlantSampler.
+/// drive with these predicted drives. (Without a covariance, all vehicles equal the model.) The
+/// predicted drives start from the state at the beginning of the logged drive. Sensor noise, sensor
+/// latency and motor lag are those of the scenario or the vehicle. If neither gives a value,
+/// accept_drive() estimates the noise from the log, and draws latencies and lag between 0 and twice
+/// the defaults of LoopConditions. Errors (input): the vehicle does not have the yaw mode of the
+/// options; the log has no command, or less than 2 s of the scenario; from_s is not within the log;
+/// options.draws is out of range; the errors of simulate(), controller_for() and PlantSampler.
 Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model, const ModeGains& gains,
                                 const Scenario& scenario, const AcceptanceOptions& options);
 

@@ -14,8 +14,8 @@ std::optional<Circle> fit_circle(std::span<const Point> points) {
     mean.y_m += p.y_m / n;
   }
   // Normal equations of the fit. x, y: coordinates relative to the mean of the n points; (cx, cy):
-  // centre of the circle; R: its radius; z = x^2 + y^2. Sxy is the sum of x y over the points, and
-  // so on.
+  // centre of the circle; R: its radius; z = x^2 + y^2. Sxy is the sum of x y over the points; Sxx,
+  // Syy, Sxz and Syz likewise.
   //   [Sxx Sxy] [cx]   1 [Sxz]
   //   [Sxy Syy] [cy] = - [Syz]    and  R^2 = cx^2 + cy^2 + (Sxx + Syy)/n.
   //                    2
@@ -31,7 +31,7 @@ std::optional<Circle> fit_circle(std::span<const Point> points) {
     syz += y * z;
   }
   const double determinant = sxx * syy - sxy * sxy;
-  // If the points are on a line, one eigenvalue of the scatter matrix is 0 except for rounding.
+  // For points on a line, one eigenvalue of the matrix [Sxx Sxy; Sxy Syy] is 0 except for rounding.
   if (!(determinant > 1e-12 * (sxx + syy) * (sxx + syy))) return std::nullopt;
   const double cx = 0.5 * (syy * sxz - sxy * syz) / determinant;
   const double cy = 0.5 * (sxx * syz - sxy * sxz) / determinant;

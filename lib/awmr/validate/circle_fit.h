@@ -22,8 +22,8 @@ struct Circle {
 /// Fits a circle by Kasa's method: linear least squares with the centre (cx, cy) and the radius R
 /// in
 ///   x^2 + y^2 = 2 cx x + 2 cy y + (R^2 - cx^2 - cy^2)
-/// The fit is exact for points on a circle. For short arcs with noise, the radius is too small.
-/// Empty for fewer than three points, or points on a line.
+/// The fit is exact for points on a circle. For short arcs with noise, the fitted radius is too
+/// small. Empty for fewer than three points, or points on a line.
 std::optional<Circle> fit_circle(std::span<const Point> points);
 
 }  // namespace awmr

@@ -11,9 +11,9 @@
 namespace awmr {
 namespace {
 
-/// Largest steady yaw rate r of a mode, rad/s, at a steady speed. The mode makes its largest yaw
-/// moment, while the surge force tau_speed holds the speed. The yaw resistance is taken as the
-/// power law g3(r) = a3 r^b3, so that
+/// Largest steady yaw rate r of a mode, rad/s, at a steady speed: the mode makes its largest yaw
+/// moment, while the surge force tau_speed holds the speed. With the yaw resistance g3(r) = a3
+/// r^b3,
 ///   r = (moment/a3)^(1/b3)
 double largest_yaw_rate_radps(const Plant<double>& plant, const AllocationLimits<double>& limits,
                               YawMode mode, double speed_mps) {

@@ -1,9 +1,9 @@
 /// Checks of the paper's claims C1 to C14 by simulation of a model. Private to validate/.
 ///
-/// The paper uses terms without numbers ("fast", "slight", "no overshoot"). Therefore each check
-/// has a numerical criterion for "reproduced", chosen here and printed in the output
-/// (Claim::tolerance). A claim that does not meet it is reported as not reproduced, with the
-/// simulated numbers (Claim::figure).
+/// The paper uses terms without numbers ("fast", "slight", "no overshoot"). Each check therefore
+/// has a numerical criterion for "reproduced", chosen by this project and printed in the output
+/// (Claim::tolerance). A claim that does not meet its criterion is reported as not reproduced, with
+/// the simulated numbers (Claim::figure).
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,8 @@ struct ModeRun {
 };
 using ModeRuns = std::array<ModeRun, std::size(kYawModes)>;
 
-/// Calls simulate(). If simulate() returns an error, the result is a run of one row that ends as
-/// kFailed. The claim is then not reproduced.
+/// Calls simulate(). If simulate() returns an error, returns a run of one row that ends as kFailed,
+/// so that the claim is not reproduced.
 Run run_or_failed(const Model& model, const ModeGains& gains, const Scenario& scenario,
                   YawMode mode);
 /// Common inputs of the claims' simulations.
@@ -50,8 +50,8 @@ struct ClaimSetting {
   /// 95 % interval for each parameter that the scenario's `corner` sets to an end of its interval.
   ModeRuns run(const Scenario& scenario) const;
 };
-/// Simulates the scenario with each setting in all three modes, as ClaimSetting::run() does, in one
-/// batch. Precondition: all settings have the same control, arithmetic and sample time.
+/// Does ClaimSetting::run() for each setting, all in one batch. Precondition: all settings have the
+/// same control, arithmetic and sample time.
 std::vector<ModeRuns> run_all(std::span<const ClaimSetting> settings, Scenario scenario);
 
 template <class Condition>
@@ -88,20 +88,20 @@ std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetti
 
 /// Longest settling time that counts as fast in C3, s: the heading step divided by the largest
 /// steady yaw rate of the mode, plus 4 (T1 + 2 T2). T1 = 1/lambda and T2 = epsilon/(2 mu) are time
-/// constants of the heading law with the paper's gains. The sliding variable S decays with the time
-/// constant 2 T2, then the heading error with T1. After four time constants e^-4 = 1.8 % remains,
-/// which is within the settling band of 2 %.
+/// constants of the heading law with the paper's gains. The sliding variable S decays with 2 T2,
+/// then the heading error with T1. The factor 4 is because e^-4 = 1.8 % is within the settling band
+/// of 2 %.
 double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, YawMode mode,
                           double step_rad, double speed_mps);
 /// Number of reversals of a signal. A reversal is counted when the signal has moved back by more
 /// than `band` from its last maximum or minimum.
 int reversals(std::span<const double> signal, double band);
 
-/// Checks all claims, in the paper's order; without gains, only those that need no gains.
+/// Checks all claims, in the paper's order; without gains, only the claims C1, C2 and C14.
 std::vector<Claim> check_claims(const Model& model, const std::optional<ModeGains>& gains,
                                 const BatchArithmetic& arithmetic);
-/// Checks all claims for each model, as check_claims() does for one, but with the given control
-/// options. Precondition: each model has every parameter, and all have the same sample time.
+/// Does check_claims() for each model, but with the given control options. Precondition: each model
+/// has every parameter, and all have the same sample time.
 std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
                                                 const std::optional<ModeGains>& gains,
                                                 const BatchArithmetic& arithmetic,

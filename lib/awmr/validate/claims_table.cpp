@@ -19,7 +19,7 @@ std::string holds_in(const std::vector<ClaimCase>& cases) {
 }
 
 /// Text such as "holds in 4 of 24 (differential 24 of 24, ...); decided by allocation (4 of 12)".
-/// Empty if the claim was not evaluated over the settings that the paper leaves open.
+/// Empty if the claim was not evaluated for the settings that the paper leaves open.
 std::string over_open_cases(const Claim& claim) {
   if (claim.cases.empty()) return {};
   std::string modes;

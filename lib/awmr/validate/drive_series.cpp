@@ -15,12 +15,12 @@
 namespace awmr {
 namespace {
 
-/// Standard deviation sigma of white noise in the values x_k, estimated from second differences,
-/// because smooth motion hardly changes them:
+/// Standard deviation sigma of white noise in the values x_k, estimated from second differences, on
+/// which smooth motion has hardly any effect:
 ///   Var(x_(k+1) - 2 x_k + x_(k-1)) = 6 sigma^2
 /// The variance is estimated by the median absolute deviation, which ignores outliers. The result
-/// is at least q/sqrt(12), the error of rounding to the quantisation step q = `quantum`. With fewer
-/// than 10 values, it is q/sqrt(12).
+/// is at least q/sqrt(12), the error of rounding to the quantisation step q = `quantum`. Fewer than
+/// 10 values give q/sqrt(12).
 double white_noise(const std::vector<double>& values, double quantum) {
   const double least = quantum / std::sqrt(12.0);
   if (values.size() < 10) return least;
@@ -55,8 +55,8 @@ std::size_t window_of(double t_s) {
   return static_cast<std::size_t>(std::floor(t_s / kWindow_s + 1e-9));
 }
 
-/// Value of the channel in the row of the run that is nearest to the time t_s. After the end of the
-/// run it is the value in the last row.
+/// Value of the channel in the row of the run that is nearest to the time t_s; after the end of the
+/// run, in the last row.
 double at_time(const DriveChannel& channel, const Run& run, double sample_time_s, double t_s) {
   const auto row = static_cast<std::size_t>(t_s / sample_time_s + 0.5);
   return channel.of_run(run.rows[std::min(row, run.rows.size() - 1)]);

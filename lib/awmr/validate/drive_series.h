@@ -48,20 +48,19 @@ struct DriveStart {
 /// or from_s is before the log.
 Result<std::size_t> first_row_of(const DrivingLog& log, const std::optional<double>& from_s);
 
-/// Sensor noise, sensor latency and motor lag of the vehicle. Noise that the vehicle file does not
-/// give is estimated from the log. (If the log lacks the channel, the noise keeps its default.)
+/// Sensor noise, sensor latency and motor lag of the vehicle. Noise that vehicle.json does not give
+/// is estimated from the log. If the log lacks the channel, the noise keeps its default.
 LoopConditions conditions_in(const DrivingLog& log, std::size_t first, const Vehicle& vehicle);
 
 /// Returns the measured channels of the log and its commands, over duration_s from row `first`,
-/// each with the standard deviation of its noise. Sensors of the controller have the noise and
-/// rounding that the scenario gives. The noise of other sensors, or of those with 0 in the
-/// scenario, is estimated from the log. Commands have no noise. Precondition: the scenario has
-/// `sensors`.
+/// each with the standard deviation of its noise. For a sensor of the controller, this is the noise
+/// and rounding of the scenario. For other sensors, and if the scenario gives 0, it is estimated
+/// from the log. Commands have no noise. Precondition: the scenario has `sensors`.
 std::vector<DriveChannel> channels_of(const DrivingLog& log, std::size_t first, double duration_s,
                                       const Scenario& scenario);
 
 /// Initial state of the drive: for each component the mean of its readings in the half second up to
-/// row `first`, or the scenario's initial value if there are none.
+/// row `first`, or the scenario's initial value if there are no readings.
 DriveStart start_of(const DrivingLog& log, std::size_t first,
                     const std::vector<DriveChannel>& channels, const Scenario& scenario);
 

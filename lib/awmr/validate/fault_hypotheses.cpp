@@ -30,13 +30,12 @@ struct Change {
   bool is_factor() const { return unit == "times"; }
 };
 
-/// Range in which factors are searched. kGrid: number of grid points of a search. kBits: accuracy
-/// of the result, in bits.
+/// Search for the value of a change: range of factors, number of grid points, accuracy in bits.
 constexpr Interval kFactor{0.25, 4.0};
 constexpr int kGrid = 9;
 constexpr int kBits = 10;
-/// A hypothesis is reported if it removes at least this fraction of the squared distances. At most
-/// kMaxNamed hypotheses are reported.
+/// A hypothesis is reported if it removes at least this fraction of the sum of squared distances;
+/// at most kMaxNamed hypotheses are reported.
 constexpr double kWorthNaming = 0.3;
 constexpr std::size_t kMaxNamed = 4;
 
@@ -127,7 +126,7 @@ Scenario without_noise(Scenario scenario) {
   return scenario;
 }
 
-/// Search for the value of a change with which the simulated drive is nearest to the logged one.
+/// Search for the value of a change with which the simulated drive is nearest to the logged drive.
 struct Search {
   const Model& model;
   const Controller<double>& controller;
@@ -161,8 +160,8 @@ struct Search {
     return std::isfinite(sum) ? sum : kNever;
   }
 
-  /// Searches the best value: first on a grid, because there can be several minima, then between
-  /// the neighbours of the best grid point.
+  /// Searches the best value: first on a grid, because the distance can have several minima, then
+  /// between the neighbours of the best grid point.
   FaultHypothesis best(const Change& change, double unchanged) const {
     const auto to = [&](double value) { return change.is_factor() ? std::log(value) : value; };
     const auto from = [&](double z) { return change.is_factor() ? std::exp(z) : z; };

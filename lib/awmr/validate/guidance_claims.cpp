@@ -15,16 +15,16 @@ namespace awmr {
 namespace {
 
 /// Criterion of C9, that the distance d from the line tends to 0: largest |d| in the last quarter
-/// of the run, as a fraction of the lane's half width.
+/// of the run, as a fraction of the width R of the guidance law.
 constexpr double kOnTheLineShare = 0.01;
 /// Criterion of C10, that the modes avoid obstacles alike: the longest finishing time of a mode
 /// exceeds the shortest by at most this fraction.
 constexpr double kAlikeShare = 0.10;
-/// Criterion of C11, that the timed path is followed: largest distance from the moving point of the
-/// path. It is a twentieth of the path's width of 20 m; a smaller distance is hardly visible in a
-/// printed figure.
+/// Criterion of C11, that the vehicle follows the timed path: largest distance from the moving
+/// point of the path. Chosen as a twentieth of the path's width of 20 m, because a smaller distance
+/// is hardly visible in a printed figure.
 constexpr double kPathTolerance_m = 1.0;
-/// A value counts as equal to the best one if it is at most this fraction larger.
+/// A value counts as equal to the best value if it is at most this fraction larger.
 constexpr double kAsGoodShare = 0.01;
 
 double largest_steering_deg(const ModeRun& run) {
@@ -168,7 +168,7 @@ double off_path_m(const ModeRun& run) {
   return largest;
 }
 
-/// Smallest radius of curvature of the path p(t), m: |p_dot|^3/|p_dot x p_ddot|, which is the speed
+/// Smallest radius of curvature of the path p(t), m: |p_dot|^3/|p_dot x p_ddot|, i.e. the speed
 /// divided by the yaw rate.
 double least_radius_m(const Lissajous<double>& path, double duration_s) {
   double least = 1e300;
@@ -179,7 +179,7 @@ double least_radius_m(const Lissajous<double>& path, double duration_s) {
   return least;
 }
 
-/// Results of off_path_m() by mode, which are kept instead of the runs to save memory.
+/// Results of off_path_m() by mode. Keeping them instead of the runs saves memory.
 using OffPath = std::map<YawMode, double>;
 OffPath off_path_by_mode(const ModeRuns& runs) {
   OffPath off;

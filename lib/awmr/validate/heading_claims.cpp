@@ -16,8 +16,8 @@ namespace {
 
 const std::vector<double> kDriven_deg{30.0, 45.0};  ///< headings of the experiment     [paper 6]
 
-/// Criterion for "without overshoot": largest overshoot. Such a small overshoot is not visible in a
-/// printed figure, and it is within the settling band (simulate/metrics.h).
+/// Criterion for "without overshoot": largest overshoot. An overshoot of 0.5 deg is not visible in
+/// a printed figure, and is within the settling band (simulate/metrics.h).
 constexpr double kNoOvershoot_deg = 0.5;
 /// Criterion for "chattering": a command reverses by more than 1 % of its range more than once per
 /// second, on average over the run. A discontinuous law reverses up to every second sample: 50
@@ -98,7 +98,7 @@ bool are_the_papers(const ModeGains& gains) {
 }
 
 /// Checks C6. The sideslip in differential mode depends on the yaw rate, and therefore on the
-/// gains. If the gains are not the paper's, the text also gives the result with the paper's gains.
+/// gains. Claim::figure therefore also has the result with the paper's gains, if others are in use.
 Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
     return run.metrics.sideslip_max_deg;

@@ -20,8 +20,8 @@ inline constexpr double kSpeed_mps = 1.0;                      ///< u_d         
 inline const std::vector<double> kSimulated_deg{30.0, -30.0};  ///< commanded headings  [paper 4.3]
 inline constexpr double kLargestStep_deg = 60.0;               ///< the step from 30 to -30 deg
 
-/// Rounds a result to 1e-4, because smaller digits depend on rounding errors. Adding 0.0 turns -0
-/// into 0.
+/// Rounds a result to 1e-4, because further digits depend on rounding errors. Adding 0.0 changes -0
+/// to 0.
 inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
 /// Text of a value in each mode: "differential 0.1, steering 0.2, combined 0.3 UNIT", with "none"
@@ -63,8 +63,8 @@ struct HeadingSetting : ClaimSetting {
 
 /// Checks C4: the speed converges to u_d. `runs`: headings of 30, then -30 deg.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs);
-/// Checks C5, the speed drop by mode, with the same runs as C4. The drops with other force limits
-/// do not affect the verdict; they are reported in Claim::figure.
+/// Checks C5, the speed drop by mode, with the same runs as C4. Claim::figure also has the drops
+/// with other force limits, which do not affect the verdict.
 Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs);
 
 }  // namespace awmr

@@ -49,8 +49,8 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   return part;
 }
 
-/// A predicted series is computed for at most kMaxInSeries readings of a channel. At most kMaxDrawn
-/// of its points are kept for the chart.
+/// Limits of a predicted series: readings of a channel for which it is computed, and points that
+/// are kept for the chart.
 constexpr std::size_t kMaxInSeries = 100000;
 constexpr std::size_t kMaxDrawn = 1000;
 

@@ -33,10 +33,10 @@ struct LogValidation {
   bool passed = false;
 };
 
-/// Predicts the channels of the log from its commands. A channel is accepted if its NRMSE (RMS
-/// error divided by the standard deviation of the measurements) is at most `tolerance`. A channel
-/// that does not vary (a vehicle at rest) has no NRMSE and is left out. `motor_lag_s`: time
-/// constant of the motors, s, >= 0.
+/// Predicts the channels of the log from its commands. A channel is accepted if its long-horizon
+/// NRMSE (RMS error divided by the standard deviation of the measurements) is at most `tolerance`.
+/// A channel that does not vary (a vehicle at rest) has no NRMSE and is left out. `motor_lag_s`:
+/// time constant of the motors, s, >= 0.
 LogValidation validate_log(const DrivingLog& log, const Plant<double>& plant, double horizon_s,
                            double tolerance, double motor_lag_s = 0.0);
 

@@ -17,8 +17,8 @@
 namespace awmr {
 namespace {
 
-/// Factor on the normalised mass m'. With the increased m', a tyre friction of 0.8 is just enough
-/// for full thrust (open_cases.h).
+/// Factor on the normalised mass m' with which a tyre friction of 0.8 is just enough for full
+/// thrust (open_cases.h).
 double mass_factor(const Model& model) {
   const double least_mass_norm = kFullThrust / (kTyreFriction * kGravity_mps2);
   return least_mass_norm / *model[ParameterId::kMassNorm].value;
@@ -40,8 +40,7 @@ ControlOptions control_in(const ClaimCase& open) {
 }
 
 /// Divides the indices of the cases into batches with the same allocation and split. A batch has at
-/// most two cases, to limit the memory: the six runs of claim C11 (two cases in three modes) take
-/// 120 MB.
+/// most two cases, to limit the memory: with two cases, the six runs of claim C11 take 120 MB.
 std::vector<std::vector<std::size_t>> batches_of(const std::vector<ClaimCase>& cases) {
   constexpr std::size_t kCasesMax = 2;
   std::map<std::pair<AllocationForm, CombinedSplit>, std::vector<std::size_t>> open;
@@ -62,13 +61,12 @@ ClaimCase with_result(ClaimCase open, bool reproduced) {
   return open;
 }
 
-/// Settings of a case as numbers. Two cases with the same key after Setting::forget() of one
-/// setting differ only in this setting.
+/// Settings of a case as numbers.
 using Key = std::tuple<int, double, double, double, int>;
 /// A setting that the paper leaves open.
 struct Setting {
   std::string_view name;
-  /// Sets this setting to one fixed value. Cases that differ only in this setting then become
+  /// Sets this setting to a fixed value, so that cases that differ only in this setting become
   /// equal.
   std::function<void(ClaimCase&)> forget;
 };
@@ -81,8 +79,8 @@ Key key_of(const ClaimCase& open) {
 /// Returns the number of combinations of the other settings in which the verdict depends on this
 /// setting, and the number of all combinations of the other settings.
 std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
-  // For each combination of the other settings, two flags: the claim is reproduced in some case,
-  // and it is not reproduced in some case.
+  // For each combination of the other settings, two flags: whether a case reproduces the claim, and
+  // whether a case does not.
   std::map<Key, std::pair<bool, bool>> places;
   for (const ClaimCase& open : cases) {
     ClaimCase others = open;

@@ -1,10 +1,9 @@
-/// Checks how the verdicts on the paper's claims depend on settings that the paper does not give.
-/// Private to validate/.
+/// Evaluates the paper's claims for all combinations ("cases") of settings that the paper does not
+/// give. Private to validate/.
 ///
 /// The paper prints neither the limits of the wheel force F' nor how the combined mode divides the
-/// yaw moment when a limit is reached. Its allocation is an approximation for small steering
-/// angles, and with its m' the largest thrust needs more tyre force than friction permits. The
-/// cases are all combinations of
+/// yaw moment at a limit. Its allocation is an approximation for small steering angles. With its
+/// m', the largest thrust needs more tyre force than friction permits. The cases combine
 ///
 ///     allocation   exact, paper (control/allocation.h)
 ///     F'           [-1, 1], [0, 1] (the paper's own normalisation), [0, 0.5]
@@ -32,9 +31,9 @@ void add_open_cases(const Model& model, const std::optional<ModeGains>& gains,
                     const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
                     const Progress& progress = {});
 
-/// Text of the settings on which the verdict depends, the most decisive first. Example:
-/// "wheel_force (8 of 12)" means that the verdict depends on wheel_force in 8 of the 12
-/// combinations of the other settings. Empty if the verdict is the same in all cases.
+/// Text of the settings on which the verdict depends, most decisive first. "wheel_force (8 of 12)"
+/// means: in 8 of the 12 combinations of the other settings, wheel_force alone changes the verdict.
+/// Empty if the verdict is the same in all cases.
 std::string decisive_settings(const std::vector<ClaimCase>& cases);
 
 }  // namespace awmr

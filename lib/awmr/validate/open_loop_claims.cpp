@@ -19,11 +19,10 @@ namespace {
 constexpr double kCircleTurn_m = 0.4;  ///< the paper's constant tau_turn [paper 3.5.2]
 
 /// Largest accepted relative difference between the final speed and the solution of g1(u) =
-/// tau_speed. The error of the integrator is far smaller, and the transient has decayed at the end
-/// of the run.
+/// tau_speed. The error of the integrator and the rest of the transient are far smaller.
 constexpr double kSteadyTolerance = 1e-3;
 /// Largest accepted relative difference from a measured speed: 5 %, the error of the paper's Table
-/// 2 itself (it prints 1.03 m/s for 10 m in 9.26 s, which is 1.080 m/s).
+/// 2 itself, which prints 1.03 m/s for 10 m in 9.26 s (1.080 m/s).
 constexpr double kMeasuredTolerance = 0.05;
 /// Criterion for "a circle": largest distance of the last full turn from the circle fitted to it,
 /// divided by the radius.
@@ -62,8 +61,8 @@ struct Turn {
   double speed_mps = 0.0;  ///< speed at the end of the run
 };
 
-/// Points of the last full turn of the run. The first turn is a transient, so the result is empty
-/// if the run has fewer than two full turns.
+/// Points of the last full turn of the run. Empty if the run has fewer than two full turns, because
+/// the first turn is a transient.
 std::vector<Point> last_turn(const Run& run) {
   const double end_rad = run.rows.back().state.psi_rad;
   if (std::abs(end_rad) < 4.0 * std::numbers::pi) return {};
@@ -100,8 +99,8 @@ std::string figure_of(const Turn& turn) {
       100.0 * turn.circle->deviation_m / turn.circle->radius_m, turn.speed_mps);
 }
 
-/// Text of the yaw moment that each mode delivers for the commanded tau_turn. If the moments
-/// differ, they explain the different diameters of the circles.
+/// Text of the yaw moment that each mode delivers for the commanded tau_turn, which explains the
+/// different diameters of the circles.
 std::string delivered_moments(const Model& model, const Plant<double>& plant) {
   const AllocationLimits<double> limits = make_controller(plant, model.vehicle, kPaperGains).limits;
   std::string text;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kPathSpeed_mps = 1.0;  ///< commanded speed [paper 5.1]
 /// Acceptance radius of the waypoints, and largest approach angle Delta of the line-following law.
-/// Both are chosen here, because the paper does not print them.
+/// Chosen by this project, because the paper does not print them.
 constexpr double kAcceptance_m = 1.0;
 constexpr double kDelta_deg = 60.0;
 
@@ -21,9 +21,9 @@ State<double> pose(double x_m, double y_m, double psi_deg) {
 
 LineOfSight<double> lane(double width_m) { return {radians(kDelta_deg), width_m, true}; }
 
-/// Parameters of obstacle avoidance, chosen here because the paper's figure with them is missing.
-/// The minimum manoeuvring distance is the turning radius of the steering mode (5 m at any speed),
-/// plus 1 m, plus the distance driven in 1 s.
+/// Parameters of obstacle avoidance, chosen by this project because the paper's figure with them is
+/// missing. The minimum manoeuvring distance is the turning radius of the steering mode (5 m at any
+/// speed), plus 1 m, plus the distance driven in 1 s.
 Avoidance<double> avoidance() {
   return {.mmd_base_m = 6.0,
           .mmd_per_speed_s = 1.0,

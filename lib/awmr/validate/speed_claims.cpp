@@ -48,8 +48,8 @@ std::string why_it_converges(bool none_over, bool no_error) {
 }  // namespace
 
 /// Evaluates the overshoot of the speed from the start to the second heading step, and the speed
-/// error at the end of the run. An excess over u_d after the heading step is reported, but does not
-/// affect the verdict; C5 evaluates the drop of the speed there.
+/// error at the end of the run. The excess over u_d after that step is reported, but does not
+/// affect the verdict; C5 evaluates the speed drop after the step.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs) {
   const double step_s = setting.hold_s();
   const auto excess = [](Interval range) { return std::max(0.0, range.hi - kSpeed_mps); };
@@ -93,8 +93,8 @@ double speed_drop(const ModeRun& run, double step_s) {
   return std::max(0.0, kSpeed_mps - speed_range(run, step_s, run.run.rows.back().t_s).lo);
 }
 
-/// Text of the speed drop with other force limits than the vehicle's. The paper prints no limits,
-/// and the claim depends on them.
+/// Text of the speed drop with other force limits than the vehicle's, because the paper prints no
+/// limits and the claim depends on them.
 std::string speed_drop_elsewhere(const HeadingSetting& setting) {
   std::string text;
   for (const Interval limits : {Interval{-1.0, 1.0}, Interval{0.0, 0.5}}) {
@@ -102,8 +102,8 @@ std::string speed_drop_elsewhere(const HeadingSetting& setting) {
     if (std::abs(limits.lo - own.lo) + std::abs(limits.hi - own.hi) < 1e-12) continue;
     Model other = setting.model;
     other.vehicle.wheel_force = limits;
-    // These runs have the same duration as those with the vehicle's own limits, so that the speed
-    // drops can be compared.
+    // These runs have the same duration as the runs with the vehicle's own limits, so that the
+    // speed drops can be compared.
     const ModeRuns runs =
         ClaimSetting{other, setting.plant, setting.gains, setting.arithmetic, setting.control}.run(
             heading_steps(kSimulated_deg,

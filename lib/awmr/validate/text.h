@@ -1,4 +1,4 @@
-/// Text for a terminal: line wrapping, and the first lines of a claim. Private to validate/.
+/// Text for a terminal: line wrapping, and the headline of a claim. Private to validate/.
 #pragma once
 
 #include <cstddef>

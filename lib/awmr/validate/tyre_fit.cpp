@@ -30,8 +30,8 @@ Finding finding(const DrivingLog& log, Severity severity, const char* code, std:
   return {log.file, 0, severity, code, std::move(message)};
 }
 
-/// Finding `tyres-need-turns` if there are too few windows, or too few with one kind of turn; empty
-/// if there are enough.
+/// Finding `tyres-need-turns` if there are too few windows, or too few windows with one kind of
+/// turn; otherwise empty.
 std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
                                      const DrivingLog& log, const Vehicle& vehicle,
                                      const Plant<double>& plant) {
@@ -48,15 +48,16 @@ std::optional<Finding> missing_turns(const std::vector<ReplayedWindow>& windows,
   if (enough) return std::nullopt;
   return finding(
       log, Severity::kError, "tyres-need-turns",
-      fmt::format(
-          "a fit of the tyres needs at least {} windows of {:g} s, {} of them with each kind of "
-          "turn; these logs have {}, {} with turns by left and right wheel forces{} (a turn by "
-          "forces and steering together counts as neither kind). Record a drive that turns {}",
-          kMinTyreWindows, kWindow_s, kMinTurns, windows.size(), by_sides,
-          steers ? fmt::format(" and {} with steered turns", by_steering) : "",
-          steers ? "by wheel forces with straight wheels, then by steering with equal forces, "
-                   "then by steering while it coasts"
-                 : "by wheel forces at several speeds"));
+      fmt::format("a fit of the tyres needs at least {} windows of {:g} s, {} of them with each "
+                  "kind of turn; these logs have {} windows, {} with turns by different left and "
+                  "right wheel forces{} (a turn by forces and steering together counts as neither "
+                  "kind). Record a drive that turns {}",
+                  kMinTyreWindows, kWindow_s, kMinTurns, windows.size(), by_sides,
+                  steers ? fmt::format(" and {} with steered turns", by_steering) : "",
+                  steers
+                      ? "by wheel forces with straight wheels, then by steering with equal forces, "
+                        "then by steering while it coasts"
+                      : "by wheel forces at several speeds"));
 }
 
 /// Sums of squared errors of both plants, on windows that were not used to fit the tyres.
@@ -94,8 +95,8 @@ std::optional<HeldOutSums> held_out(const Windows& windows, const Plants& plants
   return sums;
 }
 
-/// The plant with the smaller errors on held-out windows, decided by the 95 % interval of the mean
-/// of D_w (tyre_fit.h). Empty if the interval contains 0.
+/// The plant with the smaller errors on held-out windows. Empty if the 95 % interval of the mean of
+/// D_w (tyre_fit.h) contains 0.
 std::optional<PlantKind> better_plant(const HeldOutSums& sums) {
   std::vector<double> differences;
   for (const auto& [by_model, on_tyres] : sums.by_window) {
@@ -164,8 +165,8 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
 /// True if a log has longer time steps than the controller, so that the commands between its rows
 /// are unknown.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
-  // Largest ratio of time step to sample time that is explained by jitter of the time stamps. Above
-  // it, rows are missing.
+  // Largest ratio of time step to sample time that jitter of the time stamps explains. Above it,
+  // rows are missing.
   constexpr double kLonger = 1.2;
   return std::ranges::any_of(
       logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });
@@ -184,10 +185,10 @@ std::vector<DrivingLog> with_half_of_the_commands(std::vector<DrivingLog> logs) 
   return logs;
 }
 
-/// Increases the standard errors by the error due to unknown commands between the rows of a slow
-/// log (tyre_fit.h). To estimate this error, the fit is repeated without every other logged
-/// command. Half of the resulting change is added in quadrature, so that a 95 % interval includes
-/// the change. Returns false if the repeated fit does not converge.
+/// Increases the standard errors by the error that unknown commands between the rows of a slow log
+/// cause (tyre_fit.h). To estimate this error, repeats the fit without every other logged command.
+/// Half of the resulting change is added in quadrature, so that a 95 % interval includes the
+/// change. Returns false if the repeated fit does not converge.
 bool add_error_of_lost_commands(const std::vector<DrivingLog>& logs, const Plant<double>& plant,
                                 double motor_lag_s, const Plants& plants, ShownFit& shown) {
   const std::vector<DrivingLog> halved = with_half_of_the_commands(logs);
@@ -235,8 +236,9 @@ tl::expected<ShownFit, Finding> shown_tyres(const std::vector<DrivingLog>& logs,
   if (lose_commands(logs, model.vehicle.sample_time_s) &&
       !add_error_of_lost_commands(logs, plant, motor_lag_s(model), plants, *shown)) {
     return refuse(first, "tyres-not-converged",
-                  "the fit with half of the logged commands does not converge, so the error due to "
-                  "commands between the rows is unknown; log every command of the controller");
+                  "the log lacks commands between its rows, and their effect on the tyres cannot "
+                  "be estimated: a fit with every other logged command does not converge. Log "
+                  "every command of the controller");
   }
   return *std::move(shown);
 }
@@ -277,8 +279,8 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (!sums) {
     return fail(
         finding(first, Severity::kError, "tyres-not-converged",
-                "the fit to every second window of the logs does not converge, so the plants "
-                "cannot be compared; record a longer drive"));
+                "the fit of the tyres to every second window of the logs does not converge, so the "
+                "four-wheel plant cannot be compared with the 3-DOF model; record a longer drive"));
   }
   TyreFit tyres{
       .tyres = tyres_at(shown->fit.at),
@@ -290,8 +292,8 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
   if (model[ParameterId::kInertiaNorm].source == Source::kFitted) {
     findings.push_back(finding(
         first, Severity::kWarning, "inertia-of-logs",
-        "I'z of the model was fitted to logs on the 3-DOF plant and can include yaw moments of the "
-        "tyres. For the four-wheel plant use a model identified from tables (I'z = m' Iz/m)"));
+        "I'z of the model was fitted to logs with the 3-DOF model and can include yaw moments of "
+        "the tyres. For the four-wheel plant, use a model identified from tables (I'z = m' Iz/m)"));
   }
   findings.push_back(finding(first, Severity::kNote, "plants-compared", comparison_text(tyres)));
   return std::optional(std::move(tyres));

@@ -80,9 +80,9 @@ ceres::Problem problem_of(const Windows& windows, const Plants& plants, const We
   return problem;
 }
 
-/// Returns the three best points of a coarse grid as starts of the search, best first. To save
-/// time, only every third window is evaluated. Several starts are needed because the cost can have
-/// several minima: a sliding vehicle can spin to either side.
+/// Returns the three best points of a coarse grid as starts of the search, best first. The search
+/// needs several starts because the cost can have several minima: a sliding vehicle can spin to
+/// either side. To save time, only every third window is evaluated.
 std::vector<LogTyres> starts_of(const Windows& windows, const Plants& plants) {
   constexpr std::array kFrictions{0.25, 0.5, 0.75, 1.1};
   constexpr std::array kStiffnesses{3.0, 6.0, 12.0, 24.0};
@@ -126,9 +126,9 @@ std::optional<WindowInformation> information_of(const ReplayedWindow& window, co
   return WindowInformation{by.transpose() * by, by.transpose() * errors};
 }
 
-/// Standard errors of the logarithms of the tyre parameters, by the jackknife over windows. Empty
-/// for parameters that are not fitted. Both are empty if a parameter depends on a single window, or
-/// if a window cannot be simulated.
+/// Standard errors of the logarithms of the tyre parameters, by the jackknife over windows
+/// (tyre_fit.h). Empty for parameters that are not fitted. Both are empty if a parameter depends on
+/// a single window, or if a window cannot be simulated.
 std::array<std::optional<double>, 2> log_errors(const Windows& windows, const Plants& plants,
                                                 const IsFree& is_free, const Fit& fit) {
   std::vector<WindowInformation> each;
@@ -166,8 +166,8 @@ bool is_inside(Eigen::Index parameter, double log_value) {
   return log_value > range.lo + kNear && log_value < range.hi - kNear;
 }
 
-/// Among the free parameters that the windows do not determine, returns the one with the largest
-/// standard error. Empty if the windows determine all free parameters.
+/// Returns the free parameter with the largest standard error among those that the windows do not
+/// determine. Empty if they determine all free parameters.
 std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   std::optional<Eigen::Index> worst;
   double largest = 0.0;
@@ -182,7 +182,7 @@ std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   return worst;
 }
 
-/// The fit with the smallest cost of those from all starts. Empty if the windows cannot be
+/// The fit with the smallest cost, of the fits from all starts. Empty if the windows cannot be
 /// simulated from any start.
 std::optional<Fit> best_fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                             const std::vector<LogTyres>& starts) {

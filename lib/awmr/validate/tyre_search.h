@@ -10,8 +10,7 @@
 
 namespace awmr::tyre_fit {
 
-/// For kFriction and kCornering: true if the parameter is fitted, false if it is held at a fixed
-/// value.
+/// For kFriction and kCornering: true if the parameter is fitted, false if it has a fixed value.
 using IsFree = std::array<bool, 2>;
 
 /// Result of a search.
@@ -40,8 +39,8 @@ struct ShownFit {
 
 LogTyres default_tyres();
 
-/// Fits both parameters from several starts. If the windows do not determine one of them, sets this
-/// one to its default and fits the other again. A fit that does not converge is returned at once
+/// Fits both parameters from several starts. If the windows do not determine one parameter, sets it
+/// to its default and fits the other again. Returns a fit that does not converge at once
 /// (Fit::converged is false). Empty if the windows cannot be simulated from any start.
 std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& plants);
 

@@ -33,7 +33,7 @@ std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& 
 }
 
 /// True for rows whose errors count: all rows after the first second of the window. In this second,
-/// errors due to the unmeasured part of the initial state decay.
+/// the errors of the unmeasured part of the initial state decay.
 bool counts(const LogWindow& rows, std::size_t row) {
   constexpr double kBegin_s = 1.0;
   return rows.log->t_s[row] - rows.log->t_s[rows.begin] >= kBegin_s;
@@ -53,7 +53,7 @@ struct ErrorsByRow {
   Eigen::Index count = 0;
 };
 
-/// Subtracts the mean over the window from the errors of heading and position. Reason: the initial
+/// Subtracts the mean over the window from the errors of heading and position, because the initial
 /// heading and position are single measurements, whose errors shift all later values of the window.
 Eigen::VectorXd about_their_mean(const ReplayedWindow& window, Eigen::VectorXd errors) {
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
@@ -123,11 +123,11 @@ Windows evenly_chosen(const std::vector<ReplayedWindow>& all) {
 }
 
 Turns turns_in(const LogWindow& rows, const Plant<double>& plant) {
-  // RMS steering angle, and RMS difference of left and right force, up to which the vehicle counts
-  // as not turned by it.
+  // Up to this RMS steering angle, or this RMS difference of left and right force (divided by
+  // F_max), the cause does not count as a turn.
   constexpr double kLittleAngle_rad = 0.02;
   constexpr double kLittleForce = 0.02;
-  // Least ratio of the squared moments of the two causes, if one is to count as the only cause.
+  // Smallest ratio of the squared moments with which the larger one counts as the only cause.
   constexpr double kMuchMore = 3.0;
   const DrivingLog& log = *rows.log;
   double by_sides = 0.0;  // sum over the rows of the squared differential moment, m^2

@@ -50,19 +50,18 @@ struct ReplayedWindow {
 
 using Windows = std::vector<const ReplayedWindow*>;
 
-/// Divides the logs into windows of kWindow_s. A window without a measurement after its first
-/// second is left out.
+/// Divides the logs into windows of kWindow_s. Leaves out windows without a measurement after their
+/// first second.
 std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
                                        const std::vector<ReplayedLog>& replayed);
 
-/// All windows or, if there are more than 60, 60 of them, evenly chosen. More windows would slow
-/// down the fit and hardly improve it.
+/// Returns at most 60 windows, evenly chosen. More windows would slow down the fit and hardly
+/// improve it.
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
 /// Cause of the turns in a window: different left and right wheel forces (by_sides), or the
-/// steering. At most one of the two is true. A cause is true if two conditions hold. Its commands
-/// are not near 0. Its squared yaw moment, summed over the window, is at least 3 times that of the
-/// other cause.
+/// steering. At most one is true. A cause is true if its commands are not near 0, and if its
+/// squared yaw moment, summed over the window, is at least 3 times that of the other cause.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;
@@ -78,9 +77,8 @@ struct Plants {
         four_wheel_step_s(replay_step_s(on_tyres(plant))),
         body(resolved_at_rest_on_tyres(on_tyres(plant), four_wheel_step_s)) {}
 
-  /// Returns the plant with negligible sway resistance g2 and yaw resistance g3. On the four-wheel
-  /// plant, the forces of the tyres replace both. A remaining g3 would require short integration
-  /// steps.
+  /// Returns the plant with negligible sway resistance g2 and yaw resistance g3, which the tyre
+  /// forces of the four-wheel plant replace. A remaining g3 would require short integration steps.
   static Plant<double> on_tyres(Plant<double> plant) {
     plant.sway_alpha = 0.0;
     plant.yaw = {.alpha = 1e-9, .beta = 1.0};
@@ -95,8 +93,8 @@ struct Plants {
 /// Errors (predicted minus measured) of the 3-DOF model in a window; not finite if the simulation
 /// diverges.
 Eigen::VectorXd errors_of_model(const ReplayedWindow& window, const Plants& plants);
-/// Errors of the four-wheel plant with these tyres in a window. Empty if no integration step is
-/// short enough, or if the simulation diverges.
+/// Errors of the four-wheel plant with these tyres in a window. Empty if the simulation diverges,
+/// or would need a shorter integration step than permitted.
 std::optional<Eigen::VectorXd> errors_on_tyres(const ReplayedWindow& window, const Plants& plants,
                                                const LogTyres& tyres);
 

@@ -88,21 +88,21 @@ struct ValidateOptions {
   Progress progress = {};  ///< called for each finished case, on the thread of validate()
 };
 
-/// Measurement of a trial as predicted by the model:
+/// Predicts the measurement of a trial:
 ///   surge      the steady speed u, m/s, at tau_speed
 ///   turning    the steady yaw rate r, rad/s, at tau_turn
 ///   coastdown  the time t_a, s, from motors off to rest
 /// steady_rate() and stop_time_s() of model/steady.h have the equations. Absent if the resistance
-/// law gives no finite value: no steady speed with an exponent b near 0, no stop time with b1 >= 1.
+/// law gives no finite value: an exponent b near 0 gives no steady speed, b1 >= 1 no stop time.
 /// Also absent for other kinds of trial.
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
 
-/// Predicts the model's trials and checks the paper's claims. A claim that is not reproduced is a
-/// result about the paper, not about the model, so claims do not affect `passed`. Without gains,
-/// only C1, C2 and C14 are checked. Claims are left out if the model lacks parameters, or if the
-/// vehicle does not have four driven wheels and steering; the verdict names them. Errors (input):
-/// the model lacks a parameter that its trials measure or, with gains, any parameter; the input or
-/// the measurement of a trial is not above 0; the tolerance is not above 0; the errors of
+/// Predicts the model's trials and checks the paper's claims. Claims do not affect `passed`,
+/// because a claim that is not reproduced is a result about the paper, not about the model. Without
+/// gains, validate() checks only C1, C2 and C14. It leaves out claims for which the model lacks
+/// parameters, or the vehicle four driven wheels and steering; the verdict names them. Errors
+/// (input): the model lacks a parameter that its trials measure or, with gains, any parameter; the
+/// input or the measurement of a trial is not above 0; the tolerance is not above 0; the errors of
 /// batch_arithmetic().
 Result<Validation> validate(const Model& model, const std::optional<ModeGains>& gains,
                             const ValidateOptions& options);
