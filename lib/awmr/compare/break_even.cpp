@@ -21,9 +21,9 @@
 namespace awmr {
 namespace {
 
-/// Smallest scrub moment of the search, as a fraction of the largest one. The search starts with
-/// small moments, and increases them by a factor of ten at a time. Reason: runs with a larger
-/// moment need shorter integration steps, and may not be needed at all.
+/// Smallest scrub moment of the search, as a fraction of the largest moment. The search starts with
+/// small moments and increases them tenfold, because runs with a larger moment need shorter
+/// integration steps, and may not be needed at all.
 constexpr double kMin = 1e-4;
 
 /// Inputs of the break-even analysis for one scenario on the nominal model and one mode.
@@ -37,7 +37,7 @@ struct ModeSetting {
 };
 
 /// Simulates the scenario in `mode`, once with each scrub moment of the tyres. Returns the metrics
-/// in the order of the moments; those of a failed simulation are absent.
+/// in the order of the moments; absent for a failed simulation.
 std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawMode mode,
                                                 const std::vector<double>& moments_m) {
   std::vector<BatchRun> runs;
@@ -54,11 +54,11 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
   return driven;
 }
 
-/// True if mode A is ahead of mode B when both have the same scrub. `run`, `other`: metrics of A
-/// and B with this scrub; absent if the simulation failed. `without`: metrics of A without scrub. A
-/// is ahead if its score is at least as good, or if only the simulation of B failed. A is not ahead
-/// if its own simulation failed, if scrub keeps it from completing the scenario, or if scrub
-/// removes one of its scored metrics, such as the settling time.
+/// True if mode A is ahead of mode B if both have the same scrub. `run`, `other`: metrics of A and
+/// B with this scrub; absent if the simulation failed. `without`: metrics of A without scrub. A is
+/// ahead if its score is at least as good, or if only the simulation of B failed. A is not ahead if
+/// its own simulation failed, or if scrub keeps A from completing the scenario or from having a
+/// scored metric, such as the settling time.
 bool is_ahead(const std::optional<Metrics>& run, const Metrics& without,
               const std::optional<Metrics>& other, const std::vector<ScoredMetric>& scoring) {
   if (!run || (without.completed && !run->completed)) return false;
@@ -115,8 +115,8 @@ std::optional<double> least_that_ends(double most_m, const Ahead& ahead) {
   return std::nullopt;
 }
 
-/// Returns the runs of the nominal model (sample 0) without tyre scrub. They are simulated again
-/// only if the model has scrub.
+/// Returns the runs of the nominal model (sample 0) without tyre scrub. Simulates them again only
+/// if the model has scrub.
 Result<std::vector<ComparisonRow>> rows_without_scrub(const Model& model, const ModeGains& gains,
                                                       const std::vector<Scenario>& scenarios,
                                                       const Comparison& comparison, int threads) {
@@ -141,8 +141,7 @@ ScenarioRows nominal_rows(const std::vector<ComparisonRow>& all, const std::stri
   return rows;
 }
 
-/// One pair of modes whose break-even scrub is to be computed: the inputs, and the result `entry`,
-/// which is filled in step by step.
+/// One pair of modes whose break-even scrub is computed: the inputs, and the result `entry`.
 struct Question {
   ModeSetting setting;
   std::vector<ScoredMetric> scoring;
@@ -150,9 +149,9 @@ struct Question {
   BreakEven entry;
 };
 
-/// Returns a Question for `setting.mode` and each mode of which it is ahead: the other mode has
-/// smaller wheel-force differences and a worse score. Another mode is left out if it completes the
-/// scenario and `setting.mode` does not. `rows`: the rows of sample 0, the nominal model.
+/// Returns a Question for each mode of which `setting.mode` is ahead: the other mode has smaller
+/// wheel-force differences and a worse score. A mode is left out if it completes the scenario and
+/// `setting.mode` does not. `rows`: the rows of sample 0, the nominal model.
 std::vector<Question> questions_of(const ModeSetting& setting, const ScenarioRows& rows,
                                    const std::vector<ScoredMetric>& scoring, BreakEven entry) {
   std::vector<Question> questions;
@@ -187,8 +186,8 @@ void answer(Question& question) {
       });
 }
 
-/// Adds to `entry` the scrub that was measured in differential turns. If further turns could decide
-/// an undecided result, also adds the total number of turns that this needs. Precondition: all
+/// Adds to `entry` the scrub that was measured in differential turns. If the result is undecided
+/// and further turns could decide it, also adds the total number of turns needed. Precondition: all
 /// other fields of `entry` are set.
 void add_measured(const Model& model, BreakEven& entry) {
   const auto& scrub = model.yaw_scrub;
@@ -209,8 +208,8 @@ void add_measured(const Model& model, BreakEven& entry) {
       lead_of(entry) != Lead::kOpen || !scrub->ci95_m.contains(*entry.yaw_coulomb_m)) {
     return;
   }
-  // The half width of the measured interval is proportional to 1/sqrt(n) for n turns. n is
-  // sufficient if the interval no longer contains the break-even scrub.
+  // The half width of the measured interval is proportional to 1/sqrt(n) for n turns. n turns
+  // suffice if the interval does not contain the break-even scrub.
   constexpr double kMaxTurns = 1000.0;
   const double half = 0.5 * (scrub->ci95_m.hi - scrub->ci95_m.lo);
   const double shrunk = half / std::abs(*entry.yaw_coulomb_m - scrub->moment_m);
@@ -219,8 +218,8 @@ void add_measured(const Model& model, BreakEven& entry) {
 }
 
 /// Returns the pairs of modes to examine, in all scenarios. `without`: the runs of the nominal
-/// model (sample 0) without scrub. `entry`: start value of each pair's result, with most_m and
-/// sliding_m set, which are the same for all pairs.
+/// model (sample 0) without scrub. `entry`: initial value of each pair's result, with most_m and
+/// sliding_m, which are the same for all pairs.
 Result<std::vector<Question>> all_questions(const Model& model, const ModeGains& gains,
                                             const std::vector<Scenario>& scenarios,
                                             const std::vector<ComparisonRow>& without,

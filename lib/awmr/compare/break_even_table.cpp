@@ -11,9 +11,9 @@
 namespace awmr {
 namespace {
 
-/// Text about one pair of modes with the measured scrub: the numbers of scenarios in which the
-/// first mode is still ahead, is no longer ahead, or undecided. For undecided results, it adds the
-/// yaw rates at which scrub was not measured, and the number of turns that would decide a result.
+/// Text about one pair of modes with the measured scrub: in how many scenarios the first mode is
+/// still ahead, is no longer ahead, or the result is undecided. For undecided results, adds the yaw
+/// rates at which scrub was not measured, and the number of turns that would decide a result.
 /// `all`: the entries of the pair.
 std::string decided(const std::vector<const BreakEven*>& all) {
   std::map<Lead, int> count;

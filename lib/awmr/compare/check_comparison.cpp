@@ -66,8 +66,9 @@ void check_gains(const std::vector<NamedGains>& gains, const CompareOptions& opt
   if (options.break_even && gains.size() > 1) {
     faults.push_back(
         {ErrorCode::kConflict, option_text("break_even"),
-         fmt::format("the break-even analysis needs one set of gains, found {}; remove the others",
-                     gains.size())});
+         fmt::format(
+             "the break-even analysis needs one set of gains, found {} sets; remove the other sets",
+             gains.size())});
   }
   if (options.break_even && options.shard.count > 1) {
     faults.push_back(
@@ -86,8 +87,8 @@ Status check_runs(std::size_t per_sample, int samples) {
   if (at(samples) + 1 <= most) return {};
   return input_error(
       ErrorCode::kTooLarge, option_text("samples"),
-      fmt::format("{} samples and the nominal one, in {} runs each, are {:.3g} runs, more than the "
-                  "limit of {}; give at most {} samples, or fewer scenarios or sets of gains",
+      fmt::format("{} samples and the nominal model, with {} runs each, are {:.3g} runs, more than "
+                  "the limit of {}; give at most {} samples, or fewer scenarios or sets of gains",
                   samples, per_sample, (samples + 1.0) * static_cast<double>(per_sample), kMaxRuns,
                   most > 0 ? most - 1 : 0));
 }

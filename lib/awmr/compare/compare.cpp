@@ -41,20 +41,21 @@ struct Layout {
 /// Results of the runs, in the order of the output. An entry is empty until its run is finished.
 using Slots = std::vector<std::optional<ComparisonRow>>;
 
-/// Longest run, in control steps, whose sensor noise is drawn in advance and shared by the modes.
-/// It limits the memory: noise takes 24 bytes per step and run, up to 38 MB for a batch.
+/// Longest run, in control steps, whose sensor noise is drawn once for all modes. Longer noise
+/// would take too much memory: 24 bytes per step and run, i.e. up to 38 MB for a batch at this
+/// limit.
 constexpr double kMaxSharedNoise = 1e5;
 
-/// Sensor noise of some samples of a scenario. Blocks of runs in different modes and with different
-/// gains use it, possibly on different threads. The first block that needs the noise draws it; the
-/// last one frees it.
+/// Sensor noise of some samples of a scenario, which blocks of runs in different modes and with
+/// different gains share, possibly on different threads. The first block that needs the noise draws
+/// it; the last block frees it.
 class SharedNoise {
  public:
   /// Noise of each sample, by the number of the sample.
   using Drawn = std::map<std::size_t, DrawnNoise>;
 
-  /// Registers a block that will use the noise. Call this for all blocks before the first of them
-  /// starts, so that no block frees the noise too early.
+  /// Registers a block that will use the noise. Call this for all blocks before the first block
+  /// starts; otherwise, a block could free the noise too early.
   void add_user() { ++users_; }
 
   /// Returns the noise. The first call obtains it from `draw()`.
@@ -64,7 +65,7 @@ class SharedNoise {
     return drawn_;
   }
 
-  /// Unregisters a block that no longer needs the noise. The last one frees the noise.
+  /// Unregisters a block that no longer needs the noise. The last block frees the noise.
   void remove_user() {
     if (--users_ == 0) drawn_.clear();
   }
@@ -85,8 +86,9 @@ struct Block {
   Place place(std::size_t i) const { return {scenario, gains, mode, samples[i]}; }
 };
 
-/// Divides the samples of this part into blocks of kBatchRuns. Blocks of the same samples follow
-/// each other, for all scenarios, gains and modes. So a stopped comparison has complete samples.
+/// Divides the samples of this part into blocks of kBatchRuns. The blocks of the same samples in
+/// all scenarios, gains and modes follow each other, so that a stopped comparison has complete
+/// samples.
 std::vector<Block> blocks_of(const Layout& layout, const Shard& shard) {
   std::vector<std::size_t> samples;
   for (std::size_t sample = 0; sample < layout.samples; ++sample) {
@@ -124,8 +126,8 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
   return runs;
 }
 
-/// Gives the block's runs their sensor noise. Blocks of the same samples in other modes or with
-/// other gains use the same noise; the first of them draws it.
+/// Gives the block's runs their sensor noise (SharedNoise). Runs longer than kMaxSharedNoise draw
+/// the same noise themselves.
 void share_noise(const Scenario& scenario, double sample_time_s, const Block& block,
                  std::vector<BatchRun>& runs) {
   if (scenario.duration_s / sample_time_s > kMaxSharedNoise) return;
@@ -181,8 +183,8 @@ void run_block(const RunSetup& setup, const Block& block, Slots& slots,
   }
 }
 
-/// Runs the blocks of this part of the comparison. If the user stops the comparison, blocks that
-/// have begun are finished, and no further block starts.
+/// Runs the blocks of this part of the comparison. If the user stops the comparison, the running
+/// blocks finish, and no further block starts.
 Result<Slots> run_blocks(const RunSetup& setup) {
   const CompareOptions& options = setup.options;
   const std::size_t count = setup.layout.count();
@@ -193,7 +195,8 @@ Result<Slots> run_blocks(const RunSetup& setup) {
   LoopControl control;
   if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
   if (options.progress) control.progress = [&] { options.progress(done, count); };
-  // Each run has its own entry in the results, so these do not depend on the order of the threads.
+  // Each run has its own entry in the results, so the results do not depend on the order of the
+  // threads.
   parallel_for(
       blocks.size(), options.threads,
       [&](std::size_t b) {

@@ -53,12 +53,12 @@ struct Contender {
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// With fewer samples than this, 95 % intervals are too narrow: they contain the true value in
-/// fewer than 95 % of the cases.
+/// With fewer samples, 95 % intervals are too narrow: they contain the true value in fewer than 95
+/// % of the cases.
 inline constexpr int kFewSamples = 6;
 
 /// Maximum number of runs of a comparison: scenarios x sets of gains x modes x samples (including
-/// the nominal one). It limits the memory, of which a run takes about 2 kB.
+/// the nominal model). It limits the memory: a run takes about 2 kB.
 inline constexpr std::size_t kMaxRuns = 1'000'000;
 
 struct CompareOptions {
@@ -72,15 +72,15 @@ struct CompareOptions {
   Preferences preferences = {};
   /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
-  /// Computes Comparison::changes: further rankings with one changed assumption each. One uses the
-  /// plant that the scenario does not use (3-DOF model or four wheels). With a single set of gains,
-  /// two others use slower and faster gains. If the comparison is divided into parts (`shard`),
-  /// only part 1 computes these rankings.
+  /// Computes Comparison::changes: further rankings, each with one changed assumption. One ranking
+  /// uses the plant that the scenario does not use (3-DOF model or four wheels). With a single set
+  /// of gains, two more rankings use slower and faster gains. If the comparison is divided into
+  /// parts (`shard`), only part 1 computes these rankings.
   bool other_settings = false;
   /// Tyres with which `other_settings` simulates a scenario that has none.
   Tyres<double> tyres = {};
   /// Part of the samples to run; merge_shards() (shard.h) combines the parts. Default: all samples.
-  /// There can be at most as many parts as samples, including the nominal one.
+  /// At most as many parts as samples (including the nominal model).
   Shard shard = {};
   /// Number of threads, >= 0; 0: one per core. Results do not depend on it.
   int threads = 0;
@@ -92,8 +92,8 @@ struct CompareOptions {
 };
 
 /// Break-even scrub of two modes on the nominal model: the scrub of the tyres (Plant::yaw_scrub_m)
-/// at which the first mode is no longer ahead of the second. Scrub acts in every mode, and the
-/// controller does not compensate it.
+/// at which `mode` is no longer ahead of `against`. Scrub acts in every mode, and the controller
+/// does not compensate it.
 struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< the mode with the better score without scrub
@@ -103,31 +103,32 @@ struct BreakEven {
   std::optional<double> yaw_coulomb_m;
   /// Largest yaw moment that left and right wheel forces can make, m: 2 d (F'max - F'min).
   double most_m = 0.0;
-  /// Largest possible scrub, m: 0.8 g m' l_f. It is the moment of four tyres that slide sideways
-  /// with a friction of 0.8, if the centre of gravity is half-way between the axles.
+  /// Largest possible scrub, m: 0.8 g m' l_f, the moment of four tyres that slide sideways with a
+  /// friction of 0.8. The centre of gravity is assumed half-way between the axles.
   double sliding_m = 0.0;
   /// Highest yaw rate in the run of `mode` on the nominal model without scrub, deg/s, >= 0.
   double fastest_degps = 0.0;
   /// Range of the scrub moment measured in differential turns, m. It contains the 95 % interval,
   /// the largest moment that did not turn the vehicle and, if scrub depends on the yaw rate, the
   /// values at all measured rates. If only the moment that did not turn the vehicle is known, the
-  /// range is from it to most_m. Absent if nothing was measured.
+  /// range extends from this moment to most_m. Absent if nothing was measured.
   std::optional<Interval> measured_m = {};
   /// Yaw rates of the turns in which scrub was measured, deg/s; absent if the model has no scrub.
   std::optional<Interval> measured_degps = {};
-  /// Total number of differential turns (those already recorded and further ones) that would decide
+  /// Total number of differential turns, including those already recorded, that would decide
   /// whether `mode` stays ahead with the measured scrub. Assumes that further turns have the same
-  /// mean and scatter. At most 1000. Absent if this is already decided, or if turns cannot decide
-  /// it.
+  /// mean and scatter. At most 1000. Absent if the result is already decided, or if turns cannot
+  /// decide it.
   std::optional<int> turns_to_decide = {};
 };
 
 /// Whether BreakEven::mode is still ahead with the measured scrub.
 enum class Lead {
-  kKept,  ///< the mode is ahead in the whole measured range, or with any scrub up to most_m
+  kKept,  ///< the mode is ahead with any scrub up to most_m, or in the whole measured range
   kLost,  ///< the mode is ahead nowhere in the measured range
-  /// Undecided: the mode is ahead in only a part of the range, or scrub was not measured at the yaw
-  /// rates of the run. Not used if kKept applies.
+  /// Undecided: the mode is ahead in only a part of the range. Or some scrub up to most_m ends its
+  /// lead, and the run turns at yaw rates at which scrub was not measured (turns_at_other_rates()
+  /// in break_even.h).
   kOpen,
 };
 inline constexpr NameTable<Lead, 3> kLeadNames{
@@ -153,7 +154,7 @@ struct Change {
   std::string scenario;
   ChangeKind kind{};
   std::string setting;  ///< name of the change: the plant ("model"), gains ("slower") or weights
-  /// modes of rank 1; for kWeights, those that have rank 1 with all changed weights
+  /// modes of rank 1; for kWeights, modes that have rank 1 with all changed weights
   std::vector<Contender> first;
   std::string not_run = {};                ///< why there is no ranking; empty if there is one
   std::vector<Completion> completed = {};  ///< completed runs by contender; empty for kWeights
@@ -162,9 +163,9 @@ struct Change {
 /// Result of compare().
 struct Comparison {
   std::vector<ComparisonRow> rows;  ///< finished runs, sorted by scenario, gains, mode, sample
-  /// Number of complete samples, including the nominal one. A sample is complete if its runs are
-  /// finished in every scenario and mode with every set of gains. Samples count up to the first
-  /// incomplete one. Fewer than requested if the comparison was stopped, or is a part.
+  /// Number of complete samples before the first incomplete sample, including the nominal model. A
+  /// sample is complete if its runs are finished in every scenario and mode with every set of
+  /// gains. Fewer than requested if the comparison was stopped, or is a part.
   int whole_samples = 0;
   bool stopped = false;  ///< true: stopped before all runs were done
   /// Rounding of the runs (BatchArithmetic::rounding): "fused" or "scalar". Rows with different
@@ -186,9 +187,9 @@ struct Comparison {
 /// simulate/conditions.h).
 /// For a sample, the fitted parameters are drawn from the model's covariance
 /// (simulate/plant_sampler.h). Noise and disturbances are drawn with the seeds of scenario and
-/// options. All modes and gains use the same draws. The controller uses the nominal parameters. A
-/// block of kBatchRuns samples (simulate/batch.h) is finished in every scenario and mode before the
-/// next block starts. So a stopped comparison is valid for the samples that it finished.
+/// options. All modes and gains use the same draws. The controller uses the nominal parameters.
+/// compare() finishes a block of kBatchRuns samples (simulate/batch.h) in every scenario and mode
+/// before the next block starts. So a stopped comparison is valid for the samples that it finished.
 ///
 /// Errors (input): the model lacks a parameter, a covariance (with samples) or an interval that a
 /// scenario's corner needs; no scenario or gains, or two of the same name; a negative number of

@@ -15,15 +15,15 @@ namespace awmr {
 ///   - tyres that differ from those of the trials, and parameters without interval,
 ///   - too few samples (`few-samples`),
 ///   - tyre scrub (`scrub-simulated`, `turned-by-sides`).
-/// A part of a comparison has the same findings as the whole. `rate`: requested limit of the
-/// heading rate.
+/// A part of a comparison has the same findings as the whole comparison. `rate`: requested limit of
+/// the heading rate.
 std::vector<Finding> compare_findings(const Model& model, const std::vector<Scenario>& scenarios,
                                       const CompareOptions& options, const Comparison& comparison,
                                       const HeadingRateChoice& rate);
 
 /// Returns the warning `incomplete-if-changed` for each scenario and change (other plant, slower or
-/// faster gains) that makes a mode fail. A mode fails if it completes some runs without the change,
-/// and none with it.
+/// faster gains) that makes a mode fail: without the change, the mode completes some runs; with the
+/// change, none.
 std::vector<Finding> completion_findings(const Comparison& comparison);
 
 /// Returns the warning `beyond-trials` if a run turns faster than 1.2 times the highest yaw rate of

@@ -15,8 +15,8 @@ namespace awmr {
 /// other columns, or an invalid row.
 Result<std::vector<ComparisonRow>> comparison_rows(std::string_view text, const std::string& file);
 
-/// Checks that a text can be read as a comparison.csv. Used before the file is written (ReadBack in
-/// core/file.h). Errors: those of comparison_rows().
+/// Checks that a text is a valid comparison.csv, before it is written (ReadBack in core/file.h).
+/// Errors: those of comparison_rows().
 Status check_comparison_csv(std::string_view text, const std::string& file);
 
 /// Names of the files of a comparison in its directory.

@@ -90,7 +90,7 @@ Json labels_json(const std::vector<Contender>& contenders) {
   return labels;
 }
 
-/// Writes the decision on a scenario as JSON. `all`: the changes of all scenarios. Those of this
+/// Writes the decision on a scenario as JSON. `all`: the changes of all scenarios; changes of this
 /// scenario that could not be run are added with the reason.
 Json decision_json(const std::string& scenario, const Decision& decision,
                    const std::vector<Change>& all) {
@@ -246,17 +246,19 @@ Json ranking_json(const Preferences& preferences) {
                                {"weight", weight_of(metric, preferences)}});
   }
   json["first_by_weights"] =
-      "fraction of random weightings of the metrics (uniform over all that sum to 1) with which "
-      "the mode has the best score. A weighting is divided equally among all modes within "
-      "relevance of the best score. Modes that are tied for best have the mean of their fractions";
+      "fraction of random weightings of the metrics (uniform over all weightings that sum to 1) "
+      "with which the mode has the best score. A weighting is divided equally among all modes "
+      "within relevance of the best score. Modes that are tied for best have the mean of their "
+      "fractions";
   json["decision"] = fmt::format(
       "decided: exactly one mode has rank 1 in the ranking and under every change of one "
-      "assumption; level: several modes have rank 1 in all of these; undecided: no mode has, or "
-      "the lead rests on one metric and is lost if this metric has half its weight "
-      "(narrow_lead). A mode that completes no run does not have rank 1. Changes: any weights "
+      "assumption; level: several modes have rank 1 in all of these; undecided: no mode has rank 1 "
+      "in all of these, or the lead of the best mode rests on one metric and is lost if this "
+      "metric has half its weight (narrow_lead). A mode that completes no run does not have rank "
+      "1. Changes: any weights "
       "within a factor {:g}; with option plant both, also the other plant; with it and a single "
       "set of gains, also the rates of heading and speed loop multiplied and divided by {:.3g}. "
-      "The last two have up to {} samples each",
+      "Changes of plant and gains have up to {} samples each",
       kWeightFactor, kGainsFactor, kBatchRuns - 1);
   return json;
 }

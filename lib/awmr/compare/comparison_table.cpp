@@ -99,8 +99,8 @@ std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   return text + survived + '\n';
 }
 
-/// Table that has for each metric the number of scenarios in which each mode is best or tied with
-/// the best. Empty for a single scenario.
+/// Table with the number of scenarios in which each mode is best or tied with the best, for each
+/// metric. Empty for a single scenario.
 std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
   if (scenarios.size() < 2) return "";
   std::string text =

@@ -28,8 +28,8 @@ std::vector<Contender> first_of(const std::vector<RankedMode>& ranking) {
   return first;
 }
 
-/// Returns the only ranked metric in which `other` is relevantly worse than `own`. Null if there is
-/// none, or more than one.
+/// Returns the difference in the only ranked metric in which `other` is relevantly worse than
+/// `own`. Null if there is no such metric, or more than one.
 const PairedDifference* only_gap(const std::vector<PairedDifference>& differences,
                                  const Preferences& preferences, const Contender& own,
                                  const Contender& other) {
@@ -69,8 +69,8 @@ std::optional<NarrowLead> narrow_lead_of(const ScenarioRows& scenario,
 }
 
 /// Returns the weights with which `own` is furthest behind `other`. Each weight w_k may be
-/// multiplied or divided by kWeightFactor. Let d_k be the mean loss (log_loss()) of own minus that
-/// of other in metric k, and m = ln(1 + relevance). Own is behind if
+/// multiplied or divided by kWeightFactor. Let d_k be the mean loss (log_loss()) of `own` minus
+/// that of `other` in metric k, and m = ln(1 + relevance). `own` is behind if
 ///   sum over k of w_k (d_k - m) > 0.
 /// Each term is maximised separately: w_k is multiplied by the factor if d_k > m, else divided.
 Preferences worst_weights(const ModeRows& own, const ModeRows& other,
@@ -88,7 +88,7 @@ Preferences worst_weights(const ModeRows& own, const ModeRows& other,
 }
 
 /// Finds the contenders (modes with their gains) that have rank 1 with all weights between
-/// 1/kWeightFactor and kWeightFactor times the given ones.
+/// 1/kWeightFactor and kWeightFactor times the given weights.
 Change change_of_weights(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                          const Preferences& preferences, std::uint64_t seed) {
   const std::vector<ScoredMetric> scoring = scoring_of(scenario, preferences);
@@ -189,7 +189,7 @@ std::vector<ChangedScenario> changed_scenarios(const std::vector<NamedGains>& ga
       change.not_run = message_of(other.error());
       changes.push_back(std::move(change));
     }
-    // With several sets of gains, the gains are not varied: the sets are compared with each other.
+    // Several sets of gains are compared with each other, so they are not varied.
     if (gains.size() > 1) continue;
     for (const auto& [setting, factor] :
          {std::pair("slower", 1.0 / kGainsFactor), std::pair("faster", kGainsFactor)}) {
@@ -224,9 +224,8 @@ bool Decision::survives(const Change& change) const {
                      [&](const Contender& one) { return has(change.first, one); });
 }
 
-/// If the plants have different best modes, returns the names of trials in which the plants behave
-/// differently. In differential turns, tyres scrub; while coasting, rolling tyres steer without
-/// thrust.
+/// The trials are those in which the plants differ: on four wheels, tyres scrub in differential
+/// turns, and steer without thrust while the vehicle coasts.
 std::vector<std::string_view> Decision::deciding_trials() const {
   bool differential = false;
   bool steered = false;

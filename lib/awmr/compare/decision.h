@@ -17,8 +17,8 @@
 
 namespace awmr {
 
-/// Factor by which each weight is multiplied or divided, independently of the others, to test the
-/// ranking with other weights. Chosen: with a larger factor, fewer rankings are decided.
+/// Factor by which each weight is multiplied or divided, independently of the other weights, to
+/// test the ranking with other weights. A larger factor leaves fewer rankings decided.
 inline constexpr double kWeightFactor = 2.0;
 /// Factor, sqrt(2), by which the bandwidths of heading loop and speed loop are multiplied or
 /// divided, to test the ranking with other gains.
@@ -35,11 +35,11 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
      {"undecided", DecisionKind::kUndecided}}};
 
 /// A lead by one metric alone. The only mode of rank 1 is relevantly better than another mode in
-/// just one ranked metric, and relevantly worse in some. If the weight of this metric is divided by
-/// kWeightFactor, the other mode has rank 1, too.
+/// just one ranked metric, and relevantly worse in at least one other. If the weight of the one
+/// metric is divided by kWeightFactor, the other mode has rank 1, too.
 struct NarrowLead {
   MetricId metric{};
-  std::vector<Contender> others;  ///< these other modes
+  std::vector<Contender> others;  ///< modes over which the lead is narrow
 };
 
 /// Decision on a scenario: the modes of rank 1 in the ranking, and the modes of rank 1 if one
@@ -61,15 +61,15 @@ struct Decision {
   std::vector<std::string_view> deciding_trials() const;
 };
 
-/// Names of trials, as in comparison.json, that tell the two plants apart. `awmr suggest` describes
-/// these trials.
+/// Names of the trials that show which plant describes the vehicle, as in comparison.json. `awmr
+/// suggest` describes these trials.
 inline constexpr std::string_view kDifferentialTurns = "differential-turns";
 inline constexpr std::string_view kSteerWhileCoasting = "steer-while-coasting";
 
 /// Repeats the ranking on the other plant. For a single set of gains, also repeats it with slower
-/// and faster gains. Uses the first kBatchRuns samples of the comparison, or all if there are
-/// fewer. If a scenario cannot be run with a change, the Change has the reason (Change::not_run).
-/// Open-loop scenarios have no Change, because their modes are not ranked.
+/// and faster gains. Uses at most the first kBatchRuns samples of the comparison. If a scenario
+/// cannot be run with a change, the Change has the reason (Change::not_run). Open-loop scenarios
+/// have no Change, because their modes are not ranked.
 std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedGains>& gains,
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);
@@ -83,9 +83,9 @@ Decision decide(const ScenarioRows& scenario, const ScenarioStatistics& statisti
 /// Text of a change, such as "on the four-wheel plant".
 std::string text_of(const Change& change);
 
-/// Verdict on a scenario in one sentence: the best mode, how far the others are behind, and how
-/// robust the result is. A single mode of rank 1 is called "ahead here" instead of "best" if it
-/// loses rank 1 with another plant, other weights or other gains.
+/// Verdict on a scenario in one sentence: the best mode, how far the other modes are behind, and
+/// how robust the result is. A single mode of rank 1 is called "ahead here" instead of "best" if
+/// the decision is DecisionKind::kUndecided.
 std::string verdict_of(const ScenarioRows& scenario, const std::vector<RankedMode>& ranking,
                        const std::optional<Decision>& decision,
                        const std::vector<PairedDifference>& differences,

@@ -43,9 +43,9 @@ struct MetricColumn {
   std::string_view head;
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;
-  /// Differences of the metric up to this floor do not matter, in the metric's unit, >= 0
-  /// (scoring.h). Above 0: the metric can be used to rank modes, and lower values are better. 0:
-  /// the metric is never used to rank.
+  /// Floor: differences up to this value do not matter, in the metric's unit, >= 0 (scoring.h).
+  /// Above 0: the metric can be used to rank modes, and lower values are better. 0: the metric is
+  /// never used to rank.
   double ranking_floor = 0.0;
   double default_weight = 0.0;  ///< weight in the ranking, unless the user sets it
 
@@ -59,9 +59,9 @@ struct MetricColumn {
   }
 };
 
-/// All metrics. These have the default weight 1 in the ranking: heading and cross-track error,
-/// settling and finishing time, speed drop, mechanical work and tyre work. All others have the
-/// weight 0. For example, sideslip follows from the geometry of the turn. The control variation is
+/// All metrics. Heading and cross-track error, settling and finishing time, speed drop, mechanical
+/// work and tyre work have the default weight 1 in the ranking. All other metrics have the weight
+/// 0. For example, the sideslip follows from the geometry of the turn, and the control variation is
 /// nearly 0 in some modes, so its ratios mean little.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,

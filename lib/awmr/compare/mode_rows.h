@@ -16,8 +16,8 @@ struct ModeRows {
   std::span<const ComparisonRow> rows;  ///< sample 0 first, then the drawn samples; never empty
 
   const Metrics& nominal() const { return rows.front().metrics; }
-  /// Rows from which all statistics are computed: those of the drawn samples. Without drawn
-  /// samples, it is the row of the nominal run.
+  /// Rows from which all statistics are computed: the rows of the drawn samples or, without drawn
+  /// samples, the row of the nominal run.
   std::span<const ComparisonRow> counted() const {
     return rows.size() > 1 ? rows.subspan(1) : rows;
   }

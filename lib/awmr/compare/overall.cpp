@@ -9,8 +9,8 @@ namespace awmr {
 namespace {
 
 /// True if `other` is better than `own` in the metric: its value is relevantly lower
-/// (Conclusion::kRelevant), or only `other` has a value. A mode that completes no run is never
-/// better than one that does.
+/// (Conclusion::kRelevant), or only `other` has a value. If only one of the modes completes any
+/// run, this mode is better.
 bool beats(const EvaluatedScenario& scenario, const MetricColumn& metric, const ModeRows& other,
            const ModeRows& own) {
   const bool own_completes = own.completed_count() > 0;

@@ -44,15 +44,14 @@ std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& s
 /// Summaries count only this first scenario.
 std::vector<std::size_t> first_with_same_runs(const std::vector<EvaluatedScenario>& scenarios);
 
-/// For each metric that can be used to rank modes, counts the scenarios in which a contender (a
-/// mode with its gains) is not beaten. A contender is beaten if the mean of another one is lower by
-/// a relevant difference, or if only another one has a value. Scenarios with identical runs count
-/// once. `scenarios`: those with a ranking.
+/// For each metric that can be used to rank modes, counts the scenarios in which no other contender
+/// (a mode with its gains) is better. A contender is better if its mean is lower by a relevant
+/// difference, or if only it has a value. Scenarios with identical runs count once. `scenarios`:
+/// scenarios with a ranking.
 std::vector<MetricTally> tally(const std::vector<EvaluatedScenario>& scenarios);
 
-/// Number of scenarios with each kind of decision. Also, for each kind of change, the number of
-/// scenarios in which a mode of rank 1 keeps this rank under all changes of the kind
-/// (Decision::survives()). Scenarios with identical runs count once.
+/// Number of scenarios with each kind of decision and, for each kind of change, number of scenarios
+/// in which the ranking survives (Decision::survives()). Scenarios with identical runs count once.
 struct DecisionTally {
   std::map<DecisionKind, int> scenarios;
   struct Share {

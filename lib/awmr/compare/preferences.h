@@ -15,9 +15,9 @@ namespace awmr {
 
 /// Largest weight that a user can give. Weights only have an effect relative to each other.
 inline constexpr double kMaximumWeight = 1000.0;
-/// Permitted range of Preferences::relevance. A smaller margin would make all scores nearly equal:
-/// the offset floor/relevance is added to each metric (scoring.h), and at 0.001 it is already above
-/// most values of the metrics. With 0, rounding could decide a rank.
+/// Permitted range of Preferences::relevance. A smaller margin would make all scores nearly equal,
+/// because the offset floor/relevance is added to each metric (scoring.h). At 0.001, the offset is
+/// already above most values of the metrics. With 0, rounding could decide a rank.
 inline constexpr NumberRule kRelevance{.min = 0.001, .max = 1.0};
 
 struct Preferences {
@@ -25,7 +25,7 @@ struct Preferences {
   /// default weight (metric_columns.h).
   std::map<std::string, double, std::less<>> weights;
   /// Relevance margin, in kRelevance. Two values of a metric count as equal if their relative
-  /// difference is at most this, or their difference is at most the metric's floor
+  /// difference is at most this margin, or their difference is at most the metric's floor
   /// (MetricColumn::ranking_floor).
   double relevance = 0.05;
   friend bool operator==(const Preferences&, const Preferences&) = default;

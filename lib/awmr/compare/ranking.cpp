@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Random stream for the weightings of the metrics. It must differ from the streams of the samples
-/// and of the bootstrap (statistics.cpp), so that they are independent.
+/// Random stream for the weightings of the metrics. To be independent, it must differ from the
+/// streams of the samples and of the bootstrap (statistics.cpp).
 constexpr std::uint64_t kWeightStream = std::uint64_t{5} << 61U;
 /// Number of random weightings. A larger number makes the shares more exact.
 constexpr int kWeightings = 1000;
@@ -61,9 +61,8 @@ Behind behind(const RankingEntry& own, const RankingEntry& leader, double releva
   return {ratio, within ? Conclusion::kEquivalent : Conclusion::kUndecided};
 }
 
-/// Divides a count of 1 equally among the best entries. An entry is one of the best if its value is
-/// within `margin` of the smallest, because smaller differences do not matter. Entries that
-/// complete too few runs (RankingEntry::completes) are ignored.
+/// Divides a count of 1 equally among the best entries, whose value is within `margin` of the
+/// smallest value. Entries that complete too few runs (RankingEntry::completes) are ignored.
 template <class Value>
 void count_best(const std::vector<RankingEntry>& entries, double margin, Value&& value,
                 std::vector<double>& counts) {
@@ -82,7 +81,7 @@ void count_best(const std::vector<RankingEntry>& entries, double margin, Value&&
 }
 
 /// Returns for each entry the share of random weightings of the metrics with which it is best. The
-/// weightings are uniformly distributed over all that sum to 1.
+/// weightings are uniformly distributed over all weightings that sum to 1.
 std::vector<double> shares_by_weights(const std::vector<RankingEntry>& entries, double margin,
                                       Random random) {
   std::vector<double> shares(entries.size(), 0.0);
@@ -117,8 +116,8 @@ bool is_scored(MetricId metric, const std::vector<ScoredMetric>& scoring) {
                      [&](const ScoredMetric& scored) { return scored.metric->id == metric; });
 }
 
-/// True if two modes are equivalent in every scored metric that both have. Even a significant
-/// difference of their scores then does not matter.
+/// True if two modes are equivalent in every scored metric that both have. Then even a significant
+/// difference of their scores does not matter.
 bool equivalent_in_all(const Contender& a, const Contender& b,
                        const std::vector<ScoredMetric>& scoring,
                        const std::vector<PairedDifference>& differences) {
@@ -163,7 +162,7 @@ RankedMode unranked_mode(const RankingEntry& own, const RankingEntry& best, doub
 }
 
 /// If several modes are tied for rank 1, replaces their first_by_weights by the mean over these
-/// modes, because none of them is best alone. Does the same with first_by_samples if the modes are
+/// modes, because no mode is best alone. Does the same with first_by_samples if the modes are
 /// equivalent.
 void share_firsts_of_ties(std::vector<RankedMode>& ranking) {
   const auto end = std::find_if(ranking.begin(), ranking.end(),

@@ -16,28 +16,28 @@ struct RankedMode {
   int rank = 0;  ///< 1 is best; tied modes have the same rank
   Contender contender;
   /// Score of this mode divided by that of the first mode in the list; lower is better. A score is
-  /// the weighted geometric mean of the metrics, each with an offset added (scoring.h). The
-  /// quotient can be below 1: the first mode may have a worse score, but complete more often.
+  /// the weighted geometric mean of the metrics, each with an offset added (scoring.h). Can be
+  /// below 1, because the first mode can have a worse score, but complete more runs.
   double score = 1.0;
   double completed_share = 0.0;  ///< share of completed runs, in [0, 1]
   /// 95 % interval of `score`; absent for the first mode, and below 2 samples.
   std::optional<Interval> behind_ci95;
   /// Conclusion from comparing this mode with its leader; absent for the first mode. The leader is
-  /// the best mode of the same rank; for this best mode, it is the best mode of the rank above.
-  /// kRelevant: this mode has a worse score, or it completes significantly less often, or never
-  /// although the leader does.
+  /// the best mode of the same rank; for that best mode, the leader is the best mode of the rank
+  /// above. kRelevant: this mode has a relevantly worse score, or completes significantly fewer
+  /// runs, or no run although the leader completes some.
   std::optional<Conclusion> towards_leader;
   std::vector<std::string> tied_with;  ///< labels of the other modes of the same rank
   /// Share in [0, 1] of random weightings of the metrics with which this mode has the best score.
   /// first_by_samples: the same for the samples; absent below 2 samples.
-  ///   - If the scores of several modes are within `relevance` of the best, they share a weighting
-  ///     or sample equally.
+  ///   - If the scores of several modes are within `relevance` of the best score, a weighting or
+  ///     sample is divided equally among them.
   ///   - A mode that completes significantly less often has the shares 0.
   ///   - Modes that are tied for rank 1 get the mean of their shares of weightings and, if they are
   ///     equivalent, the mean of their shares of samples.
   double first_by_weights = 0.0;
   std::optional<double> first_by_samples;
-  /// Labels of other modes that are relevantly better than this one in a ranked metric, and
+  /// Labels of other modes that are relevantly better than this mode in a ranked metric, and
   /// relevantly worse in none.
   std::vector<std::string> dominated_by;
 };
@@ -63,10 +63,9 @@ inline constexpr std::string_view kNotRanked =
 /// time.
 bool has_a_goal(const ScenarioRows& scenario);
 
-/// Ranks the modes, best first. Empty if no metric with a weight applies. Also empty if the
-/// scenario has no target (open loop): lower metrics are then not better. `statistics`:
-/// statistics_of() this scenario, with preferences of the same relevance. `seed`: seed of the
-/// random weightings.
+/// Ranks the modes, best first. Empty if no metric with a weight applies, or if the scenario has no
+/// target (open loop), because lower metrics are then not better. `statistics`: statistics_of()
+/// this scenario, with preferences of the same relevance. `seed`: seed of the random weightings.
 std::vector<RankedMode> rank(const ScenarioRows& scenario, const ScenarioStatistics& statistics,
                              const Preferences& preferences = {}, std::uint64_t seed = 1);
 

@@ -19,8 +19,8 @@ RankingEntry entry_of(const ScenarioRows& scenario, std::size_t mode,
   return entry;
 }
 
-/// Order of modes with equal scores: by mode, then by name of the gains. It does not depend on the
-/// order in which the gains are given.
+/// Order of modes with equal scores: by mode, then by name of the gains, so that the order in which
+/// the user gives the gains does not matter.
 bool is_before(const ModeRows& a, const ModeRows& b) {
   return std::tie(a.contender.mode, a.contender.gains) <
          std::tie(b.contender.mode, b.contender.gains);

@@ -17,8 +17,8 @@ struct RankingEntry {
   /// log_score() of each run in the statistics (ModeRows::counted).
   std::vector<double> log_scores;
   std::vector<double> mean_losses;  ///< for each scored metric, mean log_loss() over the same runs
-  /// False if the mode completes the scenario significantly less often than the mode that does so
-  /// most often. Also false if it never completes although another mode does.
+  /// False if the mode completes significantly fewer runs than the mode with the most completed
+  /// runs, or no run although another mode completes some.
   bool completes = true;
 
   double log_score() const { return mean(log_scores); }
@@ -28,13 +28,14 @@ struct RankingEntry {
   }
 };
 
-/// True if two modes complete the scenario about equally often: the exact McNemar test finds no
-/// significant difference between the paired runs. False if only one of the two completes any run.
-/// With a single run, both or neither must complete it.
+/// True if two modes complete the scenario about equally often: the exact McNemar test, which
+/// compares the runs sample by sample, finds no significant difference. False if only one mode
+/// completes any run. With a single run, both modes or neither must complete it.
 bool complete_alike(const ModeRows& a, const ModeRows& b);
 
-/// Returns the modes of a scenario, best first. First come those that complete often enough
-/// (RankingEntry::completes), sorted by score; then the others, sorted by number of completed runs.
+/// Returns the modes of a scenario, best first. Modes that complete often enough
+/// (RankingEntry::completes) come first, sorted by score; the other modes follow, sorted by number
+/// of completed runs.
 std::vector<RankingEntry> sorted_entries(const ScenarioRows& scenario,
                                          const std::vector<ScoredMetric>& scoring);
 

@@ -10,9 +10,9 @@ namespace awmr {
 namespace {
 
 /// Returns the scenarios for which vehicles must be made. A scenario with a corner (parameters
-/// moved to the ends of their intervals) has its own vehicles. All scenarios without a corner share
-/// the vehicles of the first of them. `first` receives for each scenario the index of its first
-/// vehicle.
+/// moved to the ends of their intervals) has its own vehicles. All scenarios without a corner use
+/// the vehicles of the first such scenario. `first` receives for each scenario the index of its
+/// first vehicle.
 std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::size_t samples,
                                    std::vector<std::size_t>& first) {
   std::vector<const Scenario*> own;

@@ -1,4 +1,5 @@
-/// Plants that a comparison simulates: the nominal one and the drawn samples. Private to compare/.
+/// Plants that a comparison simulates: the nominal plant and the drawn samples. Private to
+/// compare/.
 #pragma once
 
 #include <cstddef>

@@ -8,8 +8,8 @@
 
 namespace awmr {
 
-/// Returns the weight of a metric, >= 0: that of the preferences or, if they have none, the
-/// metric's default. 0 for a metric that is never used to rank modes.
+/// Returns the weight of a metric, >= 0: from the preferences, else the metric's default. 0 for a
+/// metric that is never used to rank modes.
 double weight_of(const MetricColumn& metric, const Preferences& preferences);
 
 /// A metric in the score of one scenario.
@@ -22,31 +22,29 @@ struct ScoredMetric {
   double missing = 0.0;
 };
 
-/// Returns the metrics that can be used to rank modes and that any run of the scenario has. Their
-/// weights are those of weight_of(), which can be 0.
+/// Returns the metrics that can be used to rank modes and that any run of the scenario has, with
+/// the weights of weight_of(), which can be 0.
 std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
                                            const Preferences& preferences);
 
 /// Returns the rankable metrics with a weight above 0, their weights divided by the sum.
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
-/// Loss of a run in one metric, ln(x + f): x is the value of the metric (0 if negative), and f the
-/// metric's floor divided by the relevance margin. Without the offset f, ratios of small values
-/// would dominate the score. With it, adding floor + relevance x to x always multiplies x + f by 1
-/// + relevance.
+/// Loss of a run in one metric, ln(x + f): x is the value of the metric (0 if negative), and the
+/// offset f is the metric's floor divided by the relevance margin. Without f, ratios of small
+/// values would dominate the score. With f, adding floor + relevance x to x always multiplies x + f
+/// by 1 + relevance.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
-/// Mean of log_loss() over the drawn samples of a mode, or its value for the nominal run if there
-/// are none (ModeRows::counted).
+/// Mean of log_loss() over the counted runs of a mode (ModeRows::counted).
 double mean_log_loss(const ModeRows& rows, const ScoredMetric& scored);
 
-/// Score of a run, lower is better: the weighted sum of log_loss() over its metrics. A score that
-/// is larger by D means that the values x + f (log_loss()) are exp(D) times as large, as the
-/// weighted geometric mean over the metrics.
+/// Score of a run, lower is better: the weighted sum of log_loss() over its metrics. If the score
+/// is larger by D, the weighted geometric mean of the values x + f (log_loss()) is exp(D) times as
+/// large.
 double log_score(const Metrics& metrics, const std::vector<ScoredMetric>& scoring);
 
-/// log_score() of each drawn sample of a mode, or of the nominal run if there are none
-/// (ModeRows::counted).
+/// log_score() of each counted run of a mode (ModeRows::counted).
 std::vector<double> log_scores(const ModeRows& rows, const std::vector<ScoredMetric>& scoring);
 
 }  // namespace awmr

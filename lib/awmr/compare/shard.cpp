@@ -21,7 +21,7 @@ namespace {
 /// Maximum number of samples of a comparison.
 constexpr long kMaxSamples = 1'000'000'000;
 
-/// Keys of shard.json that only a divided comparison has; other divided computations lack them.
+/// Keys of shard.json that only a divided comparison has, and no other divided computation.
 struct Payload {
   int samples = 0;
   std::uint64_t seed = 0;

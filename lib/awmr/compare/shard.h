@@ -1,5 +1,5 @@
 /// Comparison on several machines: each machine runs a part (shard) of the samples. merge_shards()
-/// combines the parts; the output equals that of a single comparison, byte for byte.
+/// combines the parts; the output files equal those of an undivided comparison, byte for byte.
 #pragma once
 
 #include <filesystem>

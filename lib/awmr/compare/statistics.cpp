@@ -15,8 +15,8 @@
 namespace awmr {
 namespace {
 
-/// Random stream of the bootstrap. It differs from the streams of the drawn samples, which are
-/// their numbers.
+/// Random stream of the bootstrap. It differs from the streams of the drawn samples, which have the
+/// samples' numbers.
 constexpr std::uint64_t kBootstrapStream = std::uint64_t{1} << 63U;
 
 double mean_of(std::span<const double> values) {
@@ -45,7 +45,7 @@ double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& 
   return std::max(metric.ranking_floor, relevance * std::min(std::abs(first), std::abs(second)));
 }
 
-/// Returns the conclusion that follows from ci95, p_holm and p_equivalent, by the rule described at
+/// Returns the conclusion from ci95, p_holm and p_equivalent, by the rule at
 /// PairedDifference::conclusion.
 std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
   if (!d.mean) return std::nullopt;
@@ -126,7 +126,7 @@ Differences all_differences(const ScenarioRows& scenario, double relevance) {
 }
 
 /// Returns log_loss() in every metric that can be used to rank modes, for the counted runs of every
-/// mode. The rows are those of ScenarioStatistics::resampled_losses; each column is a sample.
+/// mode. Rows as in ScenarioStatistics::resampled_losses; each column is a sample.
 Eigen::ArrayXXd all_losses(const ScenarioRows& scenario, const Preferences& preferences) {
   Eigen::ArrayXXd losses =
       Eigen::ArrayXXd::Zero(eigen_index(scenario.modes.size() * std::size(kMetricColumns)),

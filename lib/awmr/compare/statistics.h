@@ -31,12 +31,12 @@ Summary summarise(const ModeRows& rows, const MetricColumn& metric);
 /// True if any mode has the metric in any counted run.
 bool any_has(const ScenarioRows& scenario, const MetricColumn& metric);
 
-/// Returns the fraction of the sorted bootstrap means to cut off at each end, so that the true mean
+/// Returns the fraction of the sorted bootstrap means to cut off at one end, so that the true mean
 /// is beyond this end with the probability `tail` (Hesterberg's expanded percentiles):
 ///   Phi(-t sqrt(n/(n-1))),  t: the 1 - tail quantile of Student's t with n - 1 degrees of freedom
 /// Phi is the standard normal distribution function, and n = `count` the number of values. Cutting
 /// off `tail` itself would make intervals from few values too narrow. Below kFewSamples values,
-/// they are too narrow even with this correction.
+/// intervals are too narrow even with this correction.
 double bootstrap_tail(std::size_t count, double tail);
 
 /// Conclusion about the difference of a metric between two modes, at a significance level of 5 %.
@@ -45,8 +45,8 @@ inline constexpr NameTable<Conclusion, 3> kConclusionNames{{{"relevant", Conclus
                                                             {"equivalent", Conclusion::kEquivalent},
                                                             {"undecided", Conclusion::kUndecided}}};
 
-/// Difference of a metric between two contenders, first minus second. It is computed sample by
-/// sample: in a sample, both have the same drawn vehicle and the same noise.
+/// Difference of a metric between two contenders, first minus second, computed sample by sample: in
+/// a sample, both contenders have the same drawn vehicle and the same noise.
 struct PairedDifference {
   Contender first;
   Contender second;
@@ -57,15 +57,15 @@ struct PairedDifference {
   std::optional<double> mean;    ///< mean difference over these samples, in the metric's unit
   std::optional<Interval> ci95;  ///< 95 % interval of the mean; absent for fewer than 2 samples
   std::optional<double> p;       ///< p-value of the paired t test; absent for fewer than 2 samples
-  /// p with Holm's correction for the number of differences in the scenario. The difference is
-  /// significant if it is below 0.05. Any false positive in the scenario then has a probability of
-  /// at most 5 %.
+  /// p with Holm's correction for the number of differences in the scenario. Below 0.05, the
+  /// difference is significant. The probability of any false positive in the scenario is then at
+  /// most 5 %.
   std::optional<double> p_holm;
-  /// Largest difference that does not matter, in the metric's unit, >= 0: the larger of the
-  /// metric's floor and the relevance times the smaller of the two means.
+  /// Largest difference that does not matter, in the metric's unit, >= 0: the metric's floor, or
+  /// the relevance times the smaller of the two means if this is larger.
   double margin = 0.0;
-  /// p-value of two one-sided t tests (TOST), in [0, 1]. Below 0.05, the difference is
-  /// significantly smaller in magnitude than the margin. Absent below 2 samples.
+  /// p-value of two one-sided t tests (TOST) for equivalence, in [0, 1]. Below 0.05, the difference
+  /// is significantly smaller in magnitude than the margin. Absent below 2 samples.
   std::optional<double> p_equivalent;
   /// kRelevant if p_holm is below 0.05 and the whole interval ci95 is beyond the margin; else
   /// kEquivalent if p_equivalent is below 0.05, else kUndecided. For a single run: kRelevant if the
@@ -85,7 +85,7 @@ std::vector<double> holm(std::span<const double> p);
 
 inline constexpr int kResamples = 1000;  ///< number of bootstrap resamples
 
-/// Statistics of one scenario. All intervals are from one bootstrap: samples are drawn with
+/// Statistics of one scenario. All intervals are from one bootstrap, which draws samples with
 /// replacement, each with all its metrics and contenders. Every scenario uses the same resamples,
 /// so its intervals do not depend on the other scenarios.
 struct ScenarioStatistics {
@@ -93,8 +93,9 @@ struct ScenarioStatistics {
   /// mode.
   std::vector<PairedDifference> differences;
   /// Means of log_loss() (scoring.h) for each mode and metric (index: loss_row()), in each
-  /// bootstrap resample. A weighted sum of these rows is the mean score with these weights, from
-  /// which its interval follows. 0 for metrics that are never ranked; empty below 2 samples.
+  /// bootstrap resample. A weighted sum of these rows is the mean score in each resample, from
+  /// which the interval of the score follows. 0 for metrics that are never ranked; empty below 2
+  /// samples.
   std::vector<std::vector<double>> resampled_losses;
 };
 

@@ -45,7 +45,7 @@ const PairedDifference* widest_gap(const std::vector<PairedDifference>& differen
 std::string gap_text(const PairedDifference* gap, const Contender& other) {
   if (gap == nullptr) return "";
   // The difference is first minus second. The text states how much larger the metric of `other` is,
-  // so the sign changes if `other` is the second.
+  // so the sign changes if `other` is the second contender.
   const double sign = gap->second == other ? -1.0 : 1.0;
   const MetricColumn& metric = column_of(gap->metric);
   std::string text = fmt::format(", most of all in {}: {:.3g} {} more", metric.name,
@@ -121,8 +121,8 @@ std::string first_text(const std::vector<RankedMode>& ranking, bool is_undecided
 }
 
 /// Text of the metrics in which modes that are tied for rank 1 differ relevantly: "; relevant
-/// single metrics: steering 0.43 m more cross_track_rms_m than combined". For each mode, only the
-/// metrics in which it is furthest behind and furthest ahead of the first mode are named.
+/// single metrics: steering 0.43 m more cross_track_rms_m than combined". For each mode, it names
+/// only the metrics in which the mode is furthest behind and furthest ahead of the first mode.
 std::string tied_gaps_text(const std::vector<RankedMode>& ranking,
                            const std::vector<PairedDifference>& differences,
                            const Preferences& preferences) {
@@ -196,8 +196,8 @@ std::string narrow_text(const Decision& decision) {
       column_of(decision.narrow_lead->metric).name);
 }
 
-/// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...", then the modes
-/// that complete no run under a change, and the trials that would decide between the plants.
+/// End of a verdict: "; undecided: ...", or "; combined keeps a first place ...", then modes that
+/// complete no run under a change, and trials that would show which plant is right.
 std::string decision_text(const Decision& decision) {
   const std::vector<Contender> never_behind = decision.never_behind();
   const bool is_undecided = never_behind.empty();
