@@ -12,8 +12,7 @@ namespace awmr {
 
 /// Computes for each scenario the break-even scrub of pairs of modes: the scrub at which the first
 /// mode is no longer better than the second mode. The first mode of a pair
-///   - has larger wheel-force differences than the second mode (differential > combined >
-///     steering),
+///   - has larger wheel-force differences (differential > combined > steering),
 ///   - has the better score without scrub,
 ///   - completes the scenario without scrub, or the second mode does not complete it either.
 /// The controller does not compensate the scrub. `comparison` must contain the runs of sample 0

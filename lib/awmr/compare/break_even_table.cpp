@@ -51,7 +51,6 @@ std::string decided(const std::vector<const BreakEven*>& all) {
   return text;
 }
 
-/// Line of the text about one pair of modes, over all scenarios.
 std::string pair_text(const std::pair<YawMode, YawMode>& modes,
                       const std::vector<const BreakEven*>& all) {
   const BreakEven& least =
@@ -74,7 +73,6 @@ std::string pair_text(const std::pair<YawMode, YawMode>& modes,
   return all.front()->measured_m ? text + decided(all) : text;
 }
 
-/// Text of the scrub that was measured for this vehicle.
 std::string measured_text(const BreakEven& entry) {
   if (!entry.measured_m) {
     return "not measured in this vehicle.\n"

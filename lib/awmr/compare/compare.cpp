@@ -118,8 +118,7 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
                               const Block& block, YawMode mode, std::uint64_t seed) {
   std::vector<BatchRun> runs;
   for (const std::size_t sample : block.samples) {
-    // Sample 0 has seed 0. So its run equals that of `awmr simulate`, which uses only the seed of
-    // the scenario.
+    // With seed 0, sample 0 equals the run of `awmr simulate`, which uses only the scenario's seed.
     runs.push_back({plants.vehicle(block.scenario, sample), controller, mode,
                     sample == 0 ? 0 : seed, static_cast<std::uint64_t>(sample)});
   }
@@ -144,7 +143,6 @@ void share_noise(const Scenario& scenario, double sample_time_s, const Block& bl
   }
 }
 
-/// Data that all runs of a comparison have in common.
 struct RunSetup {
   const Model& model;
   const std::vector<NamedGains>& gains;
@@ -195,8 +193,7 @@ Result<Slots> run_blocks(const RunSetup& setup) {
   LoopControl control;
   if (options.stop != nullptr) control.stop = [&] { return options.stop->load(); };
   if (options.progress) control.progress = [&] { options.progress(done, count); };
-  // Each run has its own entry in the results, so the results do not depend on the order of the
-  // threads.
+  // Each run has its own entry, so the results do not depend on the order of the threads.
   parallel_for(
       blocks.size(), options.threads,
       [&](std::size_t b) {

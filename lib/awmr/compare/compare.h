@@ -47,14 +47,12 @@ struct Contender {
   YawMode mode{};
   std::string gains;  ///< NamedGains::name; empty if there is only one set
 
-  /// Name for tables and messages: "combined", or "combined with tuned.json" if there are several
-  /// sets of gains.
+  /// "combined", or "combined with tuned.json" if there are several sets of gains.
   std::string label() const;
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// With fewer samples, 95 % intervals are too narrow: they contain the true value in fewer than 95
-/// % of the cases.
+/// With fewer samples, 95 % intervals contain the true value in fewer than 95 % of the cases.
 inline constexpr int kFewSamples = 6;
 
 /// Maximum number of runs of a comparison: scenarios x sets of gains x modes x samples (including
@@ -86,8 +84,7 @@ struct CompareOptions {
   int threads = 0;
   /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// If *stop becomes true, no further run starts, and runs in progress finish. Null: the
-  /// comparison cannot be stopped.
+  /// If *stop becomes true, no further run starts, and running runs finish. Null: no stop.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -177,8 +174,7 @@ struct Comparison {
   std::map<std::string, TurnCommands> turn_commands = {};
   /// Break-even scrub of each scenario and pair of modes; absent if not requested, or if stopped.
   std::optional<std::vector<BreakEven>> break_even = {};
-  /// Rankings on the other plant and with other gains, from changes_of_runs() (decision.h). Empty
-  /// if not requested.
+  /// Result of changes_of_runs() (decision.h); empty if not requested.
   std::vector<Change> changes = {};
 };
 

@@ -17,8 +17,7 @@
 namespace awmr {
 namespace {
 
-/// Largest accepted value of a metric, far above any real one. Larger values could make sums of
-/// squares over the samples infinite.
+/// Largest accepted value of a metric. Larger values could make sums of squares infinite.
 constexpr double kLargest = 1e100;
 
 template <class Number>

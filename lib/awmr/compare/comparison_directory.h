@@ -23,7 +23,7 @@ Status check_comparison_csv(std::string_view text, const std::string& file);
 inline constexpr const char* kComparisonTable = "comparison.csv";
 inline constexpr const char* kComparisonJson = "comparison.json";
 
-/// Writes both files into the directory, which is created if necessary. `document` is the text of
+/// Writes both files into the directory, which is created if necessary. `document`:
 /// comparison.json. Errors: those of write_files().
 Status write_comparison(const std::filesystem::path& directory, const Comparison& comparison,
                         const std::string& document);

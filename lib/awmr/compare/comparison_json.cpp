@@ -144,8 +144,7 @@ Json scenario_json(const EvaluatedScenario& scenario, const std::vector<Change>&
   return json;
 }
 
-/// Writes the scenarios that the summaries leave out, because an earlier scenario has identical
-/// runs.
+/// Scenarios that the summaries leave out, because an earlier scenario has identical runs.
 Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   const std::vector<std::size_t> first = first_with_same_runs(ranked);
   Json json = Json::array();
@@ -157,8 +156,6 @@ Json counted_once_json(const std::vector<EvaluatedScenario>& ranked) {
   return json;
 }
 
-/// For each metric and contender, the number of ranked scenarios in which the contender is best or
-/// tied with the best.
 Json overall_json(const std::vector<EvaluatedScenario>& ranked) {
   Json json = Json::array();
   for (const MetricTally& one : tally(ranked)) {

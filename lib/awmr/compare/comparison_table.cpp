@@ -27,15 +27,13 @@ std::string place_of(const Contender& contender, const std::vector<RankedMode>& 
   return "-";
 }
 
-/// Wraps text to lines of 100 characters, indented by two spaces.
 std::string wrapped(const std::string& text) {
   constexpr std::size_t kIndent = 2;
   constexpr std::size_t kWidth = 100;
   return std::string(kIndent, ' ') + awmr::wrapped(text, kIndent, kWidth) + '\n';
 }
 
-/// Notes on metrics that some runs do not have, such as "  settle: mean of some runs: steering 3 of
-/// 8".
+/// Notes on metrics that some runs lack: "  settle: mean of some runs: steering 3 of 8".
 std::string partial_means(const ScenarioRows& scenario) {
   std::string text;
   for (const MetricColumn& metric : kMetricColumns) {
@@ -80,8 +78,7 @@ std::string table_of(const ScenarioRows& scenario, const std::vector<RankedMode>
   return text + partial_means(scenario);
 }
 
-/// Text such as "decisions: 3 decided, 1 level, 2 undecided; survive a change of plant in 3 of 6,
-/// ...".
+/// Text such as "decisions: 3 decided, 2 undecided; survive a change of plant in 3 of 5, ...".
 std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   DecisionTally tally = tally_decisions(scenarios);
   std::string text;
@@ -99,8 +96,7 @@ std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   return text + survived + '\n';
 }
 
-/// Table with the number of scenarios in which each mode is best or tied with the best, for each
-/// metric. Empty for a single scenario.
+/// Table of the MetricTally of all metrics. Empty for a single scenario.
 std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
   if (scenarios.size() < 2) return "";
   std::string text =

@@ -108,8 +108,7 @@ Change change_of_weights(const ScenarioRows& scenario, const ScenarioStatistics&
   return change;
 }
 
-/// Ranks the modes in the rows of one scenario, and stores the modes of rank 1 and the numbers of
-/// completed runs in `change`.
+/// Stores the modes of rank 1 and the numbers of completed runs in `change`.
 void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& options,
               Change& change) {
   const Comparison comparison{.rows = rows};
@@ -137,19 +136,16 @@ NamedGains with_rates_times(double factor, const NamedGains& set) {
   return {set.name, all};
 }
 
-/// The first fault of an error as one line of text.
 std::string message_of(const Error& error) {
   const Fault& fault = error.faults.front();
   return fault.place.empty() ? fault.message : fmt::format("{}: {}", fault.place, fault.message);
 }
 
-/// Returns the plant that the scenario does not use: the 3-DOF model, or four wheels.
 PlantKind other_plant(const Scenario& scenario) {
   return scenario.tyres ? PlantKind::kModel : PlantKind::kFourWheel;
 }
 
-/// Returns the scenario on the other plant (3-DOF model or four wheels). Errors (input): a key of
-/// the scenario has no meaning on that plant.
+/// Errors (input): a key of the scenario has no meaning on the other plant.
 Result<Scenario> on_other_plant(Scenario scenario, const Tyres<double>& tyres) {
   if (scenario.tyres) {
     scenario.tyres.reset();
@@ -253,8 +249,7 @@ std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedG
   if (gains.size() * yaw_modes(model.vehicle).size() < 2) return changes;  // nothing to rank
   std::vector<ChangedScenario> changed =
       changed_scenarios(gains, scenarios, options.tyres, changes);
-  // Each change is compared on one thread, as one batch; the changes are distributed over the
-  // threads.
+  // Each change is one batch on one thread; the changes are distributed over the threads.
   CompareOptions few;
   few.samples = std::min(options.samples, static_cast<int>(kBatchRuns) - 1);
   few.seed = options.seed;

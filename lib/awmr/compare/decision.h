@@ -46,8 +46,7 @@ struct NarrowLead {
 /// assumption is changed. Modes that complete no run are left out.
 struct Decision {
   std::vector<Contender> first;  ///< modes of rank 1 in the ranking
-  /// Changed assumptions for which a ranking exists. The change of weights is always included,
-  /// because it needs no runs.
+  /// Changed assumptions for which a ranking exists; always includes the change of weights.
   std::vector<Change> changes;
   std::optional<NarrowLead> narrow_lead = {};
 

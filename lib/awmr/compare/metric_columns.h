@@ -38,8 +38,7 @@ enum class MetricId {
 struct MetricColumn {
   MetricId id;
   std::string_view name;  ///< name in comparison.csv and comparison.json
-  /// Column heading in the terminal's table, at most 7 characters. Empty: the metric is not in that
-  /// table.
+  /// Column heading in the terminal's table, at most 7 characters; empty: no column.
   std::string_view head;
   std::string_view unit;
   std::variant<double Metrics::*, std::optional<double> Metrics::*> figure;

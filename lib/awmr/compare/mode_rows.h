@@ -33,8 +33,7 @@ struct ScenarioRows {
   std::vector<ModeRows> modes;
 };
 
-/// Groups the rows by scenario and contender. Precondition: all samples are complete
-/// (evaluated_part()).
+/// Precondition: all samples are complete (evaluated_part()).
 std::vector<ScenarioRows> group(const Comparison& comparison);
 /// Returns the comparison without the samples that are not finished for all contenders.
 Comparison evaluated_part(const Comparison& comparison);

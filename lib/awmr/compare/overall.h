@@ -31,12 +31,10 @@ struct EvaluatedScenario {
   std::string verdict;
 };
 
-/// Evaluates each scenario. `comparison` must be a result of evaluated_part(), and must outlive the
-/// returned value.
+/// `comparison`: a result of evaluated_part(); it must outlive the returned value.
 std::vector<EvaluatedScenario> evaluate_scenarios(const Comparison& comparison,
                                                   const Preferences& preferences,
                                                   std::uint64_t seed);
-/// Returns the scenarios that have a ranking.
 std::vector<EvaluatedScenario> ranked_of(const std::vector<EvaluatedScenario>& scenarios);
 
 /// Finds scenarios with identical runs, in which all metrics of all modes and samples are equal.

@@ -25,7 +25,6 @@ Result<double> weight_in(std::string_view text, const std::string& place) {
       fmt::format("'{}' is not a weight; give a number from 0 to {}", text, kMaximumWeight));
 }
 
-/// Names of the metrics that can have a weight, in the order of comparison.csv.
 std::vector<std::string_view> weighable_metrics() {
   std::vector<std::string_view> names;
   for (const MetricColumn& metric : kMetricColumns) {

@@ -36,8 +36,7 @@ std::vector<double> resampled_differences(const RankingEntry& own, const Ranking
   return means;
 }
 
-/// How far a mode is behind the leader: an interval of the ratio of their scores, and the
-/// conclusion from it.
+/// Comparison of a mode's score with the leader's.
 struct Behind {
   std::optional<Interval> ratio_ci95;  ///< 95 % interval of the ratio; absent below 2 samples
   Conclusion conclusion{};
@@ -130,8 +129,7 @@ bool equivalent_in_all(const Contender& a, const Contender& b,
   return any;
 }
 
-/// True if `other` is relevantly better than `own` in a scored metric, and relevantly worse in
-/// none.
+/// True if `other` is relevantly better than `own` in a scored metric and relevantly worse in none.
 bool dominates(const Contender& other, const Contender& own,
                const std::vector<ScoredMetric>& scoring,
                const std::vector<PairedDifference>& differences) {
@@ -148,8 +146,7 @@ bool dominates(const Contender& other, const Contender& own,
   return better;
 }
 
-/// Returns a mode with all fields that do not depend on its rank. `best`: entry of the first mode
-/// in the list.
+/// Returns a mode with the fields that do not depend on its rank. `best`: first entry in the list.
 RankedMode unranked_mode(const RankingEntry& own, const RankingEntry& best, double by_weights,
                          double by_samples) {
   RankedMode mode;

@@ -34,8 +34,7 @@ std::vector<const Scenario*> apart(const std::vector<Scenario>& scenarios, std::
 Result<SampledPlants> sample_plants(const Model& model, const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options) {
   const std::size_t samples = at(options.samples) + 1;
-  // The scenarios are checked with the nominal model, because the controller uses it in all
-  // samples.
+  // Checked with the nominal model, which the controller uses in all samples.
   for (const Scenario& scenario : scenarios) AWMR_RETURN_IF_ERROR(check_scenario(scenario, model));
   SampledPlants plants;
   AWMR_ASSIGN_OR_RETURN(plants.nominal, model.plant());

@@ -18,7 +18,6 @@
 namespace awmr {
 namespace {
 
-/// Maximum number of samples of a comparison.
 constexpr long kMaxSamples = 1'000'000'000;
 
 /// Keys of shard.json that only a divided comparison has, and no other divided computation.
@@ -118,8 +117,7 @@ Payload read_payload(JsonObject& json) {
           .findings = read_findings(json)};
 }
 
-/// Returns the rows of all parts in the order of an undivided comparison: by scenario, gains, mode,
-/// sample.
+/// Returns the rows of all parts in the order of an undivided comparison.
 Result<std::vector<ComparisonRow>> rows_of(const std::vector<Part>& parts, int items) {
   const ShardKind& kind = comparison_shards();
   std::vector<std::vector<ComparisonRow>> rows;

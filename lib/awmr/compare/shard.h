@@ -13,8 +13,7 @@
 
 namespace awmr {
 
-/// Describes the files of a part of a comparison: shard.json, and comparison.csv with the rows of
-/// the part's samples.
+/// Files of a part of a comparison: shard.json, and comparison.csv with the part's samples.
 const ShardKind& comparison_shards();
 
 /// Returns the texts of the files of one part, which options.shard selects.
@@ -27,8 +26,7 @@ struct Merged {
   /// Options of the parts; only samples, seed and preferences are set
   CompareOptions options;
   Provenance provenance;
-  /// completion_findings() and extrapolation_findings() of all runs, then the findings of the first
-  /// part.
+  /// completion_findings() and extrapolation_findings() of all runs, then findings of part 1.
   std::vector<Finding> findings;
 };
 

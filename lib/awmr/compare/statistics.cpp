@@ -15,8 +15,7 @@
 namespace awmr {
 namespace {
 
-/// Random stream of the bootstrap. It differs from the streams of the drawn samples, which have the
-/// samples' numbers.
+/// Random stream of the bootstrap; the drawn samples have the streams of their numbers.
 constexpr std::uint64_t kBootstrapStream = std::uint64_t{1} << 63U;
 
 double mean_of(std::span<const double> values) {
@@ -45,8 +44,7 @@ double margin_between(const ModeRows& a, const ModeRows& b, const MetricColumn& 
   return std::max(metric.ranking_floor, relevance * std::min(std::abs(first), std::abs(second)));
 }
 
-/// Returns the conclusion from ci95, p_holm and p_equivalent, by the rule at
-/// PairedDifference::conclusion.
+/// Applies the rule at PairedDifference::conclusion.
 std::optional<Conclusion> conclusion_of(const PairedDifference& d) {
   if (!d.mean) return std::nullopt;
   if (!d.ci95 || !d.p_holm || !d.p_equivalent) {
@@ -109,7 +107,6 @@ std::vector<std::pair<const ModeRows*, const ModeRows*>> comparable_pairs(
   return pairs;
 }
 
-/// The differences of every metric of every pair.
 Differences all_differences(const ScenarioRows& scenario, double relevance) {
   const auto pairs = comparable_pairs(scenario);
   const Eigen::Index rows = eigen_index(pairs.size() * std::size(kMetricColumns));
@@ -172,8 +169,7 @@ ResampledMeans resampled_means(const Differences& all, const Eigen::ArrayXXd& lo
   return means;
 }
 
-/// 95 % interval of a mean over `values` samples, from the means of its resamples. Empty if no
-/// resample has a value.
+/// 95 % interval of a mean over `values` samples. Empty if no resample has a value.
 std::optional<Interval> interval_of(Eigen::ArrayXXd::ConstRowXpr means, std::size_t values) {
   std::vector<double> sorted;
   for (const double mean : means) {

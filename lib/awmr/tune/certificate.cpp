@@ -234,8 +234,7 @@ struct CertifiedLoops {
   }
 };
 
-/// Smallest value of `measure`, a damping ratio or delay margin, over the heading loops in this
-/// mode.
+/// Smallest value of `measure` (damping ratio or delay margin) over the heading loops in this mode.
 WorstCase worst_case(const CertifiedLoops& loops, YawMode mode,
                      double (*measure)(const SampledHeadingLoop&)) {
   WorstCase worst{.value = std::numeric_limits<double>::infinity()};

@@ -39,13 +39,11 @@ double resistance_rate(const Plant<double>& plant, double rate_radps) {
   return slope(plant.yaw, rate_radps) / plant.inertia_norm;
 }
 
-/// A plant and a yaw rate at which its heading loop is examined.
 struct ExaminedLoop {
   const Plant<double>* plant;
   double rate_radps;
 };
 
-/// Returns the heading loops of a plant at the yaw rates of kRateShares.
 std::vector<ExaminedLoop> at_all_rates(const Plant<double>& plant,
                                        const ConstraintContext& context) {
   std::vector<ExaminedLoop> loops;
@@ -63,8 +61,7 @@ void add_draws(const ConstraintContext& context, std::vector<ExaminedLoop>& loop
   }
 }
 
-/// Smallest damping ratio of the given heading loops in all tuned modes. `damping` computes the
-/// damping ratio of one loop.
+/// Smallest damping ratio of the loops in all tuned modes.
 double heading_damping(const Gains<double>& gains, const ConstraintContext& context,
                        std::span<const ExaminedLoop> loops, double latency_s,
                        double motor_time_constant_s, double (*damping)(const SampledHeadingLoop&)) {
@@ -84,8 +81,7 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
   return worst;
 }
 
-/// Largest yaw moments tau_turn, m, that a vehicle can make at steady speed in the modes steering
-/// and differential.
+/// Largest yaw moments tau_turn of the modes steering and differential at steady speed, m.
 struct Moments {
   double steering;
   double differential;
@@ -100,8 +96,8 @@ Moments moments_m(const DrawnVehicle& vehicle, double speed_mps) {
           .differential = wheels * plant.half_track_m * std::min(force.hi - held, held - force.lo)};
 }
 
-/// Gain and lag of the speed loop of one vehicle. The controller uses the nominal m', so the gain
-/// depends on the vehicle's own m'.
+/// Speed loop of one vehicle. The gain depends on its m', because the controller uses the nominal
+/// m'.
 struct SpeedLoop {
   /// Gain (mu_s/eps_s + L) m'_nominal/m', with L the bandwidth of the observer.
   double gain_per_s;

@@ -19,9 +19,8 @@ inline constexpr int kMaxLatencySamples = 20;
 /// relative model error that `awmr validate` accepts by default (0.15).
 inline constexpr double kUnmodelledShare = 0.2;
 inline constexpr const char* kSteeringRate = "steering rate";
-/// Largest permitted value of (mu_s/eps_s) T_s, the gain of the speed loop times the sample time.
-/// The sampled speed loop becomes unstable at 2, so the limit 0.5 leaves a gain margin of at least
-/// 4.
+/// Largest permitted (mu_s/eps_s) T_s, the gain of the speed loop times the sample time. The
+/// sampled loop becomes unstable at 2, so 0.5 leaves a gain margin of at least 4.
 inline constexpr double kSpeedGainPerSample = 0.5;
 
 /// Yaw rates at which the heading loop is examined, as fractions of the highest expected yaw rate
@@ -30,8 +29,7 @@ inline constexpr double kSpeedGainPerSample = 0.5;
 inline constexpr double kRateShares[] = {1.0 / 60.0, 1.0 / 12.0, 1.0 / 3.0, 1.0};
 inline constexpr double kSlowest_radps = radians(1.0);
 
-/// Inputs of the constraints besides the gains: the plant, the limits of the vehicle, and the
-/// conditions of the runs.
+/// Inputs of the constraints besides the gains.
 struct ConstraintContext {
   /// Required form of the condition T2 < T1, T1 = 1/lambda: on the decay of S^2/2 or of S.
   ReachingForm form = ReachingForm::kStrict;
@@ -68,7 +66,6 @@ struct ConstraintContext {
   bool steers() const { return has_steering && mode != YawMode::kDifferential; }
 };
 
-/// forces_beyond_dead_zone() of the drawn vehicle (model/vehicle.h).
 Interval forces_beyond_dead_zone(const DrawnVehicle& vehicle);
 
 /// Returns the factor k of the steering's yaw moment, which is proportional to tan(k d_r) at the
@@ -120,8 +117,7 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 /// mu_s/eps_s of the speed loop is therefore multiplied by the ratio m' nominal/drawn. The gain of
 /// the heading loop is multiplied by the ratio I'z nominal/drawn (SampledHeadingLoop::input_gain).
 ///
-/// T2 < T1: both forms are reported; only the form that ConstraintContext::form selects is
-/// required.
+/// T2 < T1: both forms are reported; only ConstraintContext::form is required.
 ///
 /// Heading damping is the smallest over the vehicle's modes and the yaw rates of kRateShares,
 /// because the slope of the yaw resistance g3 depends on the rate. For the nominal plant, late
@@ -155,10 +151,8 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
 SampledHeadingLoop heading_loop(const Gains<double>& gains, const ConstraintContext& context,
                                 const Plant<double>& plant, double rate_radps, YawMode mode);
 
-/// The yaw rate, rad/s, at which the heading loop is examined for one of kRateShares.
 double examined_rate_radps(double share, const ConstraintContext& context);
 
-/// The lowest and the highest yaw rate at which the heading loop is examined.
 Interval examined_rates_radps(const ConstraintContext& context);
 
 /// Residual of a constraint: -margin/max(|value|, |limit|), with ConstraintReport::margin. The

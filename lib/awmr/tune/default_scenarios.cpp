@@ -27,11 +27,9 @@ constexpr double kLargestStep_deg = 30.0;
 constexpr double kSmallestStep_deg = 5.0;
 constexpr double kShortestHold_s = 5.0;
 constexpr double kLongestHold_s = 20.0;
-/// Time for which each heading is commanded, as a multiple of the time that the turn takes
-/// (turning_time_s()).
+/// Time for each heading, as a multiple of the time that the turn takes (turning_time_s()).
 constexpr double kHoldOverTurn = 1.6;
-/// Longest time for which each heading is commanded, s. It applies to loops that noise or latency
-/// makes slow.
+/// Longest time for each heading, s, for loops that noise or latency makes slow.
 constexpr double kLongestDecay_s = 60.0;
 /// Settling time after the turn, as a multiple of T + latency, T the lag of servo or motors.
 constexpr double kSettlingOverLag = 10.0;

@@ -84,8 +84,7 @@ void describe_quantiles(JsonObject json) {
   }
 }
 
-/// History of a search: each evaluation whose objective is better than that of all evaluations
-/// before it.
+/// SearchHistory: improvements of the objective.
 void describe_history(JsonObject json) {
   json.number("evaluations", kNonNegative);
   json.number("global_evaluations", kNonNegative);
@@ -192,8 +191,7 @@ void describe_certificate(JsonObject json) {
   json.reject_unknown_keys();
 }
 
-/// Settling time and control variation, for the gains on the Pareto front of the search and for
-/// named gains such as "tuned".
+/// TradeOff: Pareto front of the search, and named gains such as "tuned".
 void describe_trade_off(JsonObject json) {
   const auto describe_point = [](JsonObject& point) {
     for (const char* key : {"settling_time_s", "control_variation"})
@@ -226,7 +224,6 @@ void describe_baseline(JsonObject json) {
   json.reject_unknown_keys();
 }
 
-/// Gains and the results of their tuning.
 void describe_tuning(JsonObject& json) {
   gains_from_json(json);
   if (auto times = json.optional_object("time_constants")) {
@@ -252,7 +249,7 @@ void describe_gains(JsonObject& json) {
   describe_tuning(json);
   // Without `mode` and `modes`, the gains are for every mode of the vehicle.
   if (json.has("mode")) json.choice("mode", kYawModeNames);
-  // Modes with gains of their own.
+  // Modes with their own gains.
   if (auto modes = json.optional_object("modes")) {
     for (const YawMode mode : kYawModes) {
       auto own = modes->optional_object(name_of(mode));

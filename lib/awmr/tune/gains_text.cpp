@@ -182,7 +182,6 @@ Json baseline_json(const Tuning& tuning) {
   return json;
 }
 
-/// Adds the results of the tuning to the gains in `json`.
 void put_results(const Tuning& tuning, const TuneOptions& options, Json& json) {
   json["time_constants"] = {{"T1_s", tuning.gains.heading.sliding_time_constant_s()},
                             {"T2_s", tuning.gains.heading.reaching_time_constant_s()}};

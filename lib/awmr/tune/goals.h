@@ -21,8 +21,7 @@
 
 namespace awmr {
 
-/// Number of metrics of a run that goals can limit. run_figure_names() has their names in
-/// tune.json.
+/// Number of metrics that goals can limit; run_figure_names() has their names in tune.json.
 inline constexpr std::size_t kRunFigures = 6;
 bool is_run_figure(std::string_view name);
 std::vector<std::string> run_figure_names();
@@ -71,8 +70,6 @@ std::vector<GoalInMode> by_mode(std::span<const TuningGoal> goals, std::span<con
 double quantile_of_excess(const GoalInMode& one, std::span<const RunOutcome> outcomes,
                           std::size_t scenarios);
 
-/// Counts the drawn vehicles that meet every limit of the goal in its mode, and determines the
-/// verdict.
 EvaluatedGoal evaluate_goal(const GoalInMode& one, const EvaluatedRuns& runs,
                             std::size_t scenarios);
 

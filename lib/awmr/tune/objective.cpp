@@ -208,9 +208,8 @@ Evaluation Objective::operator()(const Gains<double>& gains) const {
   return (*this)(std::span(&gains, 1)).front();
 }
 
-/// Adds the objective of one mode to `evaluation`, and its control variation as a multiple of that
-/// of the baseline. Returns the logarithm of the mode's objective. The scores are sorted by
-/// vehicle, then mode, then scenario.
+/// Adds the objective and the control variation of one mode to `evaluation`. Returns the logarithm
+/// of the mode's objective. The scores are sorted by vehicle, then mode, then scenario.
 double Objective::evaluate_mode(std::span<const ModeScore> scores, std::size_t mode,
                                 Evaluation& evaluation) const {
   const std::size_t scenarios = setting_.scenarios.size();
@@ -233,7 +232,6 @@ double Objective::evaluate_mode(std::span<const ModeScore> scores, std::size_t m
   return log_objective;
 }
 
-/// Means over all runs.
 TradeOffPoint Objective::trade_off(std::span<const ModeScore> scores) const {
   std::vector<double> settling_s, control_variation;
   for (std::size_t i = 0; i < scores.size(); ++i) {

@@ -99,16 +99,14 @@ struct Evaluation {
   std::vector<ModeScore> scores;
   /// Geometric mean of the objective over scenarios, in the order of modes().
   std::vector<double> mode_objective;
-  /// For each mode, the sum of the control variation of all runs, divided by this sum with the
-  /// baseline gains.
+  /// For each mode, the sum of the control variation of all runs, divided by that of the baseline.
   std::vector<double> mode_activity;
   /// Quantile of the excess of each goal in each mode (goals.h), sorted by goal, then mode. A goal
   /// is met if its quantile is at most 1.
   std::vector<double> goal_quantile;
   /// Settling time and control variation, as means over all runs.
   TradeOffPoint trade_off;
-  /// Geometric mean of the objective over the modes, plus the terms of soft goals. Finite if
-  /// `valid`.
+  /// Geometric mean over the modes, plus the terms of soft goals. Finite if `valid`.
   double objective = 0.0;
   bool valid = false;  ///< true: the objective is finite, and no run breaks off
 };

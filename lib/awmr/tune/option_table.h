@@ -17,8 +17,7 @@ inline constexpr NumberRule kEvaluationDraws{.min = 0.0, .max = 100'000.0};
 inline constexpr NumberRule kShareAboveZero{.min = 0.0, .max = 1.0, .min_excluded = true};
 inline constexpr NumberRule kBetweenZeroAndOne{
     .min = 0.0, .max = 1.0, .min_excluded = true, .max_excluded = true};
-/// Range of the limits on damping ratios and of noise_share. A limit below 1e-6 would have no
-/// effect.
+/// Range of damping ratios and noise_share. A limit below 1e-6 would have no effect.
 inline constexpr NumberRule kLimitShare{.min = 1e-6, .max = 1.0};
 /// Ranges for a goal: the limit of a metric, and the required share of drawn vehicles.
 inline constexpr NumberRule kGoalLimit{.min = 1e-9, .max = 1e9};
@@ -63,8 +62,7 @@ inline bool has_weight(const ObjectiveWeights& weights) {
   return has;
 }
 
-/// Keys of /bounds in tune.json: the intervals in which the gains are searched. The number range
-/// applies to both ends of each interval.
+/// Keys of /bounds in tune.json. The number range applies to both ends of each interval.
 template <class Bounds, class Field>
 void bound_options(Bounds& bounds, const Field& field) {
   field("lambda", bounds.lambda, kUpToAMillion);

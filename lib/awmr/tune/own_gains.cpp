@@ -11,7 +11,6 @@ namespace {
 /// A mode uses its own gains if they lower its objective to at most this share.
 constexpr double kWorthOwnGains = 0.95;
 
-/// Removes the elements of other modes.
 template <class Results>
 void keep_only(YawMode mode, Results& results) {
   std::erase_if(results, [mode](const auto& one) { return one.mode != mode; });
@@ -41,8 +40,7 @@ bool is_better(const Gains<double>& own, const Gains<double>& common, const Obje
          settled_share(runs, own) >= settled_share(runs, common);
 }
 
-/// Replaces the objectives of `tuning`, which are over all modes, by the objectives in the runs of
-/// one mode.
+/// Replaces the objectives of `tuning` (over all modes) by the objectives in the runs of one mode.
 void evaluate_in(const Objective& objective, const Scenario& held_out, Tuning& tuning) {
   tuning.objective = objective(tuning.gains).objective;
   tuning.baseline_objective = objective.baseline().objective;

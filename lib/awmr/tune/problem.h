@@ -17,11 +17,11 @@ namespace awmr {
 /// Largest number of searched values: lambda, mu, epsilon, mu_s, epsilon_s and the observer's
 /// bandwidth.
 inline constexpr unsigned kMaxDimensions = 6;
-/// Natural logarithms of the searched values; the last one is 0 if no observer is searched.
+/// Natural logarithms of the searched values; the last value is 0 if no observer is searched.
 using Point = std::array<double, kMaxDimensions>;
 
-/// Fills in each absent bound of a gain: its smallest value in `gains` divided by kBoundFactor, and
-/// its largest value times kBoundFactor.
+/// Fills in each absent bound of a gain: from its smallest value in `gains` divided by kBoundFactor
+/// to its largest value times kBoundFactor.
 void bound_around(std::span<const Gains<double>> gains, GainBounds& bounds);
 
 /// Ranges of the logarithms of the gains, and conversions between points and gains.
@@ -31,7 +31,6 @@ class SearchSpace {
   explicit SearchSpace(const TuneOptions& options);
 
   unsigned dimension() const { return observer_ ? kMaxDimensions : kMaxDimensions - 1; }
-  /// The corners of the bounds.
   Point lower_corner() const;
   Point upper_corner() const;
   /// Returns the gains at the point, clamped to the bounds because exp() rounds.
@@ -57,9 +56,8 @@ struct Candidate {
   bool feasible() const { return simulated && valid && violation <= 0.0; }
 };
 
-/// True if `a` is better than `b`. A feasible candidate is better than an infeasible one. Of two
-/// feasible candidates, the one with the smaller objective is better; of two infeasible ones, the
-/// one with the smaller violation.
+/// True if `a` is better than `b`. Feasible candidates are better than infeasible candidates. Two
+/// feasible candidates are compared by objective, two infeasible candidates by violation.
 bool better(const Candidate& a, const Candidate& b);
 
 /// A point with its evaluation.
@@ -72,7 +70,7 @@ struct Looked {
   double value() const;
 };
 
-/// Evaluates points, keeps the best one and counts the evaluations.
+/// Evaluates points, keeps the best point and counts the evaluations.
 class Problem {
  public:
   Problem(const TuneOptions& options, const ConstraintContext& context, const Objective& objective);
@@ -93,7 +91,7 @@ class Problem {
   int simulated = 0;    ///< number of points whose runs were simulated
   /// Settling time and control variation of all feasible points.
   std::vector<TradeOffPoint> met;
-  /// Evaluations whose objective was better than that of all earlier ones.
+  /// Evaluations whose objective is better than that of all evaluations before them.
   std::vector<SearchStep> steps;
 
   /// Evaluates the points, and simulates the runs of all of them together. Returns the results in

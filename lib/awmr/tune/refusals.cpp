@@ -17,7 +17,6 @@
 namespace awmr {
 namespace {
 
-/// Error at a place in tune.json.
 tl::unexpected<Error> refused_at(const TuneOptions& requested, const std::string& pointer,
                                  ErrorCode code, std::string message) {
   return tl::unexpected(
@@ -77,7 +76,6 @@ std::optional<tl::unexpected<Error>> goal_missed(const SearchResult& found, cons
                       : ""));
 }
 
-/// Names of the violated constraints.
 std::vector<std::string> violated(const std::vector<ConstraintReport>& all) {
   std::vector<std::string> names;
   for (const ConstraintReport& c : all) {

@@ -33,9 +33,8 @@ struct RelaxedLimit {
 /// Returns, for each limit of the context that can be relaxed, some less strict values, strictest
 /// first:
 ///   - limits that are stricter than their default: up to the default
-///   - limits of damping and noise: also beyond the default, up to half or twice of it
-///   - the limit of the steering rate: up to 20 times the present one, and up to twice the rate of
-///     the servo
+///   - also beyond the default: damping ratios down to half, noise_share up to twice the value
+///   - the limit of the steering rate: up to 20 times its value, and up to twice the servo's rate
 std::vector<std::vector<RelaxedLimit>> relaxed_limits(const ConstraintContext& context);
 
 /// Returns changes of tune.json, as text such as "`limits/late_damping` 0.55". Each change alone

@@ -28,7 +28,6 @@ EvaluatedFigure figure_of(const std::string& name, std::vector<double> values, d
           worst / static_cast<double>(tail)};
 }
 
-/// Statistics of one set of gains in one mode over all drawn vehicles.
 EvaluatedGains evaluate(const EvaluatedRuns& runs, YawMode mode, double tail_share) {
   EvaluatedGains result{.gains = runs.gains, .mode = mode, .figures = {}, .scenario = {}};
   std::array<std::vector<double>, kRunFigures> values;

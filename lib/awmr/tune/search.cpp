@@ -29,8 +29,7 @@ constexpr int kFinishEvaluations = 24;
 /// Factor of slowed() for the second start of the local searches.
 constexpr double kSlower = 0.8;
 
-/// Values of a point that NLopt requests: the objective and the residuals of the constraints, in
-/// separate calls.
+/// Values of a point, which NLopt requests in separate calls.
 class NloptCallbacks {
  public:
   virtual ~NloptCallbacks() = default;
@@ -38,7 +37,7 @@ class NloptCallbacks {
   virtual void residuals(const Point& point, std::span<double> result) = 0;
 };
 
-/// Evaluates one point at a time and caches the last one, so that each point is evaluated once.
+/// Evaluates one point at a time. Caches the last point, so that each point is evaluated once.
 class OneByOne : public NloptCallbacks {
  public:
   explicit OneByOne(Problem& problem) : problem_(problem) {}
@@ -92,7 +91,6 @@ void constraints_callback(unsigned count, double* result, unsigned dimension, co
   static_cast<NloptCallbacks*>(data)->residuals(point_at(dimension, x), {result, count});
 }
 
-/// Text of NLopt's stop reason.
 std::string reason(nlopt_result code) {
   switch (code) {
     case NLOPT_MAXEVAL_REACHED:
@@ -177,8 +175,7 @@ Result<std::string> search_locally(Problem& problem, const Gains<double>& start,
 
 namespace {
 
-/// Stores in `result` the name and the residual of the constraint that `problem.nearest` violates
-/// most.
+/// Stores in `result` the constraint that `problem.nearest` violates most, and its residual.
 void note_broken(Problem& problem, SearchResult& result) {
   const Point nearest[] = {problem.space().point_of(problem.nearest.gains)};
   const Looked looked = problem.look_at(nearest).front();
@@ -187,7 +184,6 @@ void note_broken(Problem& problem, SearchResult& result) {
   result.broken_by = *most;
 }
 
-/// Evaluates sets of gains together.
 void look_at_gains(Problem& problem, std::span<const Gains<double>> gains) {
   std::vector<Point> points;
   for (const Gains<double>& one : gains) points.push_back(problem.space().point_of(one));

@@ -174,7 +174,6 @@ Status check_settling(const Searched& s, const std::vector<ModeScore>& scores) {
   return never_settles(gains, runs, changes, s.options);
 }
 
-/// Evaluates the tuned gains in a scenario that the search did not use.
 Evaluation evaluated_in(const Searched& s, const Scenario& held_out) {
   ObjectiveSetting elsewhere = s.setting;
   elsewhere.scenarios = {held_out};

@@ -71,8 +71,7 @@ SettledGains settle(const TuneOptions& options, const ConstraintContext& context
   Problem problem(quiet, context, searched);
   const Point point = problem.space().point_of(best.gains);
   const double objective = problem.look_at(std::span(&point, 1)).front().candidate.objective;
-  // Reducing mu may increase the objective by half of kIndifferent. Reducing mu_s may use up the
-  // rest.
+  // Reducing mu may increase the objective by half of kIndifferent, reducing mu_s by the rest.
   const Interval heading =
       stretch(problem, point, kHeading, (1.0 + 0.5 * kIndifferent) * objective);
   const Interval speed = stretch(problem, scaled(point, kHeading, heading.lo), kSpeed,

@@ -34,15 +34,14 @@ ObjectiveSetting runs_in(ObjectiveSetting setting, const std::string& scenario, 
 
 /// Largest factor of in_more_time() that is tried.
 inline constexpr double kMostTime = 4.0;
-/// Returns the setting with the duration of its scenarios, and the time for each heading,
-/// multiplied by `factor`.
+/// Returns the setting with all times of its scenarios multiplied by `factor`.
 ObjectiveSetting in_more_time(ObjectiveSetting setting, double factor);
 
 /// Returns the setting with only the nominal vehicle and the first drawn vehicles.
 ObjectiveSetting on_few_vehicles(ObjectiveSetting setting);
 
 /// Tries changes of the scenarios. Returns those with which at least `share` of the runs settle:
-///   - 2 or 4 times the duration of the scenarios, and the time for each heading
+///   - 2 or 4 times all times of the scenarios
 ///   - no heading-rate limit, if there is one
 std::vector<SettlingChange> scenario_changes(const ObjectiveSetting& setting,
                                              const Gains<double>& gains, double share);
@@ -54,10 +53,10 @@ class SettlingSearch {
  public:
   explicit SettlingSearch(const ConstraintContext& context) : context_(context) {}
 
-  /// True if an observer lets runs settle in at least one scenario and mode, under two conditions.
-  /// Fewer than kSettledShare of the runs settle with the given gains. And with an observer and
-  /// gains by pole placement, at least half of the other runs settle, too, or kSettledShare of all
-  /// runs. To save time, the runs with the observer use only a few vehicles (on_few_vehicles()).
+  /// True if in at least one scenario and mode, fewer than kSettledShare of the runs settle with
+  /// the given gains, and an observer helps: with it and gains by pole placement, half of the other
+  /// runs settle, too, or kSettledShare of all runs. To save time, only a few vehicles are
+  /// simulated with the observer (on_few_vehicles()).
   bool observer_helps(const ObjectiveSetting& setting, const Gains<double>& gains);
 
   /// Tries one change of gains or limits at a time. Returns the changes with which at least `share`
@@ -96,8 +95,7 @@ class SettlingSearch {
 /// Text for messages about `changes`: "Each of these changes lets runs settle (...): ...". `runs`:
 /// the noun for the runs, such as "runs". Precondition: `changes` is not empty.
 std::string describe(const std::vector<SettlingChange>& changes, std::string_view runs);
-/// Text for messages if no change was found, with the changes that were tried. `runs` as in
-/// describe().
+/// Text for messages if no change was found. `runs` as in describe().
 std::string no_change_settles(std::string_view runs);
 
 }  // namespace awmr

@@ -98,12 +98,9 @@ Status check_latency(const ConstraintContext& context, const std::string& model_
           option_text("nominal")));
 }
 
-/// XORed with the seed, so that the tuned gains are evaluated on vehicles that the search did not
-/// use.
+/// XORed with the seed, to evaluate the tuned gains on vehicles that the search did not use.
 constexpr std::uint64_t kEvaluationSeeds = 0x6a75646765ULL;
 
-/// Returns the sets of gains to evaluate: the tuned ones, the baseline, the paper's, and the tuned
-/// ones without their observer.
 std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   std::vector<NamedCandidate> candidates{{kRobustGains, tuning.gains},
                                          {"baseline", tuning.baseline.gains.common()}};
@@ -116,8 +113,7 @@ std::vector<NamedCandidate> candidates_of(const Tuning& tuning) {
   return candidates;
 }
 
-/// Evaluates the sets of gains in `candidates` on newly drawn vehicles, and adds the statistics to
-/// `robust`.
+/// Evaluates `candidates` on newly drawn vehicles, and adds the statistics to `robust`.
 Status evaluate_candidates(const Model& model, ObjectiveSetting setting, const TuneOptions& options,
                            const std::vector<NamedCandidate>& candidates, RobustTuning& robust) {
   if (options.evaluation_draws == 0) return {};
@@ -224,8 +220,7 @@ Status check_search_work(const TuneOptions& options, const std::vector<Scenario>
   double evaluations = static_cast<double>(options.global_evaluations) + options.local_evaluations;
   if (!options.nominal) {
     steps *= 1.0 + options.draws;
-    // After the search, about three sets of gains (candidates_of()) are evaluated on new drawn
-    // vehicles.
+    // After the search, about three sets of gains are evaluated on new vehicles (candidates_of()).
     evaluations += 3.0 * options.evaluation_draws / (1.0 + options.draws);
   }
   if (evaluations * steps <= kMaxSearchSteps) {

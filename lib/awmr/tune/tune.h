@@ -65,8 +65,7 @@ struct GainBounds {
 };
 inline constexpr double kBoundFactor = 10.0;
 
-/// Limits that the tuned gains must meet. Unlike `activity_max`, they do not depend on the
-/// baseline.
+/// Limits that the tuned gains must meet.
 struct TuningLimits {
   /// Largest RMS rate of the steering command due to sensor noise, deg/s, > 0, while a heading is
   /// held at the largest u_d of the scenarios (steering_rate_rms_degps() in steering_rate.h). If
@@ -123,8 +122,7 @@ inline constexpr double kObserverShare = 0.5;
 /// uses at least UnmodelledVariation::combinations() vehicles. Only the last part of the search
 /// uses all drawn vehicles.
 inline constexpr int kSearchedDraws = 4;
-/// Gains count as equally good if their objectives differ relatively by less than this. settle()
-/// (sensitivity.h) selects among them.
+/// Relative difference of objectives below which gains count as equally good (settle()).
 inline constexpr double kIndifferent = 1e-3;
 /// Fraction by which the limit of an active constraint is relaxed, to measure by how much the limit
 /// worsens the objective (ActiveConstraint::wider_gains).
@@ -162,8 +160,7 @@ struct TuningGoal {
 };
 inline constexpr double kMinGoalShare = 0.5, kMaxGoalShare = 0.999;
 inline constexpr std::size_t kMaxGoals = 20;
-/// Number of drawn vehicles for the evaluation (evaluation_draws) if tune.json has goals but no
-/// number.
+/// Default of evaluation_draws if tune.json has goals.
 inline constexpr int kGoalDraws = 500;
 
 struct TuneOptions {
@@ -171,20 +168,18 @@ struct TuneOptions {
   std::string file = "tune.json";
   /// true: tune on the identified plant only, with ideal sensors (no noise, no latency) and motors
   /// (no lag). false (robust): tune also on `draws` plants from the model's covariance, with the
-  /// noise, latency and lag of LoopConditions. The gains then meet every constraint on all these
-  /// plants.
+  /// noise, latency and lag of LoopConditions. The gains then meet every constraint on all plants.
   bool nominal = false;
   int draws = 32;  ///< vehicles drawn for the search, 0 ... 1000
   /// Number of further vehicles that are drawn to evaluate the tuned gains, 0 ... 100000.
   int evaluation_draws = 50;
   UnmodelledVariation open = {};  ///< robust search only
   /// Share of the drawn vehicles that form the tail, the worst of them, (0, 1]. The objective
-  /// averages two means: over all drawn vehicles and over the tail (CVaR, conditional value at
+  /// averages the means over all drawn vehicles and over the tail (CVaR, conditional value at
   /// risk).
   double tail_share = 0.2;
   TuningLimits limits = {};
-  /// The only mode to tune for; absent: all modes of the vehicle. The default scenarios are the
-  /// same in both cases.
+  /// The only mode to tune for; absent: all modes. Has no effect on the default scenarios.
   std::optional<YawMode> mode = {};
   /// Gains that the objective compares with. Absent: the gains with the fastest poles that the
   /// constraints allow (pole_placement.h).
@@ -192,8 +187,7 @@ struct TuneOptions {
   /// Largest control variation (Metrics::control_variation) in each mode, as a multiple of its
   /// value with the baseline gains, > 0. Absent: no limit.
   std::optional<double> activity_max = {};
-  /// Required form of the condition T2 < T1. With kPaper, eps/mu may be twice as large as with
-  /// kStrict.
+  /// Required form of T2 < T1. kPaper permits twice the eps/mu of kStrict.
   ReachingForm form = ReachingForm::kStrict;
   /// The reaching time constant (ReachingForm) must be at most margin T1, T1 = 1/lambda. In (0, 1).
   /// With a smaller margin, S decays faster compared with the heading error.
@@ -239,14 +233,13 @@ struct TuneOptions {
 /// default ObserverSearch. false: searches none. Absent: leaves the options unchanged.
 void choose_observer(std::optional<bool> observer, TuneOptions& options);
 
-/// A constraint that is active at the tuned gains.
 struct ActiveConstraint {
   std::string name;  ///< name of a constraint or a goal, or "activity, MODE"
-  /// Relative improvement of the objective that results from relaxing the limit by kWider, >= 0.
+  /// Relative improvement of the objective if the limit is relaxed by kWider, >= 0.
   double wider_gains = 0.0;
 };
 
-/// Whether a limit is an upper (at most) or a lower (at least) one.
+/// Whether a limit is an upper (at most) or a lower (at least) limit.
 enum class Sense { kAtMost, kAtLeast };
 inline constexpr NameTable<Sense, 2> kSenseNames{
     {{"at-most", Sense::kAtMost}, {"at-least", Sense::kAtLeast}}};
@@ -284,7 +277,6 @@ struct SearchStep {
   double objective = 0.0;
 };
 
-/// Progress of a search.
 struct SearchHistory {
   /// Improvements of the objective, in the order of the evaluations, at most kMaxHistorySteps. They
   /// include only evaluations on the few vehicles of the search (kSearchedDraws). The final gains
@@ -295,8 +287,7 @@ struct SearchHistory {
   /// Number of evaluations by the global and the local searches on the draws of the search.
   int evaluations = 0;
 };
-/// Largest number of steps in a history. A longer history is thinned to evenly spaced steps,
-/// including the first and the last.
+/// Largest number of steps in a history; a longer history is thinned to evenly spaced steps.
 inline constexpr std::size_t kMaxHistorySteps = 200;
 
 /// Statistics of one metric over the evaluation draws, for one set of gains in one mode.
@@ -322,8 +313,8 @@ struct EvaluatedGains {
   std::string scenario = {};  ///< empty: all scenarios together
 };
 
-/// Verdict on a goal. It compares the required share of vehicles with the 95 % interval of the
-/// share that meets the goal (EvaluatedGoal::ci95).
+/// Verdict on a goal, from the 95 % interval of the share of vehicles that meet it
+/// (EvaluatedGoal::ci95).
 enum class GoalVerdict {
   kMet,     ///< the whole interval is at or above the required share
   kMissed,  ///< the whole interval is below the required share
@@ -351,8 +342,7 @@ struct RobustTuning {
   bool from_covariance = false;
   /// Statistics over the newly drawn vehicles, sorted by gains, then mode. Empty without new draws.
   std::vector<EvaluatedGains> evaluated;
-  /// The same statistics for each scenario alone, sorted by scenario, then gains, then mode; empty
-  /// with a single scenario.
+  /// The same for each scenario alone, by scenario, then gains, then mode; empty for one scenario.
   std::vector<EvaluatedGains> evaluated_by_scenario;
   std::vector<EvaluatedGoal> goals;  ///< evaluated goals, by gains, then goal, then mode
 };
@@ -418,7 +408,7 @@ struct SettlingChange {
   std::string pointer;  ///< JSON pointer in tune.json, such as "/observer"
   std::string text;     ///< the change, with its number
 };
-/// Sensor noise as the cause of runs that do not settle.
+/// Sensor noise that keeps runs from settling.
 struct NoiseEffect {
   double share_without = 0.0;  ///< share of the runs that settle without noise, [0, 1]
   /// duration of these runs, as a multiple of the duration of the scenarios
@@ -489,7 +479,8 @@ struct Tuning {
   int evaluations = 0;
   std::string stop_reason;
   std::uint64_t seed = 0;
-  /// Number of evaluated sets of gains whose runs were simulated. The others violate a constraint.
+  /// Number of evaluated sets of gains whose runs were simulated. The other sets violate a
+  /// constraint.
   int simulated = 0;
   /// Ranges of mu and mu_s in which the gains are about equally good. `mu_as_good` is for constant
   /// mu/epsilon: the gains meet the constraints, and the objective on the draws of the search is at
@@ -514,7 +505,6 @@ struct Tuning {
   bool is_mode_better_alone = false;
   std::optional<RobustTuning> robust;  ///< absent for nominal gains
 
-  /// The gains to use in each mode.
   ModeGains mode_gains() const;
 };
 
@@ -533,8 +523,8 @@ struct Tuning {
 /// of Model::plant().
 Result<Scenario> default_tuning_scenario(const Model& model);
 /// Returns the default tuning scenarios:
-///   1. default_tuning_scenario(), with heading steps. It favours fast gains, and reaches yaw rates
-///      above the measured ones.
+///   1. default_tuning_scenario(), with heading steps. It favours fast gains, and exceeds the
+///      measured yaw rates.
 ///   2. The same with the heading rate limited to the highest measured yaw rate. It favours gains
 ///      that are accurate where the model is valid. Left out if the model has no measured yaw rate.
 ///      Also left out if `choice` (--heading-rate-limit) is not empty; the caller then applies
@@ -562,10 +552,10 @@ Result<Scenario> held_out_scenario(const Model& model);
 ///
 /// Errors (refused):
 ///   - no gains within the bounds meet the constraints, the activity limit and the goals that are
-///     not soft (the message names the most violated one);
+///     not soft;
 ///   - in every mode, the largest yaw moment is below the yaw resistance at 1 deg/s (turning.h);
 ///   - runs diverge with all gains;
-///   - no run of the nominal vehicle settles with the tuned gains.
+///   - no run settles with the tuned gains, not even without sensor noise.
 ///
 /// Errors (input): the model lacks a parameter; an option is invalid (check_options.h); the latency
 /// exceeds 20 samples; no wheel force is left for an observer; runs with the baseline break off;

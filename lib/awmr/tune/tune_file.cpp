@@ -24,8 +24,7 @@ void read_weights(JsonObject& root, ObjectiveWeights& weights) {
   json->reject_unknown_keys();
 }
 
-/// Rounds the default numbers of drawn vehicles up to a multiple of the number of combinations of
-/// `open`.
+/// Rounds the default numbers of draws up to a multiple of the number of combinations of `open`.
 void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
   const auto combinations = static_cast<int>(open.combinations());
   for (int* count : {&options.draws, &options.evaluation_draws}) {
@@ -33,8 +32,7 @@ void fit_draws_to(const UnmodelledVariation& open, TuneOptions& options) {
   }
 }
 
-/// Rejects options about drawn vehicles if `nominal` is set, because a nominal search draws none. A
-/// number of 0 draws is accepted.
+/// Rejects options about drawn vehicles if `nominal` is set, except 0 draws.
 void reject_draws(JsonObject& json, const TuneOptions& options) {
   if (!options.nominal) return;
   for (const auto& [key, conflicts] :
@@ -66,8 +64,7 @@ void read_search(JsonObject& json, TuneOptions& options) {
   }
 }
 
-/// Reads the baseline: "pole-placement", "paper", or the path of a gains.json relative to
-/// `directory`.
+/// Reads the baseline: "pole-placement", "paper", or a path relative to `directory`.
 void read_baseline(JsonObject& json, const std::filesystem::path& directory, TuneConfig& config,
                    std::vector<Fault>& faults) {
   const std::optional<std::string> name = json.optional_string("baseline");

@@ -22,7 +22,7 @@ struct TuneConfig {
 };
 
 /// The baseline with this name: "pole-placement" (no gains, tune() computes them), "paper" or the
-/// path of a gains.json. Errors: those of read_gains().
+/// path of a gains.json. Errors: those of read_mode_gains().
 Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name);
 
 /// Reads tune.json (`awmr.tune/1`). Unknown keys are errors, and every key is optional:

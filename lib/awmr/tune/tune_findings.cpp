@@ -74,8 +74,7 @@ std::string advice_for(const std::string& scenario, YawMode mode,
          (found->changes.empty() ? no_change_settles(runs) : describe(found->changes, runs));
 }
 
-/// Scenarios and modes in which fewer than 95 % of the runs settle, with the same advice for all of
-/// them.
+/// Scenarios and modes in which fewer than 95 % of the runs settle, with the same advice.
 struct FewSettled {
   std::string runs;    ///< share of each scenario and mode: "40 % (SCENARIO, MODE), 0 % (...)"
   std::string advice;  ///< advice_for()
@@ -96,7 +95,6 @@ void add_unsettled(const std::string& scenario, YawMode mode, double share,
   }
 }
 
-/// The warnings `unsettled`.
 std::vector<Finding> unsettled_findings(std::span<const FewSettled> few) {
   std::vector<Finding> findings;
   for (const auto& [runs, advice] : few) {
@@ -108,8 +106,6 @@ std::vector<Finding> unsettled_findings(std::span<const FewSettled> few) {
   return findings;
 }
 
-/// Adds a warning if the heading loop is unstable for some parameters in the model's confidence
-/// set.
 void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& findings) {
   if (certificate.damping.value > 0.0) return;
   std::string where;
@@ -125,7 +121,6 @@ void note_certificate(const ModeCertificate& certificate, std::vector<Finding>& 
                    degrees(certificate.damping.yaw_rate_radps))});
 }
 
-/// Adds a warning if tune() added an observer by itself, in one or several modes.
 void note_observer(const Tuning& tuning, std::vector<Finding>& findings) {
   std::string bandwidths;
   const auto add = [&bandwidths](const Tuning& one) {
@@ -145,7 +140,6 @@ void note_observer(const Tuning& tuning, std::vector<Finding>& findings) {
                    100.0 * kSettledShare, bandwidths, option_text("no_observer"))});
 }
 
-/// Adds a warning if no scenario has a disturbance that a requested observer could reject.
 void note_pushes(const TuneOptions& options, std::vector<Finding>& findings) {
   const bool is_pushed = std::ranges::any_of(
       options.scenarios, [](const Scenario& scenario) { return scenario.disturbance.any(); });
@@ -156,8 +150,6 @@ void note_pushes(const TuneOptions& options, std::vector<Finding>& findings) {
        "Give a scenario with a `disturbance`, or give no scenarios to use the default scenarios"});
 }
 
-/// Adds a note if the tuned gains have a larger objective than the baseline, because the baseline
-/// does not meet the limits.
 void note_baseline(const Tuning& tuning, std::vector<Finding>& findings) {
   if (tuning.baseline_violates.empty() || tuning.objective <= tuning.baseline_objective) return;
   std::string limits;
@@ -174,8 +166,6 @@ void note_baseline(const Tuning& tuning, std::vector<Finding>& findings) {
                    option_text("baseline"))});
 }
 
-/// Adds a note if the modes have their own gains, or if a mode settles much faster with gains for
-/// this mode alone.
 void note_modes(const Tuning& tuning, std::vector<Finding>& findings) {
   if (!tuning.own.empty()) {
     findings.push_back({"", 0, Severity::kNote, "gains-by-mode",
@@ -213,8 +203,7 @@ void note_scenarios(const Model& model, const TuneOptions& options, const Tuning
   }
 }
 
-/// Returns findings from the runs of the nominal vehicle. They are used if there are no runs of
-/// newly drawn vehicles.
+/// Findings from the runs of the nominal vehicle, used without runs of newly drawn vehicles.
 std::vector<Finding> nominal_findings(const Tuning& tuning) {
   std::vector<FewSettled> few;
   for (const ModeScore& score : tuning.scores) {

@@ -14,7 +14,6 @@
 namespace awmr {
 namespace {
 
-/// The largest change of the commanded heading, rad.
 double largest_step_rad(const Scenario& scenario) {
   double largest = 0.0;
   double before = scenario.initial.psi_rad;
@@ -55,8 +54,7 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
     context.step_rad = std::max(context.step_rad, largest_step_rad(s));
     context.fastest_radps = std::max(context.fastest_radps, reached_radps(s));
   }
-  // The vehicle cannot turn faster than in a steady turn with the largest moment of the stronger
-  // mode.
+  // The vehicle cannot turn faster than with the largest moment of the stronger mode.
   const auto steady = steady_rate(plant.yaw, largest_moment_m(context.own(), context.speed_mps));
   if (steady) context.fastest_radps = std::clamp(*steady, kSlowest_radps, context.fastest_radps);
   return context;

@@ -24,7 +24,6 @@ ConstraintContext context_of(const TuneOptions& options, const Plant<double>& pl
 /// those of Model::plant().
 Result<Scenario> examined_scenario(const Model& model);
 
-/// Adds noise, latency and motor lag to the context.
 void add_conditions(const LoopConditions& conditions, ConstraintContext& context);
 
 /// Sets the limit of the steering rate to its default, if it is absent (TuningLimits).

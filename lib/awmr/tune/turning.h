@@ -12,8 +12,7 @@
 
 namespace awmr {
 
-/// Yaw moments of one mode at the speed u_d, m: the largest possible moment, and the moment needed
-/// to turn.
+/// Yaw moments of one mode at the speed u_d.
 struct TurningMoment {
   YawMode mode{};
   double speed_mps = 0.0;    ///< u_d

@@ -18,8 +18,7 @@ namespace awmr {
 
 struct AcceptanceOptions {
   YawMode mode = YawMode::kCombined;
-  /// Number of predicted drives, 39 ... 10000. With fewer than 39 drives, the p-value is too coarse
-  /// to compare with 0.05.
+  /// Number of predicted drives, 39 ... 10000. Below 39, the p-value is too coarse.
   int draws = 200;
   std::uint64_t seed = 1;
   /// Time in the log, s, at which the scenario begins. Absent: the time of the first row with a
@@ -43,15 +42,14 @@ struct ChannelAcceptance {
   /// predicted drives are within every limit.
   double allowed = 0.0;
   bool inside = false;  ///< true: distance <= allowed
-  /// Scenario time, s, of the first window whose distance is larger than allowed; absent if there
-  /// is no such window
+  /// Scenario time, s, of the first window whose distance is larger than allowed, if any
   std::optional<double> outside_since_s = {};
   /// measured minus predicted mean, in `unit`, in the window with the largest distance
   double difference = 0.0;
 };
 
-/// A possible cause of the difference between the logged drive and the prediction: a change of one
-/// property of the vehicle or its sensors, or an external force.
+/// A possible cause of the difference between logged drive and prediction: a change of one property
+/// of the vehicle or its sensors, or an external force.
 struct FaultHypothesis {
   std::string what;    ///< changed quantity: "mass_norm", "bias of the yaw rate"
   double value = 0.0;  ///< value with which the simulation is nearest to the drive, in `unit`
@@ -90,7 +88,6 @@ struct Acceptance {
 Result<Acceptance> accept_drive(const DrivingLog& log, const Model& model, const ModeGains& gains,
                                 const Scenario& scenario, const AcceptanceOptions& options);
 
-/// Text table for a terminal.
 std::string acceptance_table(const Acceptance& acceptance);
 
 }  // namespace awmr

@@ -76,8 +76,7 @@ double allowed_settling_s(const Plant<double>& plant, const Vehicle& vehicle, Ya
 int reversals(std::span<const double> signal, double band) {
   if (signal.empty()) return 0;
   int count = 0;
-  // Direction of the last movement. 1: rising, -1: falling, 0: no movement yet by more than the
-  // band.
+  // Direction of the last movement: 1 rising, -1 falling, 0 none beyond the band yet.
   int direction = 0;
   double low = signal[0];
   double high = signal[0];

@@ -50,8 +50,8 @@ struct ClaimSetting {
   /// 95 % interval for each parameter that the scenario's `corner` sets to an end of its interval.
   ModeRuns run(const Scenario& scenario) const;
 };
-/// Does ClaimSetting::run() for each setting, all in one batch. Precondition: all settings have the
-/// same control, arithmetic and sample time.
+/// ClaimSetting::run() for each setting, in one batch. Precondition: all settings have the same
+/// control, arithmetic and sample time.
 std::vector<ModeRuns> run_all(std::span<const ClaimSetting> settings, Scenario scenario);
 
 template <class Condition>
@@ -81,8 +81,7 @@ Claim check_time_constants(const std::optional<ModeGains>& gains);
 std::vector<Claim> check_heading_claims(const ClaimSetting& setting);
 
 /// Checks C8 to C12: waypoints, line, obstacles, timed path, best modes. Returns the claims for
-/// each setting. Precondition: as for run_all(), all settings have the same control, arithmetic and
-/// sample time.
+/// each setting. Precondition: that of run_all().
 ///                                                                   [paper 5, section 7]
 std::vector<std::vector<Claim>> check_guidance_claims(std::span<const ClaimSetting> settings);
 
@@ -100,8 +99,8 @@ int reversals(std::span<const double> signal, double band);
 /// Checks all claims, in the paper's order; without gains, only the claims C1, C2 and C14.
 std::vector<Claim> check_claims(const Model& model, const std::optional<ModeGains>& gains,
                                 const BatchArithmetic& arithmetic);
-/// Does check_claims() for each model, but with the given control options. Precondition: each model
-/// has every parameter, and all have the same sample time.
+/// check_claims() for each model, with the given control options. Precondition: each model has
+/// every parameter, and all models have the same sample time.
 std::vector<std::vector<Claim>> check_claims_of(std::span<const Model> models,
                                                 const std::optional<ModeGains>& gains,
                                                 const BatchArithmetic& arithmetic,

@@ -79,8 +79,7 @@ WindowMeans means(const DriveChannel& channel, double duration_s, const Value& v
   return windows;
 }
 
-/// Adds to the channel the time and value of the rows from `first` on, over duration_s, for which
-/// `counts(row)` is true.
+/// Adds the rows from `first` on, over duration_s, for which `counts(row)` is true.
 template <class Counts, class Value>
 void take_rows(const DrivingLog& log, std::size_t first, double duration_s, const Counts& counts,
                const Value& value, DriveChannel& channel) {

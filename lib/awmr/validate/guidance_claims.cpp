@@ -234,7 +234,6 @@ bool is_best(const ModeRuns& runs, YawMode mode, Value value) {
   });
 }
 
-/// Finishing time, cross-track error and speed drop of each mode on one path.
 std::string along(const char* where, const ModeRuns& runs) {
   return fmt::format(
       "{0}, finishing time: {1}; {0}, RMS cross-track error: {2}; {0}, speed drop: {3}", where,

@@ -20,8 +20,7 @@ inline constexpr double kSpeed_mps = 1.0;                      ///< u_d         
 inline const std::vector<double> kSimulated_deg{30.0, -30.0};  ///< commanded headings  [paper 4.3]
 inline constexpr double kLargestStep_deg = 60.0;               ///< the step from 30 to -30 deg
 
-/// Rounds a result to 1e-4, because further digits depend on rounding errors. Adding 0.0 changes -0
-/// to 0.
+/// Rounds to 1e-4, because further digits depend on rounding errors. + 0.0 changes -0 to 0.
 inline double to_figure(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
 /// Text of a value in each mode: "differential 0.1, steering 0.2, combined 0.3 UNIT", with "none"

@@ -49,8 +49,7 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
   return part;
 }
 
-/// Limits of a predicted series: readings of a channel for which it is computed, and points that
-/// are kept for the chart.
+/// Limits of a predicted series: readings of a channel, and points kept for the chart.
 constexpr std::size_t kMaxInSeries = 100000;
 constexpr std::size_t kMaxDrawn = 1000;
 
@@ -65,8 +64,7 @@ PredictedSeries drawn(const PredictedSeries& all) {
   return some;
 }
 
-/// Error (input): the prediction errors of some channel are not finite, because the simulation of
-/// the log diverged.
+/// Error (input): the simulation of the log diverged, so some prediction errors are not finite.
 Status check_finite(const LogValidation& validation) {
   for (const ChannelValidation& channel : validation.channels) {
     if (std::isfinite(channel.one_step.nrmse) && std::isfinite(channel.long_horizon.nrmse))

@@ -77,7 +77,7 @@ Key key_of(const ClaimCase& open) {
 }
 
 /// Returns the number of combinations of the other settings in which the verdict depends on this
-/// setting, and the number of all combinations of the other settings.
+/// setting, and the number of all combinations.
 std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
   // For each combination of the other settings, two flags: whether a case reproduces the claim, and
   // whether a case does not.

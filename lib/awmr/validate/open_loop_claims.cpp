@@ -118,7 +118,6 @@ std::string delivered_moments(const Model& model, const Plant<double>& plant) {
 
 namespace {
 
-/// Reason why the speed does not settle at g1(u) = tau_speed.
 std::string why_not_settled(const Model& model) {
   return model.vehicle.driven_wheels() * model.vehicle.wheel_force.hi < kFullThrust
              ? "the force limits do not allow tau_speed = 2"

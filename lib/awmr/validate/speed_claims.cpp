@@ -17,7 +17,6 @@ constexpr double kNoSpeedError = 0.01;
 /// Criterion for a "slight" drop: largest drop, as a fraction of u_d.
 constexpr double kSlightDrop = 0.20;
 
-/// The range of the speed u between `from_s` and `to_s`.
 Interval speed_range(const ModeRun& run, double from_s, double to_s) {
   Interval range{1e300, -1e300};
   for (const RunRow& row : run.run.rows) {
@@ -28,8 +27,7 @@ Interval speed_range(const ModeRun& run, double from_s, double to_s) {
   return range;
 }
 
-/// Reason for the verdict of C4. `none_over`: no mode overshoots; `no_error`: no mode has an error
-/// at the end of the run.
+/// `none_over`: no mode overshoots; `no_error`: no mode has an error at the end of the run.
 std::string why_it_converges(bool none_over, bool no_error) {
   if (!no_error) {
     return "the force limits, or a turn that is not complete at the end of the run, leave a speed "

@@ -145,8 +145,7 @@ std::string comparison_text(const TyreFit& tyres) {
       tyres.windows, kWindow_s, verdict, text);
 }
 
-/// Estimate of a tyre parameter. If the logs do not determine the parameter, adds a finding and
-/// returns empty.
+/// If the logs do not determine the parameter, adds a finding and returns empty.
 std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, std::size_t windows,
                                          const DrivingLog& log, std::vector<Finding>& findings) {
   if (shown.is_free[at(p)]) return estimate_of(shown.fit.at[p], *shown.errors[at(p)], windows);
@@ -162,11 +161,9 @@ std::optional<Estimate> estimate_or_held(const ShownFit& shown, Eigen::Index p, 
   return std::nullopt;
 }
 
-/// True if a log has longer time steps than the controller, so that the commands between its rows
-/// are unknown.
+/// True if a log has longer time steps than the controller, and so lacks commands.
 bool lose_commands(const std::vector<DrivingLog>& logs, double sample_time_s) {
-  // Largest ratio of time step to sample time that jitter of the time stamps explains. Above it,
-  // rows are missing.
+  // Largest ratio of time step to sample time that jitter of the time stamps explains.
   constexpr double kLonger = 1.2;
   return std::ranges::any_of(
       logs, [&](const DrivingLog& log) { return log.median_step_s() > kLonger * sample_time_s; });

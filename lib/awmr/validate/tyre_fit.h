@@ -47,8 +47,7 @@
 
 namespace awmr {
 
-/// Prediction errors of both plants for one channel, on windows that were not used to fit the
-/// tyres.
+/// Prediction errors of both plants for one channel, on held-out windows.
 struct HeldOutError {
   std::string channel;          ///< name: "yaw_rate_radps"
   double model_rms = 0.0;       ///< RMS error of the 3-DOF plant in SI units, >= 0
@@ -69,7 +68,6 @@ struct TyreFit {
   std::optional<PlantKind> better = {};
 };
 
-/// Minimum number of windows for a fit.
 inline constexpr std::size_t kMinTyreWindows = 12;
 /// Text in validation.json instead of the better plant if neither is better.
 inline constexpr std::string_view kUndecidedPlant = "undecided";

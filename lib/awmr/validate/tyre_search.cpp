@@ -182,8 +182,7 @@ std::optional<Eigen::Index> least_shown(const ShownFit& shown) {
   return worst;
 }
 
-/// The fit with the smallest cost, of the fits from all starts. Empty if the windows cannot be
-/// simulated from any start.
+/// The fit with the smallest cost. Empty if the windows cannot be simulated from any start.
 std::optional<Fit> best_fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                             const std::vector<LogTyres>& starts) {
   std::optional<Fit> best;

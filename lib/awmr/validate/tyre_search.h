@@ -13,12 +13,10 @@ namespace awmr::tyre_fit {
 /// For kFriction and kCornering: true if the parameter is fitted, false if it has a fixed value.
 using IsFree = std::array<bool, 2>;
 
-/// Result of a search.
 struct Fit {
   LogTyres at;
   Weights weights{};
-  /// Sum over the channels c of n_c log(sum e^2 / n_c), with the n_c errors e of each channel
-  /// (tyre_fit.h).
+  /// The cost that tyre_fit.h minimises.
   double cost = 0.0;
   bool converged = false;
   std::string stop_reason = {};
@@ -40,8 +38,8 @@ struct ShownFit {
 LogTyres default_tyres();
 
 /// Fits both parameters from several starts. If the windows do not determine one parameter, sets it
-/// to its default and fits the other again. Returns a fit that does not converge at once
-/// (Fit::converged is false). Empty if the windows cannot be simulated from any start.
+/// to its default and fits the other again. If a fit does not converge, returns it without further
+/// fits (Fit::converged is false). Empty if the windows cannot be simulated from any start.
 std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& plants);
 
 }  // namespace awmr::tyre_fit

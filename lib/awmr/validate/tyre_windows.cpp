@@ -32,14 +32,12 @@ std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& 
   return angles;
 }
 
-/// True for rows whose errors count: all rows after the first second of the window. In this second,
-/// the errors of the unmeasured part of the initial state decay.
+/// False in the first second of the window, in which errors of the initial state decay.
 bool counts(const LogWindow& rows, std::size_t row) {
   constexpr double kBegin_s = 1.0;
   return rows.log->t_s[row] - rows.log->t_s[rows.begin] >= kBegin_s;
 }
 
-/// Collects the errors of a window, row by row.
 struct ErrorsByRow {
   explicit ErrorsByRow(const ReplayedWindow& of) : window(of), all(rows_of(of.channels)) {}
   void operator()(std::size_t row, const State<double>& state) {
@@ -53,8 +51,8 @@ struct ErrorsByRow {
   Eigen::Index count = 0;
 };
 
-/// Subtracts the mean over the window from the errors of heading and position, because the initial
-/// heading and position are single measurements, whose errors shift all later values of the window.
+/// Subtracts the mean over the window from the errors of heading and position. Reason: the error of
+/// the initial reading shifts all later values.
 Eigen::VectorXd about_their_mean(const ReplayedWindow& window, Eigen::VectorXd errors) {
   for (const LogChannel channel : {LogChannel::kX, LogChannel::kY, LogChannel::kHeading}) {
     double sum = 0.0;
@@ -123,8 +121,7 @@ Windows evenly_chosen(const std::vector<ReplayedWindow>& all) {
 }
 
 Turns turns_in(const LogWindow& rows, const Plant<double>& plant) {
-  // Up to this RMS steering angle, or this RMS difference of left and right force (divided by
-  // F_max), the cause does not count as a turn.
+  // Smaller RMS steering angles, or RMS differences of left and right force, are not a turn.
   constexpr double kLittleAngle_rad = 0.02;
   constexpr double kLittleForce = 0.02;
   // Smallest ratio of the squared moments with which the larger one counts as the only cause.

@@ -20,7 +20,6 @@ std::string unit_of(TrialKind kind) {
   return "s";
 }
 
-/// A fault for each trial whose input or measurement is not above 0.
 std::vector<Fault> trial_faults(const Model& model) {
   std::vector<Fault> faults;
   for (std::size_t i = 0; i < model.record.trials.size(); ++i) {
@@ -50,8 +49,7 @@ TrialResidual residual_of(const Plant<double>& plant, const TrialPoint& trial) {
   return residual;
 }
 
-/// RMS of the relative errors of the trials of one kind. Absent if there is no such trial, or if
-/// one of them has no prediction.
+/// Absent if there is no trial of this kind, or if a trial has no prediction.
 std::optional<double> rms_relative_error(const std::vector<TrialResidual>& trials, TrialKind kind) {
   double sum = 0.0;
   int count = 0;

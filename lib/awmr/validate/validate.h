@@ -74,8 +74,8 @@ struct Validation {
   std::vector<Acceptance> drives;  ///< results for drives of a scenario under the controller
   std::vector<Claim> claims;
   /// Verdict of the validation. True if every kind of trial and every log is predicted within its
-  /// tolerance, and every drive of a scenario agrees with the prediction. False if there is nothing
-  /// to compare: neither trials, logs nor drives.
+  /// tolerance, and every drive of a scenario agrees with the prediction. False without trials,
+  /// logs and drives.
   bool passed = false;
   std::string verdict;  ///< `passed` and its reasons in one sentence
 };
@@ -99,11 +99,11 @@ std::optional<double> predicted_measurement(const Plant<double>& plant, const Tr
 
 /// Predicts the model's trials and checks the paper's claims. Claims do not affect `passed`,
 /// because a claim that is not reproduced is a result about the paper, not about the model. Without
-/// gains, validate() checks only C1, C2 and C14. It leaves out claims for which the model lacks
-/// parameters, or the vehicle four driven wheels and steering; the verdict names them. Errors
-/// (input): the model lacks a parameter that its trials measure or, with gains, any parameter; the
-/// input or the measurement of a trial is not above 0; the tolerance is not above 0; the errors of
-/// batch_arithmetic().
+/// gains, validate() checks only C1, C2 and C14. It leaves out claims that need parameters which
+/// the model lacks, or four driven wheels and steering which the vehicle lacks; the verdict names
+/// them. Errors (input): the model lacks a parameter that its trials measure or, with gains, any
+/// parameter; the input or the measurement of a trial is not above 0; the tolerance is not above 0;
+/// the errors of batch_arithmetic().
 Result<Validation> validate(const Model& model, const std::optional<ModeGains>& gains,
                             const ValidateOptions& options);
 

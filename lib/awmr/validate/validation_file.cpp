@@ -23,8 +23,7 @@ Json error_json(const PredictionError& error) {
   return {{"nrmse", error.nrmse}, {"r2", error.r2}, {"rmse", error.rmse}};
 }
 
-/// The series as JSON for a chart. Values are rounded, times are not, because times in a long log
-/// need more digits.
+/// The series for a chart. Times are not rounded, because a long log needs more digits.
 Json series_json(const PredictedSeries& series) {
   const auto numbers = [](const std::vector<double>& values) {
     Json list = Json::array();
@@ -113,7 +112,6 @@ Json case_json(const ClaimCase& open) {
           {"verdict", verdict_of(open.reproduced)}};
 }
 
-/// The verdict of the claim in each case, then the verdict of each mode in each case.
 Json cases_json(const Claim& claim) {
   Json json = Json::array();
   for (const ClaimCase& open : claim.cases) json.push_back(case_json(open));
