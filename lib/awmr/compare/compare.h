@@ -84,7 +84,7 @@ struct CompareOptions {
   int threads = 0;
   /// Called with the numbers of finished and of all runs, on the thread that called compare().
   std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// If *stop becomes true, no further run starts, and running runs finish. Null: no stop.
+  /// If *stop becomes true, no further run starts, and current runs finish. Null: no stop.
   const std::atomic<bool>* stop = nullptr;
 };
 

@@ -96,7 +96,7 @@ std::string decisions_of(const std::vector<EvaluatedScenario>& scenarios) {
   return text + survived + '\n';
 }
 
-/// Table of the MetricTally of all metrics. Empty for a single scenario.
+/// Table by metric: in how many scenarios each mode is best or tied. Empty for a single scenario.
 std::string overall_of(const std::vector<EvaluatedScenario>& scenarios) {
   if (scenarios.size() < 2) return "";
   std::string text =

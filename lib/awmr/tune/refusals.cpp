@@ -122,11 +122,10 @@ tl::unexpected<Error> not_found(const SearchResult& found, const Objective& obje
   const bool is_activity = found.broken_most.starts_with("activity");
   return refused_at(
       requested, is_activity ? "/activity_max" : pointer_to(found.broken_most), ErrorCode::kNoGains,
-      fmt::format(
-          "no gains within the bounds meet every limit: the nearest of {} evaluated sets ({}) "
-          "violate '{}' by {:.0f} %; {}, or increase `local_evaluations`",
-          found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
-          is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
+      fmt::format("no gains within the bounds meet every limit: the nearest of {} evaluated sets "
+                  "of gains ({}) violates '{}' by {:.0f} %; {}, or increase `local_evaluations`",
+                  found.evaluations, gains, found.broken_most, 100.0 * found.broken_by,
+                  is_activity ? "raise activity_max of tune.json" : advice_on(found.broken_most)));
 }
 
 tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs,

@@ -18,7 +18,8 @@ namespace awmr {
 
 struct AcceptanceOptions {
   YawMode mode = YawMode::kCombined;
-  /// Number of predicted drives, 39 ... 10000. Below 39, the p-value is too coarse.
+  /// Number of predicted drives, 39 ... 10000. Below 39, the p-value is too coarse for the limit
+  /// 0.05.
   int draws = 200;
   std::uint64_t seed = 1;
   /// Time in the log, s, at which the scenario begins. Absent: the time of the first row with a

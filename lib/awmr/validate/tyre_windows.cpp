@@ -32,7 +32,8 @@ std::vector<double> steering_angles(const DrivingLog& log, const Plant<double>& 
   return angles;
 }
 
-/// False in the first second of the window, in which errors of the initial state decay.
+/// True if the errors of this row count. In the first second of the window they do not, because the
+/// error of the initial state decays there.
 bool counts(const LogWindow& rows, std::size_t row) {
   constexpr double kBegin_s = 1.0;
   return rows.log->t_s[row] - rows.log->t_s[rows.begin] >= kBegin_s;
@@ -121,7 +122,7 @@ Windows evenly_chosen(const std::vector<ReplayedWindow>& all) {
 }
 
 Turns turns_in(const LogWindow& rows, const Plant<double>& plant) {
-  // Smaller RMS steering angles, or RMS differences of left and right force, are not a turn.
+  // Smaller RMS steering angles, or RMS differences of left and right force, count as no turn.
   constexpr double kLittleAngle_rad = 0.02;
   constexpr double kLittleForce = 0.02;
   // Smallest ratio of the squared moments with which the larger one counts as the only cause.

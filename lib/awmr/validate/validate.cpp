@@ -94,8 +94,9 @@ void set_verdict(Validation& validation, double tolerance) {
   if (stops == 1) validation.verdict += "; a single stop time determines m' but cannot check it";
   if (unpredicted > 0) {
     validation.verdict += fmt::format(
-        "; {} row(s) have no finite prediction: with an exponent b near 0 there is no steady "
-        "speed, with b1 >= 1 no stop",
+        "; {} row(s) have no finite prediction: with an exponent (surge.beta, yaw.beta) near 0 "
+        "there "
+        "is no steady rate, with surge.beta >= 1 no stop",
         unpredicted);
   }
 }
