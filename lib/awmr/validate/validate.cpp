@@ -95,8 +95,7 @@ void set_verdict(Validation& validation, double tolerance) {
   if (unpredicted > 0) {
     validation.verdict += fmt::format(
         "; {} row(s) have no finite prediction: with an exponent (surge.beta, yaw.beta) near 0 "
-        "there "
-        "is no steady rate, with surge.beta >= 1 no stop",
+        "there is no steady rate, with surge.beta >= 1 no stop",
         unpredicted);
   }
 }
