@@ -28,9 +28,9 @@ Result<std::vector<BreakEven>> break_even_of(const Model& model, const ModeGains
 /// scrub was not measured at all.
 bool turns_at_other_rates(const BreakEven& entry);
 
-/// Returns the break-even analysis as text for a terminal. For each pair of modes, the text has the
-/// smallest break-even scrub of all scenarios, and whether the first mode stays better with the
-/// measured scrub. If scrub was not measured, the text names the trials to record.
+/// Returns the break-even analysis as text for a terminal. It has the smallest break-even scrub of
+/// each pair of modes over all scenarios, and whether the first mode stays better with the measured
+/// scrub. If scrub was not measured, the text names the trials to record.
 std::string break_even_table(const std::vector<BreakEven>& entries);
 
 }  // namespace awmr

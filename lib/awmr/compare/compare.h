@@ -105,10 +105,10 @@ struct BreakEven {
   double sliding_m = 0.0;
   /// Highest yaw rate in the run of `mode` on the nominal model without scrub, deg/s, >= 0.
   double fastest_degps = 0.0;
-  /// Range of the scrub moment measured in differential turns, m. It contains the 95 % interval,
-  /// the largest moment that did not turn the vehicle and, if scrub depends on the yaw rate, the
-  /// values at all measured rates. If only the moment that did not turn the vehicle is known, the
-  /// range extends from this moment to most_m. Absent if nothing was measured.
+  /// Range of the scrub moment measured in differential turns, m. It contains the 95 % interval and
+  /// the largest moment that did not turn the vehicle. If scrub depends on the yaw rate, it
+  /// contains the values at all measured rates. If only the moment that did not turn the vehicle is
+  /// known, the range extends from this moment to most_m. Absent if nothing was measured.
   std::optional<Interval> measured_m = {};
   /// Yaw rates of the turns in which scrub was measured, deg/s; absent if the model has no scrub.
   std::optional<Interval> measured_degps = {};

@@ -60,7 +60,7 @@ struct MetricColumn {
 
 /// All metrics. Heading and cross-track error, settling and finishing time, speed drop, mechanical
 /// work and tyre work have the default weight 1 in the ranking. All other metrics have the weight
-/// 0. For example, the sideslip follows from the geometry of the turn, and the control variation is
+/// 0. For example, the sideslip follows from the geometry of the turn. The control variation is
 /// nearly 0 in some modes, so its ratios mean little.
 inline constexpr std::array<MetricColumn, 17> kMetricColumns = {{
     {MetricId::kSettlingTime, "settling_time_s", "settle", "s", &Metrics::settling_time_s, 0.1,

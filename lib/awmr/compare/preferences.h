@@ -25,8 +25,8 @@ struct Preferences {
   /// default weight (metric_columns.h).
   std::map<std::string, double, std::less<>> weights;
   /// Relevance margin, in kRelevance. Two values of a metric count as equal if their relative
-  /// difference is at most this margin, or their difference is at most the metric's floor
-  /// (MetricColumn::ranking_floor).
+  /// difference is at most this margin, or their difference at most the metric's floor
+  /// (MetricColumn).
   double relevance = 0.05;
   friend bool operator==(const Preferences&, const Preferences&) = default;
 };

@@ -14,8 +14,8 @@ namespace awmr {
 
 /// Largest latency, in samples, for which the damping is computed.
 inline constexpr int kMaxLatencySamples = 20;
-/// mu I'z must be at least this share of the modelled yaw resistance, and mu_s m' this share of the
-/// surge resistance, so that the control laws can compensate model errors. Chosen above the
+/// mu I'z must be at least this share of the modelled yaw resistance, and mu_s m' of the surge
+/// resistance. With less, the control laws could not compensate model errors. Chosen above the
 /// relative model error that `awmr validate` accepts by default (0.15).
 inline constexpr double kUnmodelledShare = 0.2;
 inline constexpr const char* kSteeringRate = "steering rate";
@@ -78,9 +78,9 @@ inline double steering_angle_factor(const Plant<double>& plant) {
 /// from steering_angle_factor().
 double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 
-/// Returns the largest yaw moment tau_turn, m, of the weaker mode (steering or differential) at the
-/// steady speed u_d, or of `mode` if it is one of these two. A mode without any moment at that
-/// speed (steering at rest) is ignored.
+/// Returns the largest yaw moment tau_turn, m, at the steady speed u_d, of the weaker mode
+/// (steering or differential). If `mode` is one of the two modes: of this mode. A mode without any
+/// moment at that speed (steering at rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
 /// F'max and F'min are the limits of the wheel force after subtracting the motor dead zone. With
@@ -119,8 +119,8 @@ double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 ///
 /// T2 < T1: both forms are reported; only ConstraintContext::form is required.
 ///
-/// Heading damping is the smallest over the vehicle's modes and the yaw rates of kRateShares,
-/// because the slope of the yaw resistance g3 depends on the rate. For the nominal plant, late
+/// Heading damping is the smallest over the vehicle's modes and the yaw rates of kRateShares. It
+/// depends on the rate through the slope of the yaw resistance g3. For the nominal plant, late
 /// damping is also computed at all these rates. For drawn plants, late damping and delay margin are
 /// computed at the lowest and the highest rate only, to save time: their matrices grow with the
 /// latency.

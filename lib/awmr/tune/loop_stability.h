@@ -21,10 +21,10 @@ struct UnstableLoop {
 };
 
 /// Returns the unstable loops of the identified vehicle: at most one heading loop and the speed
-/// loop. The loops are those that `tune` examines (SampledHeadingLoop), linearised with the
-/// resistances of the model, at the yaw rates and the speed of the default tuning scenario, with
-/// the latency and the motor lag of `conditions`. `mode`: the mode in which the gains are used;
-/// absent: all modes of the vehicle. Returns nothing if the model lacks a parameter of these loops.
+/// loop. They are linearised as in `tune` (SampledHeadingLoop), at the yaw rates and the speed of
+/// the default tuning scenario. Latency and motor lag are those of `conditions`. `mode`: the mode
+/// in which the gains are used; absent: all modes of the vehicle. Returns nothing if the model
+/// lacks a parameter of these loops.
 std::vector<UnstableLoop> unstable_loops(const Model& model, const ModeGains& gains,
                                          const LoopConditions& conditions,
                                          std::optional<YawMode> mode = {});

@@ -10,8 +10,8 @@
 namespace awmr {
 
 /// Returns the gains with the fastest poles that the constraints allow. Inside the boundary layer,
-/// the characteristic polynomial of the heading loop is (s + lambda)(s + k), k = mu/eps, and that
-/// of the speed loop s + k_s, k_s = mu_s/eps_s:
+/// the heading loop has the poles -lambda and -k, k = mu/eps, and the speed loop the pole -k_s, k_s
+/// = mu_s/eps_s:
 ///   lambda, k   the pair with the largest lambda that meets every constraint. Ratios lambda/k from
 ///               the largest that T2 < T1 allows (strict: margin; paper: 2 margin) down to a 64th
 ///               of it are tried.

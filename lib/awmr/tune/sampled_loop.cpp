@@ -250,9 +250,8 @@ std::vector<Interval> crossings_of(const SampledHeadingLoop& loop, const Compens
   return ranges;
 }
 
-/// Returns the smallest delay, s, above `least_s` with which the loop has a pole e^(j w T_s) on the
-/// unit circle, with the frequency w in one of the ranges. Empty if |P| does not cross 1 in one of
-/// the ranges.
+/// Returns the smallest delay, s, above `least_s` with which the loop has a pole on the unit circle
+/// whose frequency is in one of the ranges. Empty if |P| does not cross 1 in one of the ranges.
 std::optional<double> next_crossing_s(const CompensatedLoop& open,
                                       const std::vector<Interval>& ranges, double least_s) {
   constexpr std::uintmax_t kEvaluationsMax = 60;

@@ -50,15 +50,15 @@ struct SampledHeadingLoop {
 /// A sampled pole z with |z| below this value decays by a factor of 10 or more in one sample, so
 /// damping_ratio() counts it with the damping ratio 1.
 inline constexpr double kGoneWithinASample = 0.1;
-/// Smallest damping ratio zeta = -Re(s)/|s| over the poles s = ln(z)/T_s of the closed loop, z the
-/// eigenvalues of its matrix from one sample to the next. In [-1, 1]; positive exactly if the loop
-/// is stable (every |z| < 1). A negative z (alternating signs) counts with the angle pi.
+/// Smallest damping ratio zeta = -Re(s)/|s| over the poles s = ln(z)/T_s of the closed loop. z are
+/// the eigenvalues of its matrix from one sample to the next. In [-1, 1]; positive exactly if the
+/// loop is stable (every |z| < 1). A negative z (alternating signs) counts with the angle pi.
 double damping_ratio(const SampledHeadingLoop& loop);
 
-/// Smallest damping ratio of the speed loop, whose equations are those of SampledHeadingLoop for
-/// lambda = 0 and s = 1, without psi (precondition: `loop` has these values): r is the deviation
-/// from the commanded speed u_d, m/s, k is mu_s/eps_s, a = (g1'(u_d) + n k_e)/m' with the back-EMF
-/// k_e of n driven wheels, and m' replaces I'z. Positive exactly if the loop is stable.
+/// Smallest damping ratio of the speed loop. Its equations are those of SampledHeadingLoop for
+/// lambda = 0 and s = 1, without psi (precondition: `loop` has these values). r is the deviation
+/// from the commanded speed u_d, m/s, k is mu_s/eps_s, and m' replaces I'z. a = (g1'(u_d) + n
+/// k_e)/m', with the back-EMF k_e of n driven wheels. Positive exactly if the loop is stable.
 double speed_damping_ratio(const SampledHeadingLoop& loop);
 
 /// Like damping_ratio(), but poles that decay much faster than the slowest pole count less, because

@@ -67,9 +67,9 @@ inline constexpr double kBoundFactor = 10.0;
 
 /// Limits that the tuned gains must meet.
 struct TuningLimits {
-  /// Largest RMS rate of the steering command due to sensor noise, deg/s, > 0, while a heading is
-  /// held at the largest u_d of the scenarios (steering_rate_rms_degps() in steering_rate.h). If
-  /// absent, a nominal search has no limit, and a robust search uses the larger of
+  /// Largest RMS rate of the steering command that sensor noise causes, deg/s, > 0, while a heading
+  /// is held at the largest u_d of the scenarios (steering_rate.h). If absent, a nominal search has
+  /// no limit, and a robust search uses the larger of
   ///   - 0.9 of the servo's rate limit, which counts as at most 2 d_max/T, T its time constant;
   ///   - 1.25 times the rate that noise causes through the feed-forward of the yaw resistance g3
   ///     alone, without Coulomb friction.
@@ -280,8 +280,8 @@ struct SearchStep {
 struct SearchHistory {
   /// Improvements of the objective, in the order of the evaluations, at most kMaxHistorySteps. They
   /// include only evaluations on the few vehicles of the search (kSearchedDraws). The final gains
-  /// can differ from the last step, because the last stage of the search uses all drawn vehicles,
-  /// and settle() selects among equally good gains.
+  /// can differ from the last step: the last stage of the search uses all drawn vehicles, and
+  /// settle() selects among equally good gains.
   std::vector<SearchStep> best;
   int global_evaluations = 0;  ///< number of evaluations by the global search
   /// Number of evaluations by the global and the local searches on the draws of the search.
@@ -364,9 +364,8 @@ struct TradeOff {
   /// Points of named gains in the same runs. Gains with which a run breaks off are left out. "lqi"
   /// is the LQI law (linear-quadratic with integral, control/heading_lqi.h). Its weights follow
   /// from Bryson's rule: 1 over the square of an acceptable value. With p the largest heading step,
-  /// the acceptable values are p/6 for the heading error, p/1.5 per second for the yaw rate, and
-  /// p/6 times 4 seconds for the integral of the error. For the yaw moment, it is a quarter of the
-  /// largest moment of the weaker mode.
+  /// the acceptable values are: heading error p/6, its integral p/6 times 4 s, yaw rate p/1.5 per
+  /// second. Yaw moment: a quarter of the largest moment of the weaker mode.
   std::vector<NamedTradeOff> named;
 };
 

@@ -213,9 +213,9 @@ std::vector<Finding> nominal_findings(const Tuning& tuning) {
   return unsettled_findings(few);
 }
 
-/// Returns findings from the runs of newly drawn vehicles, which the search did not use: a warning
-/// for each goal that these vehicles do not confirm (`goal-missed`, `goal-open`), and warnings if
-/// fewer than 95 % of the runs of a scenario and mode settle after every step (`unsettled`).
+/// Returns findings from the runs of newly drawn vehicles, which the search did not use. These are
+/// warnings about goals that the vehicles do not confirm (`goal-missed`, `goal-open`), and about
+/// scenarios and modes in which fewer than 95 % of the runs settle (`unsettled`).
 std::vector<Finding> evaluation_findings(const RobustTuning& robust,
                                          std::span<const UnsettledRuns> unsettled) {
   std::vector<Finding> findings;

@@ -23,11 +23,11 @@ struct EvidenceChannel {
   const PredictedBand* predicted;
 };
 
-/// Tries each fault hypothesis: a change of a parameter (except exponents), of the force or lag of
-/// the motors, of the bias or latency of a sensor, or a constant external force or moment. For each
-/// hypothesis, searches the value that minimises the sum of squared distances between the simulated
-/// run and the drive. The controller stays the same. Returns the hypotheses that remove at least 30
-/// % of this sum, best first, at most four.
+/// Tries each fault hypothesis. It changes a parameter (except exponents), the force or lag of the
+/// motors, or the bias or latency of a sensor, or adds a constant external force or moment. For
+/// each hypothesis, searches the value that minimises the sum of squared distances between the
+/// simulated run and the drive. The controller stays the same. Returns the hypotheses that remove
+/// at least 30 % of this sum, best first, at most four.
 std::vector<FaultHypothesis> fault_hypotheses(const Model& model,
                                               const Controller<double>& controller,
                                               const Scenario& scenario,

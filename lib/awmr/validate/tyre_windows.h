@@ -60,8 +60,8 @@ std::vector<ReplayedWindow> windows_in(const std::vector<DrivingLog>& logs,
 Windows evenly_chosen(const std::vector<ReplayedWindow>& all);
 
 /// Cause of the turns in a window: different left and right wheel forces (by_sides), or the
-/// steering. At most one is true. A cause is true if its commands are not near 0, and if its
-/// squared yaw moment, summed over the window, is at least 3 times that of the other cause.
+/// steering. A cause is true if its commands are not near 0, and if its squared yaw moment, summed
+/// over the window, is at least 3 times that of the other cause. So at most one cause is true.
 struct Turns {
   bool by_sides = false;
   bool by_steering = false;
