@@ -1,11 +1,10 @@
 /// Allocation: computes the left and right wheel forces F'L, F'R and the steering angle d_r from
 /// the surge force tau_speed and the yaw moment tau_turn. Freestanding C++14.
 ///
-/// The limits are applied in this order: tau_speed is clipped to the motors' thrust, d_r to |d_r|
-/// <= d_max, and then each F', computed with the clipped d_r, to [F'min, F'max]. In combined mode
+/// Limits, in this order: tau_speed is clipped to the motors' thrust, then d_r to |d_r| <= d_max.
+/// The forces F' are computed with the clipped d_r and clipped to [F'min, F'max]. In combined mode
 /// with CombinedSplit::kRedistribute, the wheel forces make the moment that the steering cannot
-/// make at its limit. Likewise, the steering makes the moment that clipped wheel forces cannot
-/// make.
+/// make at its stop, and the steering makes the moment that clipped wheel forces cannot make.
 #pragma once
 
 #include "awmr/control/allocation_limits.h"
@@ -20,8 +19,8 @@ namespace awmr {
 namespace detail {
 
 /// Steering that makes a yaw moment. q is a measure of the steering angle d_r: tan(d_r/2) with four
-/// driven wheels, see steering_geometry.h. `limited`: q was clipped. `powerless`: q is 0, because
-/// the surge force tau_speed is below steering_authority_min().
+/// driven wheels (steering_geometry.h). `limited`: q was clipped. `powerless`: q is 0, because the
+/// surge force tau_speed is too small to steer (below steering_authority_min()).
 template <class T>
 struct Steering {
   T q;
@@ -42,8 +41,8 @@ AWMR_INLINE Steering<T> steer(const AllocationConstants<T>& c, const T& tau_spee
   return {clipped, math::is_different(clipped, q), powerless};
 }
 
-/// Converts q to the steering angle d_r, rad. With `at_stop` (q was clipped to +-q_max), the result
-/// is exactly +-d_max.
+/// Converts q to the steering angle d_r, rad. If q was clipped (`at_stop`), the result is exactly
+/// +-d_max.
 template <class T>
 AWMR_INLINE T steering_angle_rad(const SteeringGeometry& geometry, const AllocationConstants<T>& c,
                                  const T& q, const Mask<T>& at_stop) {
@@ -97,8 +96,9 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
   const T limit = steering_limit(c, speed);
   detail::Steering<T> steering = detail::steer(c, speed, steered_m, limit);
 
-  // The wheel forces make the remaining moment. With CombinedSplit::kRedistribute, they also make
-  // the moment that the steering cannot make, because it is at its stop or tau_speed is too small.
+  // The wheel forces make the moment that the steering leaves. With CombinedSplit::kRedistribute,
+  // they also make the moment that the steering cannot make: it is at its stop, or tau_speed is too
+  // small.
   const Mask<T> leaves = split.redistributes && (steering.limited || steering.powerless);
   T moment_m = tau_turn_m - steered_m;
   if (any(leaves))
@@ -125,8 +125,8 @@ AWMR_INLINE void allocate(const SteeringGeometry& geometry, const YawSplit<T>& s
       geometry, c, steering.q, a.steering_limited && !math::is_different(limit, c.q_max));
 }
 
-/// Allocates in the given yaw mode. `u_mps` is the speed u, forward positive. It has an effect only
-/// for motors with back-EMF, which lowers the force limits by k_e u. `constants`: the result of
+/// Allocates in the given yaw mode. The speed u = `u_mps`, forward positive, matters only for
+/// motors with back-EMF, which lowers the force limits by k_e u. `constants`: the result of
 /// prepared(limits).
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
@@ -139,8 +139,7 @@ Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
   return a;
 }
 
-/// Same as allocate() above, but also computes the constants from the limits. For use where
-/// computing time does not matter.
+/// Same as allocate() above, but slower: also computes the constants from the limits.
 template <class T>
 Allocation<T> allocate(YawMode mode, const T& tau_speed, const T& tau_turn_m,
                        const AllocationLimits<T>& limits, const T& u_mps = T(0.0)) {

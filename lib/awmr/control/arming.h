@@ -1,9 +1,9 @@
 /// Arming: the motors can turn only after the command ARM and until the first reason to stop.
 /// Freestanding C++14.
 ///
-/// After a reset, the vehicle is disarmed. ARM is refused while there is any fault other than the
-/// command time-out. STOP, a command time-out, any fault and the end of a route disarm the vehicle.
-/// It then stays disarmed until the next ARM, even after the reason has ended.
+/// After a reset, the vehicle is disarmed. ARM is refused while any fault other than the command
+/// time-out is present. STOP, a command time-out, any fault and the end of a route disarm the
+/// vehicle. It stays disarmed until the next ARM, even if the reason has ended.
 #pragma once
 
 #include <stdint.h>
@@ -40,8 +40,8 @@ struct Arming {
     cause = 0;
     return true;
   }
-  /// Disarms the vehicle and stores the reason. If the vehicle is already disarmed, the first
-  /// reason is kept, unless the new one is kStop.
+  /// Disarms the vehicle and stores the reason. If the vehicle is already disarmed, it keeps the
+  /// first reason, unless the new reason is kStop.
   void disarm(DisarmReason why) {
     if (is_armed() || why == DisarmReason::kStop) reason = why;
   }

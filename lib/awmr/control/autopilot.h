@@ -62,8 +62,8 @@ AWMR_INLINE bool update_reference(Autopilot<G, P>& a, const AutopilotInput& in,
   return target.arrived;
 }
 
-/// Predicts the signed speed at this step by the identified model, for a speed sensor without a
-/// sign. No-op in the first step.
+/// For a speed sensor without a sign: predicts the signed speed at this step by the identified
+/// model. No-op in the first step.
 template <class G, class P>
 AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
   if (!a.has_stepped) return;
@@ -73,8 +73,7 @@ AWMR_CALLED void predict_direction(Autopilot<G, P>& a, uint32_t now_ms) {
   predict_speed(a.direction, a.controller.surge, a.mass_inverse, a.limits.speed_max_mps, dt_s);
 }
 
-/// Corrects the predicted speed by the reading of the speed sensor. No-op if the reading is not
-/// new.
+/// Corrects the predicted speed by a reading of the speed sensor, if the reading is new.
 template <class G, class P>
 AWMR_CALLED void read_speed(Autopilot<G, P>& a, const AutopilotInput& in) {
   const bool is_new = !a.direction.has_fix || in.times.speed_ms != a.direction_ms;
@@ -82,8 +81,8 @@ AWMR_CALLED void read_speed(Autopilot<G, P>& a, const AutopilotInput& in) {
   correct_speed(a.direction, {in.measured.u_mps, in.position_m, in.measured.psi_rad, is_new});
 }
 
-/// True if the heading reference and the outputs of both laws are finite. Checking only the command
-/// is not enough: in steering mode, the wheels of a braking vehicle are straight even if the
+/// True if the heading reference and the outputs of both laws are finite. A check of the command
+/// alone is not enough: in steering mode, a braking vehicle gets straight wheels even if the
 /// heading reference is NaN.
 inline bool is_finite(const AutopilotOutput& out) {
   const uint16_t infinity = static_cast<uint16_t>(float_math::kInfinityBits >> 16U);
@@ -119,7 +118,7 @@ AWMR_INLINE void control(Autopilot<G, P>& a, const AutopilotInput& in,
 }
 
 /// Sets the safe command (motors off, wheels straight). Resets obstacle avoidance, heading shaping
-/// and disturbance observers, so that they start anew in the next step without a fault.
+/// and disturbance observers, because their state no longer matches the motion of the vehicle.
 template <class G, class P>
 AWMR_INLINE void stop(Autopilot<G, P>& a, AutopilotOutput& out) {
   reset(part_of<typename P::Avoidance>(a));
@@ -142,8 +141,8 @@ void autopilot_step(Autopilot<G, P>& a, const AutopilotInput& in, AutopilotOutpu
   if (is_directed) detail::predict_direction(a, in.times.now_ms);
   if (P::kIsDirected) a.direction.tau_speed = 0.0F;
   out.fault = detail::check_input(a, in);
-  // The command time-out alone, which is normal before a drive, does not stop the estimates of
-  // direction and position.
+  // The estimates of direction and position continue during a command time-out, which is normal
+  // before a drive. Any other fault stops them.
   const bool is_sensed = (out.fault & static_cast<uint8_t>(~kFaultCommandTimeout)) == 0;
   if (is_directed && is_sensed) detail::read_speed(a, in);
   typename P::Positioning& positioning = part_of<typename P::Positioning>(a);

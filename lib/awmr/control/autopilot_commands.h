@@ -7,7 +7,7 @@
 namespace awmr {
 
 /// Makes the autopilot follow these waypoints from the next step on, instead of any line or path.
-/// With `count` 0, the vehicle holds the heading of AutopilotInput::reference.
+/// If the list is empty (`count` 0), the vehicle holds the heading of AutopilotInput::reference.
 template <class G, class P>
 void follow_waypoints(Autopilot<G, P>& a, const Waypoints<float>& waypoints) {
   a.waypoints = waypoints;
@@ -42,8 +42,7 @@ void follow_path(Autopilot<G, P>& a, const Lissajous<float>& path, float gain_pe
 }
 
 /// Makes the autopilot avoid `count` obstacles from the next step on; 0: none. `sectors` is work
-/// space for `count` elements. The arrays are not copied but used in every step, so they must stay
-/// valid.
+/// space for `count` elements. The arrays must stay valid: every step reads them, without a copy.
 template <class G, class P>
 void avoid_obstacles(Autopilot<G, P>& a, const Avoidance<float>& avoidance,
                      const Obstacle<float>* obstacles, Sector<float>* sectors, int count) {
@@ -55,8 +54,8 @@ void avoid_obstacles(Autopilot<G, P>& a, const Avoidance<float>& avoidance,
   part.state = AvoidanceState();
 }
 
-/// Makes the autopilot smooth the heading reference by this filter from the next step on. The
-/// filter starts at the vehicle's heading. `sample_time_s`: time between two steps.
+/// Makes the autopilot smooth the heading reference with this filter from the next step on,
+/// starting at the vehicle's heading. `sample_time_s`: time between two steps.
 template <class G, class P>
 void shape_headings(Autopilot<G, P>& a, const HeadingShaping<float>& filter, float sample_time_s) {
   Shaper<float>& part = part_of<Shaper<float>>(a);

@@ -51,7 +51,7 @@ struct Positioner {
 };
 
 /// List of parts for a firmware without optional parts. A firmware with some parts defines its own
-/// struct with the same member names. AllParts below is an example.
+/// struct with the same member names, as AllParts below does.
 struct NoParts {
   typedef Disabled<LineFollower<float>> Line;
   typedef Disabled<PathFollower<float, uint32_t>> Path;
@@ -109,10 +109,10 @@ AWMR_INLINE void reset(Positioner<Filter>& part) {
   part.estimate.restart();
 }
 
-/// Returns the present position: the estimate, or the input's position_m if position_m is not a GPS
-/// fix or the estimate is not compiled in. Call it only if the input has no fault other than the
-/// command time-out. `speed_mps` is the predicted speed. Its sign is used if the speed sensor
-/// measures no sign.
+/// Returns the present position: the estimate, or in.position_m if this is not a GPS fix or if the
+/// estimate is not compiled in. If the speed sensor measures no sign, the estimate uses the sign of
+/// the predicted speed `speed_mps`. Call it only if the input has no fault other than the command
+/// time-out.
 template <class Filter>
 AWMR_INLINE const Position<float>& position_now(const Disabled<Positioner<Filter>>&,
                                                 const AutopilotInput& in, const float&) {
@@ -140,9 +140,9 @@ inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) 
   force = with_dead_zone(force, part.dead_zone);
 }
 
-/// Sets the friction width of the yaw resistance g3 to that of `mode`, if the mode has changed. The
-/// friction width is the yaw rate below which Coulomb friction is fed forward smoothly
-/// (Gains::friction_width_at()). No-op if MotorCurve is not compiled in.
+/// Sets the friction width of the yaw resistance g3 to that of `mode`, if the mode has changed.
+/// Below this yaw rate, the feed-forward of Coulomb friction changes smoothly with the yaw rate
+/// instead of jumping (Gains::friction_width_at()). No-op if MotorCurve is not compiled in.
 template <class G>
 AWMR_INLINE void use_friction_width(Disabled<MotorCurve>&, uint8_t, G&) {}
 template <class G>
@@ -152,7 +152,7 @@ void use_friction_width(MotorCurve& part, uint8_t mode, G& yaw) {
   if (part.rest != 0) set_friction_width(part.rest, mode, yaw);
 }
 
-/// Switches the observer to that of a mode, which may have none. No-op if the observer is not
+/// Switches to the observer of a mode, or off if the mode has none. No-op if the observer is not
 /// compiled in.
 inline void use_observer(const GainsBlock&, float, Disabled<Observer>&) {}
 inline void use_observer(const GainsBlock& own, float sample_time_s, Observer& part) {
@@ -188,8 +188,8 @@ void use_gains(GainsByMode& part, uint8_t mode, ControlConstants<float>& constan
   if (sample_time_s > 0.0F) use_observer(own, sample_time_s, observation);
 }
 
-/// Returns the allocation limits at the speed u, m/s. They are those at rest, `c`, reduced by
-/// back-EMF if MotorCurve is compiled in.
+/// Returns the allocation limits at the speed u, m/s: the limits at rest, `c`, reduced by back-EMF
+/// if MotorCurve is compiled in.
 AWMR_INLINE const AllocationConstants<float>& limits_at(const Disabled<MotorCurve>&,
                                                         const AllocationConstants<float>& c,
                                                         const float& /*u_mps*/) {

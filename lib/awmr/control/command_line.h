@@ -1,21 +1,20 @@
 /// Reads commands from a serial line: one command per line, as text for a terminal or as frames for
 /// a program. Freestanding C++14.
 ///
-///     text   = WORD [" " NUMBER]
+///     text   = WORD [" " NUMBER], for example "H 90"; command_word.h explains the words:
+///              ARM  STOP  KEEP  G  N  Y  H <deg>  S <m/s>  M <mode>  T <force>
 ///     frame  = "#" SEQUENCE " " text "*" CRC
-///     SEQUENCE: 0 to 255, one more than in the last frame (256 is 0); CRC: CRC-16 (crc.h) of the
-///     characters between # and *, four hexadecimal digits
+///     SEQUENCE: 0 to 255, one more than in the last frame (256 is 0)
+///     CRC: CRC-16 (crc.h) of the characters between # and *, four hexadecimal digits
 ///
-///     ARM  STOP  KEEP  G  N  Y  H <deg>  S <m/s>  M <mode>  T <force>
-///
-/// - A line is executed only if it is a complete command; incomplete lines are refused.
+/// - A line is executed only if it is a complete command.
 /// - Exception: STOP acts at its last letter, anywhere in a line, even in one that is too long or
 ///   damaged.
-/// - A frame is new if its sequence number is 1 to 127 above that of the last new frame, modulo
-///   256. Other frames are refused, so that a stuck transmitter, which repeats a frame, cannot
-///   prevent the command time-out.
-/// - After the first frame, text other than STOP is refused until the next reset, because noise on
-///   a radio link can look like a short text but not like a frame.
+/// - A frame counts as new if its sequence number is 1 to 127 above that of the last new frame,
+///   modulo 256. Other frames are refused. So a faulty transmitter that repeats one frame cannot
+///   keep the command time-out from stopping the vehicle.
+/// - After the first frame, text other than STOP is refused until the next reset: noise on a radio
+///   link can look like a short text, but not like a frame.
 #pragma once
 
 #include <stdint.h>
@@ -45,9 +44,8 @@ class CommandReader {
   bool is_framed = false;  ///< the last line was a frame
   uint8_t sequence = 0;    ///< sequence number of the last new frame
 
-  /// Processes a character. If it completes a line, returns the result for this line; within a
-  /// line, and for an empty line, returns kNone. Exception: the last letter of STOP gives kTaken at
-  /// once.
+  /// Processes a character. If it ends a line, returns the result for this line; within a line, and
+  /// for an empty line, returns kNone. Exception: the last letter of STOP gives kTaken at once.
   CommandVerdict take(char c) {
     if (is_stop_at(c)) {
       // Skip the rest of this line.
@@ -133,8 +131,8 @@ class CommandReader {
     const uint8_t ahead = static_cast<uint8_t>(number - sequence);
     if (has_sequence_ && (ahead == 0 || ahead > 127)) return CommandVerdict::kRepeated;
     const CommandVerdict verdict = read_text(text + 1);
-    // The sequence number counts as used even if the command is unknown, so that a repetition of
-    // this frame is refused.
+    // An unknown command also uses up its sequence number, so that a repetition of the frame is
+    // refused.
     sequence = static_cast<uint8_t>(number);
     has_sequence_ = true;
     return verdict;

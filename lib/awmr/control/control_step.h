@@ -43,8 +43,8 @@ ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measu
           k.mass_norm * m.r_radps * m.v_mps};
 }
 
-/// Generalised forces (surge force and yaw moment) that the allocated wheel forces and steering
-/// angle make, equation (41). The constants `c` must be those of the vehicle.
+/// Surge force and yaw moment that the allocated wheel forces and steering angle make, equation
+/// (41). The constants `c` must be those of the vehicle.
 template <class T>
 GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
                                       const AllocationConstants<T>& c, const Allocation<T>& a) {
@@ -54,8 +54,7 @@ GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
 }
 
 /// Subtracts the estimated disturbance from the requested force and moment, allocates the result,
-/// and passes the limited command to the observers. If `observers` is null, nothing is subtracted
-/// and `state` is not used.
+/// and passes the limited command to the observers. Null `observers`: no disturbance is subtracted.
 template <class T, class G>
 AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
                                       const PreparedController<T, G>& c, const Measurement<T>& m,

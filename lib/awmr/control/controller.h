@@ -20,9 +20,8 @@ struct Controller {
   AllocationLimits<T> limits;  ///< limits of the vehicle
 };
 
-/// Constants of the laws and the allocation: products of model parameters, gains and limits. They
-/// are computed once. All members are of type T, so there is no padding and a check sum can cover
-/// the struct.
+/// Products of model parameters, gains and limits that the laws and the allocation use, computed
+/// once. All members are of type T, so there is no padding and a check sum can cover the struct.
 template <class T>
 struct ControlConstants {
   T mass_norm;      ///< m', s^2/m

@@ -8,19 +8,18 @@ namespace awmr {
 
 /// Integral of the heading error beyond e0 = on_course_rad over the distance driven, m rad:
 ///   off = max(0, off + int (|psi_d - psi| - e0) |u| dt)
-/// psi_d is the commanded heading, psi the heading, u the speed. The integral keeps growing while
-/// the vehicle does not turn to psi_d. Possible reasons: a gyroscope with the wrong sign, a failed
-/// or reversed servo or motor, a target inside the turning circle. For comparison, a healthy turn
-/// by 180 deg with the radius R adds
+/// psi_d is the commanded heading, psi the heading, u the speed. The integral grows as long as the
+/// vehicle does not turn to psi_d, because the gyroscope has the wrong sign, a servo or motor
+/// failed or is reversed, or the target is inside the turning circle. A healthy turn by 180 deg
+/// with the radius R adds only
 ///   R int_e0^pi (e - e0) de = R (pi - e0)^2/2
 class CourseCheck {
  public:
   void restart() { off_course_mrad_ = 0.0F; }
 
   /// Processes the motion from the previous fix to this one. Returns true if the integral exceeds
-  /// its limit. The integral restarts at 0 while the commanded speed is 0, and when the commanded
-  /// heading changes by more than kNewCourse_rad. `Limits`: GpsLimits, or a type with constants of
-  /// the same names.
+  /// its limit. The integral restarts at 0 while the commanded speed is 0, and at each new heading
+  /// command. `Limits`: GpsLimits, or a type with constants of the same names.
   template <class Limits>
   AWMR_CALLED_MEMBER bool is_off(const Limits& limits, const GpsMotion& motion,
                                  const GpsContext& at) {
@@ -38,7 +37,7 @@ class CourseCheck {
   }
 
  private:
-  /// If the commanded heading changes by more than this between two fixes, rad, it is a new
+  /// A change of the commanded heading by more than this between two fixes, rad, is a new heading
   /// command.
   static constexpr float kNewCourse_rad = 0.35F;
 

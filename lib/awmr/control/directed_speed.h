@@ -1,18 +1,19 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
 /// The speed law needs a signed speed: with |u| as its input, it can accelerate a vehicle that
-/// rolls backward (unsigned_push()). Here, the sign is that of a predicted speed u. The
-/// prediction uses the identified model (mass m', resistance g1) and the commanded force tau_speed:
+/// rolls backward (unsigned_push()). Here, the sign is that of a predicted speed u. The identified
+/// model (mass m', resistance g1) and the commanded force tau_speed predict this speed:
 ///   m' u_dot = tau_speed - g1(u)
-/// Readings of the sensor correct the magnitude of the prediction. The displacement along the
-/// heading verifies its sign. Rules:
-///   - Braking (a force against the direction of travel) requires a known direction.
+/// Readings of the sensor correct its magnitude. The displacement along the heading verifies its
+/// sign. Rules:
+///   - Braking is a force against the direction of travel. It requires a known direction, because
+///     in the wrong direction this force accelerates the vehicle.
 ///   - The predicted speed of a braking vehicle stops at 0: braking cannot become driving backward.
 ///   - A direction is verified only while the vehicle does not brake, after 1 m along the heading.
 ///   - If the direction is unknown and |u| > |u_ref|, the vehicle coasts: tau_speed is 0.
 ///   - At u_ref = 0, tau_speed is 0 while |u| <= kStandstill_mps.
-/// So a vehicle that stops on a slope brakes in pulses. A pulse ends when the predicted speed is 0.
-/// The next pulse starts when the displacement has verified the direction again.
+/// So a vehicle that stops on a slope brakes in pulses. A pulse ends when the predicted speed is 0,
+/// and the next pulse starts when the displacement has verified the direction again.
 #pragma once
 
 #include <stdint.h>
@@ -30,8 +31,8 @@ namespace awmr {
 constexpr float kDirected_mps = 0.1F;
 /// Distance along the heading that verifies a direction, m.
 constexpr float kVerified_m = 1.0F;
-/// A displacement verifies the direction only if the last braking ended at least this time ago, s.
-/// The time is longer than the latency of a GPS plus the time in which the vehicle stops.
+/// Time since the last braking, s, before a displacement can verify the direction. It exceeds the
+/// latency of a GPS plus the time in which the vehicle stops.
 constexpr float kSettled_s = 1.0F;
 
 /// Direction of travel between two steps. With all members 0, the vehicle is at rest and its
@@ -89,9 +90,9 @@ void predict_speed(DirectedSpeed<T>& d, const G& surge, const T& mass_inverse,
   }
 }
 
-/// Corrects the predicted speed by a reading of the sensor. No-op if the reading is not new. When
-/// the displacement verifies the direction, the predicted speed is set to the measured speed with
-/// the sign of the displacement.
+/// Corrects the predicted speed by a reading of the sensor, if the reading is new. When the
+/// displacement verifies the direction, the predicted speed becomes the measured speed with the
+/// sign of the displacement.
 template <class T>
 void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   if (!reading.is_new) return;
@@ -112,7 +113,7 @@ void correct_speed(DirectedSpeed<T>& d, const SpeedReading<T>& reading) {
   T size = detail::magnitude(d.predicted_mps);
   // While a force drives the vehicle, the predicted speed becomes the mean of prediction and
   // reading. While the vehicle coasts or brakes, only a reading below the prediction is used: a
-  // larger one can belong to motion in the other direction.
+  // larger reading can belong to motion in the other direction.
   if (d.predicted_mps * d.tau_speed > T(0.0)) {
     size = T(0.5) * (size + speed);
   } else if (size > speed) {
@@ -141,14 +142,14 @@ void apply_direction(const DirectedSpeed<T>& d, Measurement<T>& m, Reference<T>&
   m.u_mps = math::with_sign(speed, is_known ? d.predicted_mps : ref.speed_mps);
 }
 
-/// Force, divided by F_max, with which the speed law pushes a vehicle backward that rolls backward
-/// at the speed u = speed_mps > 0, if the law receives |u|. The vehicle runs away if the force
-/// exceeds the resistance g1(u). Limits of the motors are not included. For the reference speed 0,
-/// the law commands
+/// Force, divided by F_max, by which the speed law would accelerate a vehicle that rolls backward
+/// at the speed u = speed_mps > 0, if the law received |u|. If the force exceeds the resistance
+/// g1(u), the vehicle runs away. At the reference speed 0, without limits of the motors, the law
+/// commands
 ///   tau_speed = -(m' mu_s sat(u/eps_s) + f)
 /// m' is `mass_norm`; mu_s, eps_s are `gains`; f is the Coulomb friction that the law feeds
 /// forward. If the surge resistance g1 = `surge` jumps at rest, f = g1(w0) sat(u/w0) with w0 =
-/// feed_forward_rest_speed(), else f = 0.
+/// feed_forward_rest_speed(); otherwise f = 0.
 template <class T>
 T unsigned_push(const Resistance<T>& surge, const T& mass_norm, const SpeedGains<T>& gains,
                 const T& speed_mps) {

@@ -1,6 +1,6 @@
-/// Disturbance observer for surge and yaw. The control laws do not know external forces such as a
-/// slope. The observer estimates them, and the estimate is subtracted from the outputs of the laws.
-/// Freestanding C++14.
+/// Disturbance observer for surge and yaw: estimates external forces that the control laws do not
+/// know, such as a slope. The estimate is subtracted from the outputs of the laws. Freestanding
+/// C++14.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -40,8 +40,8 @@ ObserverState<T> start_observer(const DisturbanceObserver<T>& observer, const T&
 }
 
 /// Returns the estimated disturbance d_hat, in the unit of tau. If d_hat exceeds the limit, sets
-/// the state z to the value for which d_hat equals the limit. So the estimate decreases as soon as
-/// the disturbance does.
+/// the state z to the value for which d_hat equals the limit. So d_hat decreases at once when the
+/// disturbance decreases.
 template <class T>
 T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverState<T>& state) {
   const T share = observer.bandwidth_radps * momentum;
@@ -50,9 +50,9 @@ T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverSt
   return d;
 }
 
-/// Advances the state by one sample. `known` is tau - g(w), the force that is known. Its tau must
-/// be the limited command: with the requested one, a saturated actuator looks like a disturbance,
-/// and d_hat winds up.
+/// Advances the state by one sample. `known` is the known force tau - g(w). Its tau must be the
+/// limited command. With the requested command, a saturated actuator would look like a disturbance,
+/// and d_hat would wind up.
 template <class T>
 void advance(const DisturbanceObserver<T>& observer, const T& d_hat, const T& known,
              const T& sample_time_s, ObserverState<T>& state) {
@@ -64,8 +64,8 @@ template <class T>
 struct Observers {
   DisturbanceObserver<T> yaw;    ///< limit in m
   DisturbanceObserver<T> surge;  ///< dimensionless limit
-  /// True: the observers use the limited command. False, for comparison: they use the requested
-  /// command, so the estimate winds up while an actuator is at its limit.
+  /// True: the observers use the limited command. False, only for comparison: they use the
+  /// requested command, so the estimate winds up while an actuator is at its limit.
   bool anti_windup;
 };
 

@@ -12,11 +12,11 @@ namespace awmr {
 ///   g(w)                                        for |w| >= rest_speed
 ///   g(rest_speed) sat((w + intent)/rest_speed)  below
 /// The second line is for resistances that jump at rest (feed_forward() in resistance.h). Near
-/// rest, the sign of the measured w is noise, so this line takes the direction in which the vehicle
-/// shall move. `intent` is the error that the law corrects: the speed error e_u, or the sliding
-/// variable S of the heading law. The noise of w cancels in w + intent: this sum is psi_d_dot +
-/// lambda e in the heading law, and u_d in the speed law. (For u_d = 0 the speed law passes w = 0.
-/// The sum is then -u, and friction helps to brake.)
+/// rest, the sign of the measured w is noise. Therefore, this line takes the sign of the wanted
+/// motion. `intent` is the error that the law corrects: the speed error e_u, or the sliding
+/// variable S of the heading law. The sum w + intent is free of the noise of w: it is u_d in the
+/// speed law, and psi_d_dot + lambda e in the heading law. (For u_d = 0, the speed law passes w =
+/// 0. The sum is then -u, and friction helps to brake.)
 template <class T>
 T fed_forward(const Resistance<T>& law, const T& speed, const T& intent) {
   using math::abs;
@@ -35,8 +35,7 @@ inline float fed_forward(const RestingTable& law, const float& speed, const floa
   if (!law.is_resting(speed)) return law.table(speed);
   return law.at_rest * math::saturate((speed + intent) / law.rest_speed, 1.0F);
 }
-/// Resistance g(w) that the law feeds forward if the resistance does not jump at rest. `intent` is
-/// not used.
+/// Resistance g(w) that the law feeds forward, for a resistance that does not jump at rest.
 template <class T, class G>
 T fed_forward(const G& table, const T& speed, const T&) {
   return table(speed);

@@ -1,13 +1,13 @@
-/// Reads constants from the flash of an AVR, which is a separate address space there. On other
-/// processors, they are ordinary constants. Freestanding C++14.
+/// Reads constants from the flash of an AVR, where flash is a separate address space. On other
+/// processors, these constants are ordinary ones. Freestanding C++14.
 #pragma once
 
 #include <stdint.h>
 #include <string.h>
 
 /// AWMR_IN_FLASH marks a constant that is only in flash and needs no RAM. AWMR_SHARED marks a
-/// function that must not be inlined, because it is called from several places. AWMR_INLINE marks a
-/// template that must be inlined, because it is called from one place only.
+/// function with several callers: inlining it would need more flash. AWMR_INLINE marks a template
+/// with one caller, which must be inlined.
 #ifdef __AVR__
 #include <avr/pgmspace.h>
 #define AWMR_IN_FLASH PROGMEM

@@ -34,16 +34,15 @@ class GpsCheck {
     last_ = kGpsNoFix;
   }
 
-  /// Processes a fix at (x, y), m, that was received at `now_ms`. Returns true if the fix is
-  /// accepted.
+  /// Processes a fix at (x, y), m, received at `now_ms`. Returns true if the fix is accepted.
   bool take_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
     const bool is_believed = accept_fix(fix, x_m, y_m, now_ms, at);
     finish_motion();
     return is_believed;
   }
 
-  /// First part of take_fix(): decides whether to accept the fix. The second part, the checks of
-  /// the motion, can follow in later steps by check_motion(), but must be done before the next fix.
+  /// First part of take_fix(): decides whether to accept the fix. The second part, check_motion(),
+  /// can follow in later steps, but must be done before the next fix.
   bool accept_fix(const GpsFix& fix, float x_m, float y_m, uint32_t now_ms, const GpsContext& at) {
     sentence_ms_ = now_ms;
     if (has_utc_) {
@@ -72,8 +71,8 @@ class GpsCheck {
       motion_.restart();
       has_fix_ = false;
     }
-    // The vehicle is disarmed and at rest: clear the faults of the motion checks, so that it can be
-    // armed.
+    // The vehicle is disarmed and at rest: clear the faults of the motion checks. Otherwise, it
+    // could not be armed again.
     if (!at.is_armed && fix.speed_mps < kStandstill_mps) motion_.restart();
     elsewhere_ = 0;
     if (has_fix_) motion_.take(motion, at);
@@ -106,14 +105,14 @@ class GpsCheck {
     uint32_t time_ms;
   };
 
-  /// A fix is refused as kGpsOld if its latency exceeds the smallest latency so far by more than
-  /// this, ms.
+  /// Largest permitted increase of the latency of a fix over the smallest latency so far, ms. A fix
+  /// with a larger latency is refused as kGpsOld.
   static constexpr int32_t kGpsLag_ms = 500;
   /// Displacement that the noise of two fixes can cause, m.
   static constexpr float kNoise_m = 3.0F;
-  /// Number of consecutive fixes out of reach of the vehicle that must arrive while it is disarmed;
-  /// the last of them is accepted as its new position. Likewise, after UTC ran backward, this
-  /// number of further fixes must arrive, and the last of them is accepted.
+  /// Number of fixes out of reach in a row that a disarmed vehicle must receive: the last of them
+  /// is accepted as its new position, as after a transport. Also the number of fixes that must
+  /// arrive after UTC ran backward: the last of them is accepted.
   static constexpr uint8_t kRelocations = 10;
 
   Limits limits_;
@@ -136,7 +135,8 @@ class GpsCheck {
 
   /// Updates lag_ms_, the latency of the last fix minus the smallest latency so far. From one fix
   /// to the next, the latency grows by the advance of the board's clock minus the advance of UTC.
-  /// The clock of a board can be wrong by up to 0.5 %, so 1/64 of the time is subtracted.
+  /// The board's clock can be wrong by up to 0.5 %. So 1/64 of the time (1.6 %) is subtracted;
+  /// otherwise, a slow drift of the clock would look like latency.
   void note_lag(uint32_t wait_ms, uint32_t advance_ms) {
     lag_ms_ += static_cast<int32_t>(wait_ms - advance_ms) - static_cast<int32_t>(advance_ms / 64U);
     if (lag_ms_ < 0) lag_ms_ = 0;
@@ -148,8 +148,8 @@ class GpsCheck {
             1e-3F * static_cast<float>(detail::elapsed_ms(to.time_ms, fix_.time_ms)), to.speed_mps};
   }
 
-  /// True if the vehicle can have moved from the last accepted fix to the place `to`, that is, if
-  /// the displacement is at most
+  /// True if the vehicle can have moved from the last accepted fix to the place `to`. The
+  /// displacement is then at most
   ///   kNoise_m + (1.5 u + 1 m/s) t
   /// u is the larger of the speeds at the two fixes, t the time between them.
   bool is_reachable(const Place& to, const GpsMotion& motion) const {

@@ -32,8 +32,8 @@ constexpr uint32_t kDay_ms = 1000 * kDay_s;
 constexpr uint32_t kDegree_e7 = 10000000;
 
 /// A number in a GPS sentence. `whole` has the digits before the decimal point, `part` the decimal
-/// places: with three places, ".5" gives 500. Hours, minutes and seconds are combined with base 60,
-/// and so are degrees and minutes: the digits 1234 for 12 deg 34 min give whole = 12 * 60 + 34.
+/// places: with three places, ".5" gives 500. In times and angles, `whole` counts in the smallest
+/// unit: the digits 1234 for 12 deg 34 min give whole = 12 * 60 + 34.
 struct RmcNumber {
   uint32_t whole;
   uint32_t part;

@@ -13,7 +13,7 @@ class RmcNumberReader {
   uint32_t value_ = 0;       // value of the digits read so far, before or after the point
   uint8_t digits_left_ = 0;  // digits still expected before the decimal point
   uint8_t places_left_ = 0;  // decimal places still to be read; later ones are ignored
-  // Positions of digits that are tens of minutes or seconds, which must be below 6. Bit 0: the next
+  // Mask of the digits that are tens of minutes or seconds, which must be below 6. Bit 0: the next
   // digit, bit 1: the digit after it, and so on.
   uint8_t sixties_ = 0;
   bool has_point_ = false;
@@ -42,9 +42,8 @@ class RmcNumberReader {
     }
     append(digit, is_sixties);
   }
-  /// Appends a digit: value = 10 value + digit, or, if `is_sixties`, value = 6 value + digit,
-  /// because the tens of minutes and seconds count 0 to 5. The code uses shifts, because a product
-  /// takes 50 cycles on an AVR.
+  /// Appends a digit: value = 10 value + digit. For tens of minutes and seconds (`is_sixties`):
+  /// value = 6 value + digit. The code uses shifts, because a product takes 50 cycles on an AVR.
   void append(uint8_t digit, bool is_sixties) {
     const uint32_t twice = value_ << 1U;
     uint32_t rest = twice << 1U;

@@ -1,7 +1,7 @@
-/// Strict reader for the RMC sentence of a GPS receiver (NMEA 0183). An empty or malformed field,
-/// or a missing or wrong check sum, makes the whole sentence unusable. The reader processes each
-/// character when it arrives, with integers only. So the computing time is spread over the control
-/// steps in which the sentence arrives. Freestanding C++14.
+/// Strict reader for the RMC sentence of a GPS receiver (NMEA 0183). A sentence with an empty or
+/// malformed field, or with a missing or wrong check sum, is unusable. The reader processes each
+/// character when it arrives, with integers only, so that the computing time is spread over several
+/// control steps. Freestanding C++14.
 #pragma once
 
 #include "awmr/control/gps_fix.h"
@@ -28,9 +28,8 @@ inline uint8_t hex_value(char c) {
 /// xx are two characters for the satellite system, as in $GPRMC and $GNRMC; hh is the check sum.
 class RmcReader : RmcNumberReader {
  public:
-  /// Processes a character. Returns true if the character ended a sentence. kind() and numbers()
-  /// are then valid until the next $, which starts a sentence. A sentence that is too long is
-  /// dropped.
+  /// Processes a character. Returns true if it ended a sentence. kind() and numbers() are then
+  /// valid until the next sentence starts (character $). A sentence that is too long is dropped.
   bool take(char c) {
     const uint8_t digit = static_cast<uint8_t>(c - '0');
     if (c == '$') {
@@ -168,10 +167,10 @@ class RmcReader : RmcNumberReader {
   void begin_field() {
     size_ = 0;
     if (field_ < kBeyond) ++field_;
-    // Arguments of begin_number() after the number: how many digits stand before the point (for the
-    // speed, at most so many), how many decimal places are used, and a mask of the digits that must
-    // be below 6, because they are tens of minutes or seconds. Formats: time hhmmss[.s*] (a leap
-    // second is refused), latitude ddmm.m*, longitude dddmm.m*.
+    // Arguments of begin_number() after the number: digits before the point (for the speed, a
+    // maximum), decimal places used, and a mask of the digits that must be below 6, because they
+    // are tens of minutes or seconds. Formats: time hhmmss[.s*] (a leap second is refused),
+    // latitude ddmm.m*, longitude dddmm.m*.
     if (field_ == kUtc) begin_number(numbers_.utc, 6, 3, 0x14);
     if (field_ == kLat) begin_number(numbers_.lat, 4, 7, 0x04);
     if (field_ == kLon) begin_number(numbers_.lon, 5, 7, 0x08);

@@ -5,9 +5,9 @@
 
 namespace awmr {
 
-/// Measures the zero-rate offset of a gyroscope as the mean of 100 readings. If the spread or the
-/// mean of these readings, or the change of the compass heading, shows that the vehicle was not at
-/// rest, the measurement starts again.
+/// Measures the zero-rate offset of a gyroscope as the mean of 100 readings. The measurement starts
+/// again if the vehicle was not at rest. Signs of motion: the spread or the mean of the readings,
+/// or the change of the compass heading, is too large.
 class GyroCalibration {
  public:
   /// Processes the gyroscope's raw reading `word` of one sample; a count of 1 is `rate_per_word`
@@ -38,8 +38,8 @@ class GyroCalibration {
   /// Maximum difference between two readings of a vehicle at rest, rad/s. It is six times the
   /// peak-to-peak noise of an MPU9250 with its 41 Hz filter.
   static constexpr float kSpreadMax_radps = 0.05F;
-  /// Maximum zero-rate offset, rad/s (5.2 deg/s). The data sheet specifies at most 5 deg/s. A
-  /// larger mean is taken for a rotation of the vehicle.
+  /// Maximum zero-rate offset, rad/s (5.2 deg/s). The data sheet specifies at most 5 deg/s, so a
+  /// larger mean is a rotation of the vehicle.
   static constexpr float kBiasMax_radps = 0.09F;
   /// Maximum change of the compass heading during the measurement, rad (3.4 deg, of which 1.4 deg
   /// can be noise).

@@ -8,8 +8,8 @@
 namespace awmr {
 
 /// A sensor counts as frozen if its raw word has not changed for this time, ms: 50 readings at 100
-/// Hz. In a working sensor, noise changes the word all the time, by 5 counts RMS (gyroscope) or 4
-/// (compass).
+/// Hz. In a working sensor, noise changes the word continually, by 5 counts RMS (gyroscope) or 4
+/// counts RMS (compass).
 constexpr uint32_t kFrozen_ms = 500;
 /// Longest permitted time between two readings of the compass, ms.
 constexpr uint32_t kCompassSilent_ms = 500;
@@ -54,13 +54,13 @@ class StepCheck {
   bool is_apart() const { return is_apart_; }
 
  private:
-  /// Limits of a sudden fault: an innovation above 20 deg for 0.2 s. Causes: the compass jumped, or
-  /// the vehicle turns and the scale of the gyroscope is wrong.
+  /// Limits of a sudden fault: the innovation exceeds 20 deg for 0.2 s. Causes: the compass jumped,
+  /// or the scale of the gyroscope is wrong and the vehicle turns.
   static constexpr float kJump_rad = 0.35F;
   static constexpr float kJump_s = 0.2F;
-  /// Limits of a slow fault: a mean innovation above 6 deg, where the mean is a low pass of 5 s.
-  /// With the time constant T = 2 s, 6 deg is a difference between the two yaw rates of 3 deg/s.
-  /// Causes: the compass is frozen, or the gyroscope drifts.
+  /// Limits of a slow fault: the innovation, after a low pass of 5 s, exceeds 6 deg. With the time
+  /// constant T = 2 s, this is a difference of 3 deg/s between the two yaw rates. Causes: the
+  /// compass is frozen, or the gyroscope drifts.
   static constexpr float kSlow_per_s = 0.2F;
   static constexpr float kSlowMax_rad = 0.105F;
 
@@ -69,9 +69,9 @@ class StepCheck {
   bool is_apart_ = false;
 };
 
-/// Compares the yaw rate with the commanded yaw moment. This detects swapped left and right motors,
-/// a reversed servo, and a gyroscope with the wrong sign. It is a fault if the vehicle turns by 90
-/// deg against the moment while its yaw rate stays above three quarters of its maximum. (If the yaw
+/// Compares the yaw rate with the commanded yaw moment. Detects swapped left and right motors, a
+/// reversed servo, and a gyroscope with the wrong sign. A fault: the vehicle turns by 90 deg
+/// against the moment while its yaw rate stays above three quarters of its maximum. (If the yaw
 /// rate falls, the moment brakes an earlier turn, which is no fault.)
 class TurnCheck {
  public:
@@ -80,9 +80,9 @@ class TurnCheck {
   void begin(float rate_per_word, float dt_s) {
     quarter_turn_words_ = static_cast<int32_t>(float_math::kPiBy2 / (rate_per_word * dt_s));
   }
-  /// Processes a reading of the gyroscope from which the zero-rate offset was subtracted.
-  /// `moment_m` is the yaw moment commanded since the last reading, m; 0: the motors are off. The
-  /// arithmetic uses integers, because these are fast on the chip.
+  /// Processes a reading of the gyroscope without its zero-rate offset. `moment_m` is the yaw
+  /// moment commanded since the last reading, m; 0: the motors are off. Uses integers, which are
+  /// fast on the chip.
   AWMR_CALLED_MEMBER void take(int16_t word, float moment_m) {
     if (word <= kTurning && word >= -kTurning) {
       if (is_wrong_ && float_math::magnitude_bits(moment_m) == 0) restart();
@@ -103,8 +103,8 @@ class TurnCheck {
   bool is_wrong() const { return is_wrong_; }
 
  private:
-  /// Smallest |word| that counts as turning. It is above the noise: 5.7 deg/s for an MPU9250 with
-  /// the range +-500 deg/s.
+  /// Smallest |word| that counts as turning: 5.7 deg/s for an MPU9250 with the range +-500 deg/s,
+  /// which is above its noise.
   static constexpr int16_t kTurning = 375;
   int32_t quarter_turn_words_ = 0;  // sum of the words during a turn of 90 deg
   int32_t against_words_ = 0;       // sum of |word| while turning against the moment
@@ -134,14 +134,14 @@ class HeadingCheck {
     gyro_ms_ = now_ms;
     gyro_.take(static_cast<uint16_t>(word), now_ms);
   }
-  /// Processes a check of the gyroscope's range register. `is_right`: the register still holds the
-  /// range that was set at the start. If not, the sensor was reset.
+  /// Processes a check of the gyroscope's range register. `is_right` false: the register has lost
+  /// the range that was set at the start, because the sensor was reset.
   void take_range(bool is_right) { is_range_wrong_ = !is_right; }
   /// Processes a new reading of the compass: three raw words of the magnetic field.
   void take_field(int16_t x, int16_t y, int16_t z, uint32_t now_ms) {
     field_ms_ = now_ms;
-    // Combine the three 16-bit words into one 32-bit word. Changes of two words can cancel each
-    // other in it, but not in every reading of half a second.
+    // Combine the three 16-bit words into one 32-bit word. In a single reading, changes of two
+    // words can cancel each other, but not in every reading of half a second.
     const uint32_t low = static_cast<uint16_t>(x);
     const uint32_t high = static_cast<uint16_t>(y);
     field_.take(

@@ -122,10 +122,9 @@ constexpr T same_moment_share() {
 
 /// Advances the integral z of the heading error e by one sample:
 ///   z_dot = e
-///   z_dot = 0 while a limit reduces the moment and e requires more of it
-/// The second line prevents windup at a limit (conditional integration). `requested_m`: the moment
-/// that the law requested. `a`: the allocation of this moment. `made`: the forces that the
-/// allocation makes.
+///   z_dot = 0 while a limit reduces the moment and e requires a larger moment
+/// The second line prevents windup at a limit (conditional integration). `requested_m`: moment that
+/// the law requested; `a`: its allocation; `made`: forces that the allocation makes.
 template <class T>
 void integrate_error(const T& requested_m, const Allocation<T>& a, const GeneralisedForces<T>& made,
                      const T& sample_time_s, LqiState<T>& state) {

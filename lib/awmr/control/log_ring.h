@@ -2,9 +2,9 @@
 /// buffer. The idle loop copies them to a card, which can block for a quarter of a second.
 /// Freestanding C++11.
 ///
-/// The writer (the control step, an interrupt) and the reader (the idle loop) need no lock. Each of
-/// them changes only its own counter. A counter is a byte, which an 8-bit processor reads and
-/// writes atomically.
+/// The writer (the control step, an interrupt) and the reader (the idle loop) need no lock: each
+/// changes only its own counter. A counter is one byte, which an 8-bit processor reads and writes
+/// atomically.
 #pragma once
 
 #include <stdint.h>
@@ -16,9 +16,9 @@ namespace awmr {
 /// Number of log rows, 64 bytes each, in a block of the card, 512 bytes.
 constexpr uint8_t kLogBlockRows = 8;
 
-/// A ring buffer of kBlocks blocks of 512 bytes. If one row is written per sample time, no row is
-/// lost while the card is busy for up to (kBlocks - 1) * 8 sample times. With 8 blocks and a sample
-/// time of 10 ms, this is 0.56 s.
+/// A ring buffer of kBlocks blocks of 512 bytes (8 rows). With one row per sample time, no row is
+/// lost while the card is busy for up to (kBlocks - 1) * 8 sample times: 0.56 s for 8 blocks and 10
+/// ms.
 template <uint8_t kBlocks>
 class LogRing {
   static_assert(kBlocks >= 2 && kBlocks <= 16 && (kBlocks & (kBlocks - 1)) == 0,
@@ -40,8 +40,8 @@ class LogRing {
     written_ = static_cast<uint8_t>(written_ + 1);
   }
 
-  /// Returns the number of rows that can be read now. If the current block is complete, these are
-  /// its remaining rows, else 0. With `rest`, the rows of an incomplete block can also be read.
+  /// Returns the number of rows that can be read now: the remaining rows of the current block if it
+  /// is complete, else 0. With `rest`, rows of an incomplete block can also be read.
   uint8_t ready(bool rest = false) const {
     const uint8_t there = static_cast<uint8_t>(written_ - read_);
     const uint8_t whole = static_cast<uint8_t>(kLogBlockRows - read_ % kLogBlockRows);

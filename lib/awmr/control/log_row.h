@@ -15,8 +15,7 @@
 
 namespace awmr {
 
-/// First bytes of a header. The first of them is not valid in UTF-8, so no text file starts like
-/// this.
+/// First bytes of a header. The first byte is not valid in UTF-8, so no text file starts like this.
 constexpr uint8_t kLogMagic[4] = {0xA7, 'A', 'W', 'L'};
 /// Size of a header: four blocks of a card.
 constexpr size_t kLogHeaderBytes = 2048;

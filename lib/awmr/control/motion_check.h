@@ -104,12 +104,13 @@ class MotionCheck : MotionLimits {
 
   /// Compares the displacement with the distance travelled, which is the integral of the measured
   /// speed u. Both are summed over a window of time. `ahead` and `left` are the displacements along
-  /// the heading and to its left. A fault is reported unless, at every fix,
+  /// the heading and to its left. A motion without fault satisfies, at every fix,
   ///   |sum of ahead| <= 1.25 int |u| dt + kFurther_m
   /// and, at the end of a window with int |u| dt > kWindow_m,
   ///   |sum of ahead| + |sum of left| >= 0.25 int |u| dt
-  /// With the commanded speed 0, the second line is tested only in windows shorter than kMoving_s.
-  /// It contains the sum of left so that a compass error is not reported here, but as kOffHeading.
+  /// While the commanded speed is 0, the second line is tested only in windows shorter than
+  /// kMoving_s. It contains the sum of left so that a compass error is reported as kOffHeading and
+  /// not here.
   AWMR_CALLED_MEMBER void compare_with_speed() {
     const bool is_long = travelled_m_ > kWindow_m;
     if (is_long && (direction_ != 0 || window_s_ < kMoving_s) &&
@@ -149,8 +150,8 @@ class MotionCheck : MotionLimits {
     if (!is_moving || motion_.speed_mps > braked_from_mps_ + kFaster_mps) braking_s_ = 0.0F;
   }
 
-  /// Compares the displacement with the commanded direction of travel. Detects a vehicle that moves
-  /// the opposite way.
+  /// Compares the displacement with the commanded direction of travel: a vehicle that moves the
+  /// opposite way has a fault.
   AWMR_CALLED_MEMBER void compare_with_direction() {
     follow_command();
     ahead_m_ = displacement_ahead_m(motion_.dx_m, motion_.dy_m, context_.psi_rad);
@@ -174,7 +175,7 @@ class MotionCheck : MotionLimits {
   }
 
   /// Compares the direction of the displacement with the heading. Detects a compass that is mounted
-  /// at an angle or deflected by iron.
+  /// at an angle or deflected by iron nearby.
   AWMR_CALLED_MEMBER void compare_with_heading() {
     if (direction_ == 0) return restart_track();
     if (!is_straight_) return;

@@ -11,8 +11,8 @@ namespace awmr {
 
 /// Constants of the allocation for motors with back-EMF at the speed u, m/s: each force limit is
 /// reduced by k_e u, with the back-EMF coefficient k_e. In a turn, the speeds of the wheels differ
-/// from u by -+ d r (d: half the track width, r: yaw rate). motor_drives() takes this into account,
-/// but the limits here do not.
+/// from u by -+ d r (d: half the track width, r: yaw rate). The limits here neglect this
+/// difference; motor_drives() includes it.
 template <class T>
 AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_per_m, const T& u_mps,
                                 double driven_wheels = 4.0) {
@@ -31,8 +31,8 @@ AllocationConstants<T> at_speed(AllocationConstants<T> c, const T& back_emf_s_pe
 ///   e = sat(F' + k_e w, [F'min, F'max]),   w = u -+ d r           upper sign: left, lower: right
 /// k_e: back-EMF coefficient; d: half the track width. w is the speed of a rear wheel. The speed of
 /// a front wheel differs by w d_r^2/2 and l_f r d_r, which are neglected. A drive of 0 switches the
-/// motor off, and the wheel rolls freely. So a vehicle that cannot reverse its motors (F'min = 0)
-/// brakes by back-EMF only while its drive is above 0. NaN stays NaN.
+/// motor off, and the wheel rolls freely. So motors that cannot reverse (F'min = 0) brake by
+/// back-EMF only while the drive is above 0. NaN stays NaN.
 template <class T>
 SideForces<T> motor_drives(const SideForces<T>& force, const AllocationConstants<T>& c,
                            const T& back_emf_s_per_m, const T& u_mps, const T& r_radps) {

@@ -4,8 +4,7 @@
 namespace awmr {
 
 /// Empty struct that replaces a part that is not compiled in. Every function on a part has an
-/// overload for this struct that does nothing. So a part that is left out needs no flash, RAM or
-/// time.
+/// overload for this struct that does nothing. So a missing part needs no flash, RAM or time.
 template <class Part>
 struct Disabled {};
 
@@ -30,8 +29,8 @@ Part& part_of(Whole& whole) {
 template <class Part>
 void disable(Disabled<Part>&) {}
 
-/// Resets the state of a part. This is called after a step with the safe command, because the state
-/// then no longer matches the motion of the vehicle.
+/// Resets the state of a part after a step with the safe command, because the state no longer
+/// matches the motion of the vehicle.
 template <class Part>
 void reset(Disabled<Part>&) {}
 

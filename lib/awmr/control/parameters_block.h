@@ -55,8 +55,8 @@ struct ObserverBlock {
   float sample_time_s;    ///< T_s, s: time between two steps
 };
 
-/// Gains of one mode, in the form of the members of ControlConstants with these names, and its
-/// observer.
+/// Gains of one mode, which replace the members of ControlConstants with the same names, and the
+/// observer of this mode.
 struct GainsBlock {
   float lambda;              ///< 1/s
   float heading_rate;        ///< s m
@@ -97,8 +97,8 @@ inline uint32_t crc32_of_parameters(const ParameterBlock* block, const Resistanc
   return ~(gains != 0 ? crc32_of_flash(crc, gains, sizeof *gains) : crc);
 }
 
-/// Sets a resistance from the parameters in flash. The overloads are for the forms in which a
-/// resistance can be compiled in: a table, or the power law with alpha and beta.
+/// Sets a resistance from the parameters in flash. There is one overload for each form that can be
+/// compiled in: a table, or the power law with alpha and beta.
 inline void set_resistance(const TableShape* shape, const float* /*alpha_beta*/,
                            const ResistanceLine* lines, ResistanceTable& table) {
   TableShape read;

@@ -2,7 +2,7 @@
 /// measured motion. Freestanding C++14.
 ///
 /// Between fixes, the position p follows the dead-reckoned displacement D (heading psi, surge speed
-/// u, sway speed v, sample time T_s). c is the correction that has been applied so far:
+/// u, sway speed v, sample time T_s). c is the correction applied so far:
 ///   p  = D + c
 ///   D += T_s (u cos psi - v sin psi, u sin psi + v cos psi)
 /// A fix z that was taken `age_s` ago is compared with the D of that time, which a ring buffer
@@ -15,8 +15,8 @@
 /// linearly to o within kSpread_s, so that the direction to a near waypoint does not jump.
 ///
 /// A fix is rejected if |nu| > kInnovationMax sqrt(P + R). After kRejections rejected fixes in a
-/// row, the estimate is assumed wrong and reset to the last fix; `resets` counts these resets. In
-/// the firmware, gps_check.h has already refused each fix that the vehicle cannot have reached.
+/// row, the estimate itself must be wrong: it is reset to the last fix, and `resets` counts this.
+/// In the firmware, gps_check.h has already refused each fix that the vehicle cannot have reached.
 #pragma once
 
 #include <stdint.h>
@@ -28,8 +28,7 @@
 
 namespace awmr {
 
-/// Estimates the position. `Filter` is the type of the constants: PositionFilter, or a type with
-/// constants of the same names.
+/// Estimates the position. `Filter`: PositionFilter, or a type with constants of the same names.
 template <class T, class Filter = PositionFilter<T>>
 class PositionEstimate {
  public:
@@ -40,8 +39,9 @@ class PositionEstimate {
   /// Makes the estimate start anew in the next step, from the fix of that step.
   void restart() { is_started_ = false; }
 
-  /// Returns the present position. In the first step, and in the first step after restart(), this
-  /// is the position of the fix. Call it once per step, with the last fix and the measured motion.
+  /// Returns the present position; in the first step, and in the first step after restart(), the
+  /// position of the fix. Call it once per step, with the last fix and the measured motion. A fix
+  /// that arrives while the previous fix is being processed is dropped.
   /// A fix that arrives while the previous fix is being processed is not used.
   Position<T> step(const PositionFix<T>& fix, const Measurement<T>& m) {
     if (!is_started_) {
@@ -59,9 +59,8 @@ class PositionEstimate {
   }
 
  private:
-  /// If the work is spread over several steps, the processing of a fix takes kWorkSteps steps. It
-  /// starts kWait steps after the arrival of the fix, because GpsReceiver uses these steps for its
-  /// checks.
+  /// If the work is spread over several steps, a fix takes kWorkSteps steps. They begin kWait steps
+  /// after its arrival, because GpsReceiver uses these kWait steps for its checks.
   static constexpr uint8_t kWorkSteps = 4;
   static constexpr uint8_t kWait = 5;
 
@@ -74,8 +73,8 @@ class PositionEstimate {
   Position<T> follow_m_ = {};            // increment of c per step
   Position<T> innovation_m_ = {};        // z, then nu
   Position<T> ring_m_[kTravelled] = {};  // D every `stride` steps
-  // Age of the fix z, s. locate() replaces it by a fraction that says where the time of z lies
-  // between two elements of the ring: 0 at newer_, 1 at the next older element.
+  // Age of the fix z, s. locate() replaces the age by a fraction: the time of z between two
+  // elements of the ring, 0 at newer_, 1 at the next older element.
   T age_s_ = T(0.0);
   T variance_m2_ = T(0.0);  // P: variance of o
   uint16_t steps_ = 0;      // steps since a fix was last processed
@@ -99,8 +98,7 @@ class PositionEstimate {
   }
 
   /// Adds the motion of one step to the displacement D. If the work is spread over several steps,
-  /// three parts alternate: cos psi, sin psi, and the increment of D are each updated in every
-  /// third step.
+  /// each step updates one of three values in turn: cos psi, sin psi, the increment of D.
   void travel(const Measurement<T>& m) {
     if (phase_ == 0 || !filter_.spreads_work) direction_.x_m = math::quick_cos(m.psi_rad);
     if (phase_ == 1 || !filter_.spreads_work) direction_.y_m = math::quick_sin(m.psi_rad);
@@ -133,9 +131,9 @@ class PositionEstimate {
     if (left == 1) correct();
   }
 
-  /// Finds the ring elements before and after the time at which the fix was taken. For a fix
-  /// younger than the newest element, D is extrapolated. The oldest element is not used, because
-  /// travel() can replace it before the next step of the work.
+  /// Finds the ring elements before and after the time of the fix. For a fix younger than the
+  /// newest element, D is extrapolated. The oldest element is not used, because travel() can
+  /// overwrite it before the next step of the work.
   void locate() {
     const T waited = filter_.spreads_work ? T(kWait) : T(0.0);
     const T steps = age_s_ * filter_.sample_rate_hz + (waited - T(since_));

@@ -22,8 +22,9 @@ constexpr double kDrift_m2ps = 0.05;
 constexpr double kSpread_s = 0.08;
 /// Smallest standard deviation of a fix, m. It is used for a receiver without noise.
 constexpr double kFixNoiseMin_m = 0.01;
-/// Largest permitted innovation |nu| divided by its standard deviation sqrt(P + R). With normally
-/// distributed errors, one of 300,000 fixes exceeds it and is rejected.
+/// Largest permitted innovation |nu| divided by its standard deviation sqrt(P + R). A larger value
+/// rejects fewer good fixes and accepts more wrong ones. With normally distributed errors, one of
+/// 300,000 good fixes is rejected.
 constexpr double kInnovationMax = 5.0;
 /// Number of consecutive rejected fixes after which the estimate is reset to the last fix.
 constexpr uint8_t kRejections = 5;
@@ -63,8 +64,8 @@ constexpr uint8_t to_count(double x) {
 }  // namespace detail
 
 /// Computes the constants for fixes with the standard deviation `noise_m` on each axis and the
-/// latency `latency_s`. The ring buffer covers the latency plus 0.1 s for the steps in which a fix
-/// is processed.
+/// latency `latency_s`. The ring buffer covers this latency plus 0.1 s, the time in which a fix is
+/// processed.
 template <class T>
 constexpr PositionFilter<T> position_filter(double noise_m, double latency_s,
                                             double sample_time_s) {

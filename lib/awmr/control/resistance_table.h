@@ -1,13 +1,13 @@
-/// Table of a resistance g(w) as a function of the speed w. It replaces powf, which is slow on the
-/// chip. Freestanding C++14.
+/// Table of a resistance g(w) as a function of the speed w. The table replaces powf, which is slow
+/// on the chip. Freestanding C++14.
 ///
-/// The table has 2^m cells (ranges of speed) per octave, evenly spaced in the octave. So the
+/// The table has 2^m cells (ranges of speed) per octave, evenly spaced in the octave, so the
 /// relative error is similar at all speeds. All speeds of a cell have the same float exponent and
-/// the same m leading mantissa bits. So the index of a cell is computed by a shift of the float's
-/// bits, without a logarithm. Within a cell, the table gives the chord: the straight line through
-/// the points of the curve at both ends of the cell. It needs one multiplication and one addition.
-/// Below the first cell, the table gives the line from the origin to the start of this cell. The
-/// table is odd: g(-w) = -g(w).
+/// the same m leading mantissa bits. So a shift of the float's bits gives the index of the cell,
+/// without a logarithm. Within a cell, the table gives the chord: the straight line through the
+/// curve's points at both ends of the cell. This needs one multiplication and one addition. Below
+/// the first cell, the table gives the line from the origin to the start of this cell. The table is
+/// odd: g(-w) = -g(w).
 #pragma once
 
 #include <stdint.h>
@@ -26,21 +26,20 @@ struct ResistanceLine {
 
 /// A table of a resistance. It refers to its lines, but does not own them.
 struct ResistanceTable {
-  /// One line per range of speed, in flash on an AVR. The first line, with offset 0, is for the
-  /// speeds below all cells. Then comes one line per cell, in ascending order of speed.
+  /// One line per cell, in ascending order of speed, in flash on an AVR. The first line, with
+  /// offset 0, is for the speeds below all cells.
   const ResistanceLine* lines;
   uint16_t count;         ///< number of lines, >= 2
   uint16_t first;         ///< cell_of() for the speeds of the first cell, whose line is lines[1]
   uint8_t mantissa_bits;  ///< m, in [0, 7]
 
-  /// Number of the cell that contains a speed: the exponent and the leading mantissa bits of the
-  /// float, without its sign.
+  /// Number of the cell that contains a speed: exponent and leading mantissa bits of the float.
   static uint16_t cell_of(float speed, uint8_t mantissa_bits) {
     return static_cast<uint16_t>(float_math::leading_bits(speed) >> (7U - mantissa_bits));
   }
 
-  /// Returns g(speed), for a speed in m/s or rad/s. For NaN, and beyond the last cell, the result
-  /// is NaN, so the caller must check the range of the speed first.
+  /// Returns g(speed), for a speed in m/s or rad/s. Beyond the last cell, and for NaN, the result
+  /// is NaN.
   float operator()(const float& speed) const {
     const uint16_t cell = cell_of(speed, mantissa_bits);
     const uint16_t index = cell < first ? 0U : static_cast<uint16_t>(cell - first + 1U);

@@ -39,10 +39,9 @@ Allocation<T> safe_command() {
 
 namespace detail {
 
-/// Compares |value| with `largest`. Returns kFaultNotFinite if the value is infinite or NaN,
-/// kFaultRange if |value| > largest, else kFaultNone. The bits of the floats are compared as
-/// integers, which have the order of the magnitudes. On the chip, this takes a tenth of the time of
-/// a float comparison.
+/// Returns kFaultNotFinite if the value is infinite or NaN, kFaultRange if |value| > largest, else
+/// kFaultNone. The bits of the floats are compared as integers, which have the same order. On the
+/// chip, this takes a tenth of the time of a float comparison.
 AWMR_SHARED inline uint8_t check_magnitude_at_edge(float value, float largest) {
   const uint32_t magnitude = float_math::magnitude_bits(value);
   if (magnitude >= float_math::kInfinityBits) return kFaultNotFinite;
@@ -64,7 +63,7 @@ inline bool is_older(uint32_t now_ms, uint32_t then_ms, uint32_t limit_ms) {
 }  // namespace detail
 
 /// Limit of the reference's yaw rate (rad/s), yaw acceleration (rad/s^2) and acceleration (m/s^2).
-/// It is far above the values of any vehicle, and only prevents overflow of products.
+/// It is far above the values of any vehicle, and only keeps products from overflowing.
 constexpr float kReferenceMax = 1e6F;
 
 /// Returns the faults of a measurement: a value is not finite, or out of range.

@@ -2,7 +2,7 @@
 ///
 /// While a sensor has a fault, its readings are not used. Their time stamp becomes too old, and the
 /// autopilot outputs the safe command (safety.h). A fault usually ends with its cause. The
-/// following faults end only under the condition that stands next to them:
+/// following faults end only under this condition:
 ///   kHeadingOutOfStep           compass and gyroscope have agreed again for a while
 ///   kWrongTurn                  the vehicle does not turn and its motors are off
 ///   kGpsOld                     if UTC ran backward: ten fixes with advancing UTC have arrived

@@ -10,8 +10,8 @@
 namespace awmr {
 
 /// Limit of the speed whose resistance the speed law feeds forward, m/s: max(0, u_d + eps_s) if the
-/// vehicle moves forward, else min(0, u_d - eps_s). u_d: desired speed, eps_s: boundary layer. Used
-/// only if the vehicle is faster than this limit.
+/// vehicle moves forward, else min(0, u_d - eps_s). u_d: desired speed, eps_s: boundary layer. It
+/// applies only to a vehicle that is faster than this limit.
 template <class T>
 AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& epsilon_mps) {
   using math::select;
@@ -26,9 +26,9 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
 ///   w = u                     else
 /// u_d: desired speed; m': normalised mass; mu_s, eps_s: gains; e_u = u_d - u: speed error.
 ///
-/// Without the second and third line, a vehicle that rolls down a slope faster than u_d would get
-/// tau_speed = g1(u) - m' mu_s. Where g1(u) > m' mu_s, this force accelerates the vehicle further.
-/// `wanted`: the correction m' mu_s e_u/eps_s before saturation. `limit`: its largest
+/// Why the second and third lines: a vehicle that rolls down a slope faster than u_d would
+/// otherwise get tau_speed = g1(u) - m' mu_s. Where g1(u) > m' mu_s, this force accelerates the
+/// vehicle further. `wanted`: correction m' mu_s e_u/eps_s before saturation; `limit`: its largest
 /// magnitude, m' mu_s. `epsilon()` returns eps_s.
 template <class T, class Epsilon>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,

@@ -1,8 +1,8 @@
 /// Steering angle and wheel forces as functions of q. Freestanding C++14.
 ///
-/// q is a measure of the steering angle d_r, and k is the force share: the forces of a left and a
-/// right wheel have the sum 2 k tau_speed. The left column defines both (l_f: centre of gravity to
-/// front axle). With four driven wheels, the right column follows from (41) in model/dynamics.h:
+/// q is a measure of the steering angle d_r. k is the force share: the forces of a left and a right
+/// wheel add up to 2 k tau_speed. The left column defines q and k (l_f: centre of gravity to front
+/// axle). With four driven wheels, the right column follows from (41) in model/dynamics.h:
 ///   tau_steering = l_f tau_speed q       q = sin d_r/(1 + cos d_r) = tan(d_r/2)
 ///   F'L + F'R    = 2 k tau_speed         k = 1/(2 (1 + cos d_r))   = (1 + q^2)/4
 /// If only the front wheels are driven (front_wheel_forces() in model/dynamics.h):

@@ -10,24 +10,22 @@ namespace awmr {
 /// uses atan2.
 constexpr int kTurnsOneByOne = 64;
 
-/// Returns the equivalent angle in (-pi, pi]. The computing time is bounded. NaN stays NaN, and an
-/// infinite angle gives NaN.
+/// Returns the equivalent angle in (-pi, pi], in bounded computing time. NaN and infinity give NaN.
 template <class T>
 T wrap_angle(T angle_rad) {
   using math::atan2;
   using math::cos;
   using math::sin;
   const T few = T(2.0 * kTurnsOneByOne) * pi<T>();
-  // A negated comparison is also true for NaN, so the second test returns NaN. Without this test,
-  // the second loop below would not end.
+  // A negated comparison is also true for NaN, so the second test returns NaN, for which the second
+  // loop below would not end.
   if (!(angle_rad < few && angle_rad > -few)) angle_rad = atan2(sin(angle_rad), cos(angle_rad));
   if (!(angle_rad < few && angle_rad > -few)) return angle_rad;
   while (angle_rad > pi<T>()) angle_rad -= T(2.0) * pi<T>();
   while (!(angle_rad > -pi<T>())) angle_rad += T(2.0) * pi<T>();
   return angle_rad;
 }
-/// For float, the computing time is the same for every angle, as a control step on the chip
-/// requires.
+/// For float: takes the same time for every angle, as a control step on the chip requires.
 template <>
 inline float wrap_angle(float angle_rad) {
   return float_math::wrapped(angle_rad);
@@ -40,8 +38,8 @@ AWMR_CALLED T called_wrap_angle(const T& angle_rad) {
 }
 
 /// Prepares an angle that is integrated over many steps for the next step. A float is wrapped to
-/// (-pi, pi], because with a growing number of turns, its resolution would become too coarse. Other
-/// types are returned unchanged.
+/// (-pi, pi], because its resolution becomes too coarse after many turns. Other types are returned
+/// unchanged.
 template <class T>
 T without_turns(const T& angle_rad) {
   return angle_rad;

@@ -17,28 +17,27 @@ struct Obstacle {
 /// Parameters of the avoidance, with the symbols of obstacles.h.
 template <class T>
 struct Avoidance {
-  /// mmd_base, m, > 0: minimum manoeuvring distance MMD at speed 0. MMD is the distance from an
-  /// obstacle at which the avoidance begins. mmd_base must be at least the vehicle's turning
-  /// radius.
+  /// mmd_base, m, > 0: minimum manoeuvring distance MMD at speed 0. The avoidance begins at the
+  /// distance MMD from an obstacle. mmd_base must be at least the vehicle's turning radius.
   T mmd_base_m;
   /// mmd_per_speed, s, >= 0: MMD grows by this per m/s of speed. A suitable value is the delay
   /// before a turn takes effect (servo, yaw inertia).
   T mmd_per_speed_s;
   /// sigma, rad, in [0, pi/2): angle by which the blocked sector exceeds the tangent to the
-  /// obstacle, at the obstacle's edge. With a larger angle, the vehicle passes at a larger
-  /// distance.
+  /// obstacle, for a vehicle at the obstacle's edge. With a larger angle, the vehicle passes at a
+  /// larger distance.
   T sigma_rad;
   /// vehicle_radius, m, >= 0: radius of the circle around the centre of gravity that encloses the
   /// vehicle.
   T vehicle_radius_m;
   /// clearance, m, > 0: free distance between that circle and the obstacle.
   T clearance_m;
-  /// Hysteresis of the distance, m, >= 0. While obstacles are avoided, an obstacle is considered
-  /// until its distance D_obs exceeds MMD by this value. This prevents switching on and off at
-  /// D_obs = MMD.
+  /// Hysteresis of the distance, m, >= 0. While obstacles are avoided, an obstacle counts until its
+  /// distance D_obs exceeds MMD by this value. Without hysteresis, the avoidance could switch on
+  /// and off at D_obs = MMD.
   T hysteresis_m;
-  /// Hysteresis of the side, rad, >= 0. The side on which the vehicle passes changes only if the
-  /// turn to the other side is smaller by more than this.
+  /// Hysteresis of the side, rad, >= 0. The vehicle changes the side on which it passes only if the
+  /// turn to the other side is smaller by more than this. With 0, it could swerve left and right.
   T side_hysteresis_rad;
   /// brake, m, > 0: if the free distance ahead is smaller than this, the speed is reduced. It must
   /// be at least the stopping distance.
@@ -55,17 +54,16 @@ struct Sector {
 
 namespace detail {
 
-/// Bearing of a point from the vehicle, rad, in the world frame; `otherwise_rad` if the two points
-/// coincide.
+/// Bearing of a point from the vehicle, rad, in the world frame. If both coincide: `otherwise_rad`.
 template <class T>
 AWMR_CALLED T bearing_rad(const Position<T>& from, const Position<T>& point,
                           const T& otherwise_rad) {
   return direction_rad(seen_from(from, point), otherwise_rad);
 }
 
-/// A heading that is inside a blocked sector by less than this angle, rad, counts as outside. The
-/// angle exceeds the rounding error of a heading in float: without it, a heading on the edge could
-/// count as blocked.
+/// A heading that is inside a blocked sector by less than this, rad, counts as outside. The angle
+/// exceeds the rounding error of a float: otherwise, a heading on the edge of a sector could count
+/// as blocked.
 template <class T>
 constexpr T sector_tolerance_rad() {
   return T(1e-4);
@@ -89,7 +87,7 @@ struct Surroundings {
   Position<T> position_m;  ///< p: position of the vehicle
   T psi_rad;               ///< the vehicle's heading
   T mmd_m;                 ///< MMD(u): minimum manoeuvring distance
-  /// Largest distance D_obs at which an obstacle is considered, m: MMD, plus the hysteresis while
+  /// Largest distance D_obs at which an obstacle counts, m: MMD, plus the hysteresis while
   /// obstacles are avoided.
   T reach_m;
   T target_m;  ///< distance to the guidance target
@@ -112,8 +110,8 @@ struct Surroundings {
     for (int i = 0; i < count; ++i) sectors[i] = sector(i);
   }
 
-  /// Angle by which `heading_rad` must turn to leave all blocked sectors, rad, >= 0. The turn is to
-  /// the left for sign = 1, to the right for sign = -1. 2 pi or more: every direction is blocked.
+  /// Angle by which `heading_rad` must turn to leave all blocked sectors, rad, >= 0: to the left
+  /// for sign = 1, to the right for sign = -1. 2 pi or more: every direction is blocked.
   AWMR_CALLED T turn_out(const T& heading_rad, const T& sign) const {
     const T full = T(2.0) * pi<T>();
     T turned = T(0.0);
@@ -133,8 +131,7 @@ struct Surroundings {
     return turned;
   }
 
-  /// Fraction of the reference speed u_d that is permitted in the vehicle's present heading, in [0,
-  /// 1].
+  /// Fraction of the reference speed u_d that obstacles ahead of the vehicle permit, in [0, 1].
   T speed_share() const {
     using math::abs;
     using math::cos;

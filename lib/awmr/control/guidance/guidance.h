@@ -1,7 +1,7 @@
 /// Guidance of one step: computes the reference heading and speed from waypoints, a line or a timed
-/// path, turns the heading away from obstacles, and smooths it. Some of its parts can be left out
-/// of a firmware. For such a part, Disabled<Part> is the type, and the overloads for it do nothing.
-/// Freestanding C++14.
+/// path, turns the heading away from obstacles, and smooths it. Optional parts that a firmware
+/// leaves out have the type Disabled<Part>; the overloads for this type do nothing. Freestanding
+/// C++14.
 #pragma once
 
 #include "awmr/control/flash.h"
@@ -58,7 +58,7 @@ AWMR_INLINE void slow_down(const SlowDown<T>& part, bool is_last, const ToGo& to
 }
 
 /// Computes the guidance to waypoints by guide() of waypoints.h. With obstacle avoidance, waypoints
-/// that an obstacle covers are skipped (covers() in obstacles.h).
+/// that an obstacle makes unreachable are skipped (covers() in obstacles.h).
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide_clear(const Disabled<Avoider<T>>&,
                                             const Waypoints<T>& waypoints, const T& acceptance_m2,
@@ -74,8 +74,7 @@ WaypointGuidance<T> guide_clear(const Avoider<T>& part, const Waypoints<T>& wayp
                             progress);
 }
 
-/// Sets the reference heading to the direction of the next waypoint. Returns false, and changes
-/// nothing, if no waypoints are set.
+/// Sets the reference heading to the direction of the next waypoint. Returns false if none is set.
 template <class T, class P, class Time>
 AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
                                     Reference<T>& ref, GuidanceTarget<T>& target) {
@@ -95,8 +94,7 @@ AWMR_INLINE bool guide_by_waypoints(GuidanceLaws<T, P>& g, const VehiclePose<T, 
   return true;
 }
 
-/// Computes the guidance along the line of the line follower by guide() of line.h, and updates the
-/// stored progress.
+/// Computes the guidance along the line by guide() of line.h, and updates the stored progress.
 template <class T, class Law>
 AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T, Law>& part,
                                            const Position<T>& position_m,
@@ -104,8 +102,7 @@ AWMR_INLINE PolylineGuidance<T> guide_line(LineFollower<T, Law>& part,
   return guide(part.line, position_m, motion, part.progress);
 }
 
-/// Sets the reference heading for following the line. Returns false, and changes nothing, if no
-/// line is set.
+/// Sets the reference heading for following the line. Returns false if no line is set.
 template <class Part, class Arrival, class T, class Time>
 AWMR_INLINE bool guide_by_line(Disabled<Part>&, const Arrival&, const VehiclePose<T, Time>&,
                                Reference<T>&, GuidanceTarget<T>&) {
@@ -135,8 +132,8 @@ AWMR_INLINE PathPoint<T> path_point(const PathFollower<T, Time>& part, const T& 
   return part.path.at(t_s);
 }
 
-/// Sets heading, heading rate and speed of the reference to those of the timed path. If the
-/// reference speed is already above 0, it is kept. No-op if the path is not switched on.
+/// Sets heading, heading rate and speed of the reference to those of the timed path, but keeps a
+/// reference speed above 0. No-op if no path is set.
 template <class Part, class T, class Time>
 AWMR_INLINE void guide_by_path(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}
 template <class Path, class T, class Time>
@@ -159,8 +156,7 @@ AWMR_CALLED void guide_by_path(Path& part, const VehiclePose<T, Time>& at, Refer
   if (!(ref.speed_mps > T(0.0))) ref.speed_mps = guided.speed_mps;
 }
 
-/// Sets the reference for following waypoints, a line or a timed path, whichever is set. If none is
-/// set, the reference is unchanged.
+/// Sets the reference for following waypoints, a line or a timed path, whichever is set.
 template <class T, class P, class Time>
 AWMR_INLINE GuidanceTarget<T> guide_by_route(GuidanceLaws<T, P>& g, const VehiclePose<T, Time>& at,
                                              Reference<T>& ref) {

@@ -38,9 +38,9 @@ ShapedHeading<T> start_shaping(const T& psi_rad) {
   return {psi_rad, T(0.0), T(0.0)};
 }
 
-/// Advances the filter by one sample towards psi_in = target_rad. The target may jump and may be
-/// wrapped: the filter turns the shorter way. Integration is by semi-implicit Euler, that is, psi_d
-/// changes by the new rate times the sample time.
+/// Advances the filter by one sample towards psi_in = target_rad, by semi-implicit Euler: psi_d
+/// changes by the new rate times the sample time. The target may jump and may be wrapped: the
+/// filter turns the shorter way.
 template <class T>
 void shape(const HeadingShaping<T>& filter, const T& target_rad, const T& sample_time_s,
            ShapedHeading<T>& state) {

@@ -1,9 +1,8 @@
 /// Integral line of sight (ILOS), a guidance law that follows a line. Freestanding C++14.
 ///
-/// With plain line of sight, a side slope, an unmeasured sideslip or a steady heading error drives
-/// the vehicle off the line. The vehicle then moves parallel to the line at a constant distance.
-/// ILOS integrates this distance and aims at a point beyond the line, until the vehicle is on the
-/// line.
+/// With plain line of sight, a side slope, an unmeasured sideslip or a steady heading error keeps
+/// the vehicle at a constant distance from the line, parallel to it. ILOS integrates this distance
+/// and aims at a point beyond the line, until the vehicle is on the line.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -13,8 +12,8 @@ namespace awmr {
 /// Parameters of integral line-of-sight guidance.
 template <class T>
 struct IntegralLos {
-  /// Lookahead distance Delta, m, > 0: distance along the line from the vehicle to the point at
-  /// which it aims. With a larger one, the motion is smoother, and the line is reached later.
+  /// Lookahead distance Delta, m, > 0: distance along the line to the point at which the vehicle
+  /// aims. With a larger distance, the motion is smoother, and the line is reached later.
   T lookahead_m;
   /// Integral gain sigma, m/s, > 0. The literature requires a value below the vehicle's speed. With
   /// a larger gain, disturbances are compensated sooner, and the vehicle overshoots the line more.
@@ -39,8 +38,8 @@ struct IntegralLos {
 /// surface vessels in the presence of constant ocean currents, 2008, (7); Lekkas, Fossen, Integral
 /// LOS path following for curved paths based on a monotone cubic Hermite spline, 2014.)
 ///
-/// Far from the line, y_int hardly grows, so it does not wind up. y_int restarts at 0 on each
-/// segment, because relative to the new segment, the disturbance has another direction.
+/// Far from the line, y_int hardly grows, so it does not wind up. On each segment, y_int restarts
+/// at 0, because the disturbance has another direction relative to the new segment.
 template <class T>
 T approach_rad(const IntegralLos<T>& law, const AlongSegment<T>& s, const LineMotion<T>& motion,
                T& integral_s) {

@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// Speed, m/s, below which the measured direction of travel is mostly noise. Sideslip is then set
-/// to 0.
+/// Below this speed, m/s, the measured direction of travel is mostly noise, so sideslip is set to
+/// 0.
 template <class T>
 constexpr T sideslip_speed_min_mps() {
   return T(0.05);
@@ -70,7 +70,7 @@ struct LineMotion {
 };
 
 /// Range of a parameter of a guidance law in scenario files, in the unit of the file. The program
-/// uses the value of the file times `unit`: pi/180 for an angle in deg, otherwise 1.
+/// uses the value times `unit`: pi/180 for an angle in deg, otherwise 1.
 struct LawParameter {
   double min;
   double max;
@@ -78,8 +78,8 @@ struct LawParameter {
   double unit;
 };
 
-/// Permitted lookahead distances in scenario files, m. With a distance below the minimum, rounding
-/// errors of the position would turn the vehicle.
+/// Permitted lookahead distances in scenario files, m. Below the minimum, rounding errors of the
+/// position would turn the vehicle.
 constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 
 /// Points (corners) joined by straight segments, which are driven from the first to the last. Two
@@ -92,16 +92,16 @@ constexpr LawParameter lookahead_range() { return {1e-3, 1e6, false, 1.0}; }
 ///   kUsesCorner               whether the law uses Polyline::corner_m
 ///   name()                    its name in files
 ///   parameters(law, field)    calls field(key, parameter, LawParameter) for each parameter
-/// It also has a function approach_rad(law, segment, motion, memory), whose result guide()
-/// subtracts from the direction of the segment. A law can have its own overloads of is_passed() and
-/// distance_off_m() below.
+/// It also has a function approach_rad(law, segment, motion, memory): the angle that guide()
+/// subtracts from the direction of the segment. A law can have its own is_passed() and
+/// distance_off_m(), below.
 template <class T, class Law>
 struct Polyline {
   const Position<T>* points_m;  ///< corners in the world frame, m; `count` of them, not owned
   int count;                    ///< >= 0; with 0 or 1 corners, the guidance is finished at once
   /// m, >= 0: at this distance before the end of a segment, the vehicle changes to the next
   /// segment, so that it rounds the corner on the inside. With 0, it overshoots the corner. The
-  /// last segment is driven to its end.
+  /// vehicle drives the last segment to its end.
   T corner_m;
   Law law;  ///< parameters of the law
 };
@@ -130,15 +130,15 @@ struct PolylineGuidance {
   bool finished;    ///< the end of the last segment is passed, and psi_d is held
 };
 
-/// True if the vehicle must change to the next segment, because the remaining distance along the
-/// current segment is at most `corner_m`. A law can have its own overload.
+/// True if the vehicle must change to the next segment: the remaining distance along the current
+/// segment is at most `corner_m`.
 template <class T, class Law>
 AWMR_INLINE bool is_passed(const Law&, const AlongSegment<T>& s, const T& corner_m) {
   return !(s.length_m - s.along_m > corner_m);
 }
 
-/// Distance from the line that PolylineGuidance reports, m, left positive: the distance from the
-/// line of the current segment. A law can have its own overload.
+/// Distance from the line that PolylineGuidance reports, m, left positive: from the current
+/// segment.
 template <class T, class Law>
 AWMR_INLINE T distance_off_m(const Polyline<T, Law>&, int /*segment*/,
                              const Position<T>& /*position_m*/, const AlongSegment<T>& s) {

@@ -13,21 +13,21 @@
 ///   alpha_i = asin(R_i/D_i) + sigma w_i               half angle of the blocked sector, D_i > R_i
 ///           = pi/2          + sigma w_i               the same inside the grown circle
 ///
-/// The blocked sector is centred on the bearing of c_i. An obstacle is considered while D_obs <=
-/// MMD (plus the hysteresis once avoidance is active) and while it is nearer than the target. If
-/// the heading of the guidance is in blocked sectors, the desired heading psi_d is the nearer edge
-/// of their union, left or right. The chosen side is kept until the other is nearer by
+/// The blocked sector is centred on the bearing of c_i. An obstacle counts while D_obs <= MMD (plus
+/// the hysteresis once avoidance is active) and while it is nearer than the target. If the heading
+/// of the guidance is in blocked sectors, the desired heading psi_d is the nearer edge of their
+/// union, left or right. The vehicle keeps this side until the other edge is nearer by
 /// `side_hysteresis_rad`, or until the heading of the guidance is free again.
 ///
-/// Why this avoids a single obstacle: assume a vehicle with the turning radius rho that heads for
-/// the centre of a grown circle with the radius R, at the distance D. It can turn past the circle
-/// if D^2 >= (R + rho)^2 - rho^2. This holds for any R while D_obs >= rho. So it is sufficient if
-/// MMD is rho plus the distance travelled while the turn begins.
+/// Why this avoids a single obstacle: a vehicle with the turning radius rho heads for the centre of
+/// a grown circle of radius R, at the distance D. It can turn past the circle if D^2 >= (R + rho)^2
+/// - rho^2. For any R, this is true while D_obs >= rho. So an MMD of rho plus the distance
+/// travelled while the turn begins is sufficient.
 ///
-/// With several obstacles, or a start that is too close, this can fail. Therefore, the speed is
-/// also reduced, so that the vehicle stops before a smaller circle, grown by vehicle_radius +
-/// clearance/2. The permitted fraction of the reference speed u_d is the distance to that circle
-/// along the heading, divided by `brake_m`.
+/// With several obstacles, or a start that is too close, this can fail. Therefore, the avoidance
+/// also reduces the speed, so that the vehicle stops before a smaller circle, grown by
+/// vehicle_radius + clearance/2. The permitted fraction of the reference speed u_d is the distance
+/// to that circle along the heading, divided by `brake_m`.
 ///
 /// Edge cases:
 ///   vehicle inside R_i        the sector is more than a half-plane, so psi_d leads out; a vehicle
@@ -62,7 +62,7 @@ struct Avoided {
 };
 
 /// True if the grown circle of the obstacle contains the whole acceptance circle (radius
-/// acceptance_m) of a target. The vehicle then cannot reach this target and keep its clearance.
+/// acceptance_m) of a target. The vehicle cannot reach such a target without losing its clearance.
 template <class T>
 bool covers(const Avoidance<T>& avoidance, const Obstacle<T>& obstacle, const Position<T>& target_m,
             const T& acceptance_m) {
@@ -125,8 +125,8 @@ AWMR_CALLED Avoided<T> avoid(const Avoidance<T>& avoidance, const Obstacle<T>* o
   if (!(left < full) && !(right < full)) {
     return {called_wrap_angle(guidance_rad), T(0.0), true, true};
   }
-  // The side chosen before is kept unless the turn to the other side is smaller by more than the
-  // hysteresis. If no side was chosen and both turns are equal, the vehicle turns left.
+  // Keep the side unless the turn to the other side is smaller by more than the hysteresis. If both
+  // turns are equal and no side was chosen before, turn left.
   T difference = left - right;
   if (state.side == AvoidanceSide::kLeft) difference -= avoidance.side_hysteresis_rad;
   if (state.side == AvoidanceSide::kRight) difference += avoidance.side_hysteresis_rad;

@@ -14,9 +14,8 @@
 
 namespace awmr {
 
-/// Pose and motion of the vehicle for the guidance of one step. `Time` is the type of the clock. On
-/// the chip, it is uint32_t, in ms, which wraps to 0 after 49.7 days; in the simulator double, in
-/// s.
+/// Pose and motion of the vehicle for the guidance of one step. `Time` is the type of the clock: on
+/// the chip uint32_t, in ms, which wraps to 0 after 49.7 days; in the simulator double, in s.
 template <class T, class Time>
 struct VehiclePose {
   const Position<T>& position_m;

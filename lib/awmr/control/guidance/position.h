@@ -28,8 +28,8 @@ AWMR_CALLED T distance_m(const Position<T>& a, const Position<T>& b) {
   return sqrt(squared_distance_m2(a, b));
 }
 
-/// Two points coincide if their x and y each differ by at most this, m. Coinciding points have no
-/// direction between them.
+/// Two points coincide, and have no direction between them, if their x and y each differ by at most
+/// this, m.
 template <class T>
 constexpr T coincident_m() {
   return T(1e-20);
@@ -41,8 +41,9 @@ Position<T> seen_from(const Position<T>& from, const Position<T>& point) {
   return {point.x_m - from.x_m, point.y_m - from.y_m};
 }
 
-/// True if the length of the vector `away_m` is at most `radius_m`. `radius_m2` is the square of
-/// `radius_m`. One component alone usually exceeds the radius, so that no product is necessary.
+/// True if the length of the vector `away_m` is at most `radius_m`, whose square is `radius_m2`.
+/// The components are tested first: one of them alone usually exceeds the radius, which saves the
+/// products.
 template <class T>
 AWMR_INLINE bool is_reached(const Position<T>& away_m, const T& radius_m, const T& radius_m2) {
   if (math::is_beyond(away_m.x_m, radius_m) || math::is_beyond(away_m.y_m, radius_m)) return false;

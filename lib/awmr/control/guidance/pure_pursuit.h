@@ -1,8 +1,8 @@
 /// Pure pursuit, a guidance law that follows a line. Freestanding C++14.
 ///
 /// The vehicle drives towards a goal, a point on the line at the lookahead distance from the
-/// vehicle. The goal passes a corner of the line before the vehicle does, so the vehicle rounds the
-/// corner on its inside.
+/// vehicle. The goal passes a corner before the vehicle does, so the vehicle rounds the corner on
+/// its inside.
 #pragma once
 
 #include "awmr/control/guidance/line.h"
@@ -39,16 +39,16 @@ T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   return goal_m > T(0.0) ? goal_m : T(0.0);
 }
 
-/// True when the goal reaches the end of the current segment: the next segment then starts. On the
+/// True when the goal reaches the end of the current segment: the next segment then starts. At the
 /// last segment, the goal continues straight beyond the end.
 template <class T>
 bool is_passed(const PurePursuit<T>& law, const AlongSegment<T>& s, const T& /*corner_m*/) {
   return !(goal_along_m(law, s) < s.length_m);
 }
 
-/// Distance from the line, m, left positive. Of the current and the previous segment, the one
-/// nearer to the vehicle is used: at a corner, the goal is already on the current segment while the
-/// vehicle is still on the previous one.
+/// Distance from the current or the previous segment, whichever is nearer, m, left positive.
+/// Reason: at a corner, the goal is already on the current segment while the vehicle is still on
+/// the previous one.
 template <class T>
 T distance_off_m(const Polyline<T, PurePursuit<T>>& line, int segment,
                  const Position<T>& position_m, const AlongSegment<T>& s) {

@@ -18,7 +18,7 @@ struct GuidanceTarget {
 };
 
 /// Distance to the target, m, that avoid() gets if the guidance has no target. It exceeds the
-/// distance to any obstacle, so that no obstacle is ignored.
+/// distance of every obstacle, so that all obstacles count.
 template <class T>
 constexpr T no_target_m() {
   return T(1e30);

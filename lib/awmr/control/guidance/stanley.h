@@ -15,8 +15,8 @@ struct Stanley {
   /// u)) at the speed u. With a larger k, the line is reached sooner and the vehicle turns more
   /// abruptly.
   T gain_per_s;
-  /// k_s, m/s, > 0: speed that is added to u. With a larger k_s, the motion at low speed is
-  /// smoother.
+  /// k_s, m/s, > 0: speed that is added to u. With a larger k_s, the vehicle turns less abruptly at
+  /// low speed.
   T softening_mps;
   bool sideslip_compensation;
 

@@ -46,8 +46,8 @@ struct PathGuidance {
   T speed_mps;       ///< u_d, m/s, >= 0
 };
 
-/// Smallest speed of the path's point, m/s, at which the path has a direction. Below it, as at a
-/// cusp or a reversal, the heading is held.
+/// Smallest speed of the path's point, m/s, at which the path has a direction. At a lower speed, as
+/// at a cusp or a reversal, the heading is held.
 template <class T>
 constexpr T path_speed_min_mps() {
   return T(1e-4);

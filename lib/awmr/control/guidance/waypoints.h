@@ -14,10 +14,10 @@ struct Waypoints {
   int count;                    ///< >= 0
   /// m, > 0: a waypoint is reached when the vehicle is within this distance
   T acceptance_m;
-  /// Handling of a waypoint that the vehicle has passed outside `acceptance_m`. Passed: the vehicle
-  /// is beyond the line through the waypoint that is perpendicular to the leg. true: the waypoint
-  /// counts as missed, and the next one follows; for a vehicle that cannot turn tightly enough to
-  /// return. false, as in the paper: the vehicle turns back to the waypoint.
+  /// What happens at a waypoint that the vehicle passes outside `acceptance_m`. It has passed the
+  /// waypoint when it is beyond the line through the waypoint that is perpendicular to the leg.
+  /// true: the waypoint counts as missed, and the next one follows; for a vehicle that cannot turn
+  /// tightly enough to return. false, as in the paper: the vehicle turns back to the waypoint.
   bool skip_passed;
 };
 
@@ -30,8 +30,7 @@ struct WaypointProgress {
   T psi_rad;                ///< last direction to a waypoint, rad; held once no waypoint is left
 };
 
-/// Returns the progress before the first step. `position_m` and `psi_rad` are position and heading
-/// of the vehicle.
+/// Returns the progress before the first step. Arguments: position and heading of the vehicle.
 template <class T>
 WaypointProgress<T> start_waypoints(const Position<T>& position_m, const T& psi_rad) {
   return {0, 0, position_m, psi_rad};
@@ -44,8 +43,8 @@ struct WaypointGuidance {
   bool finished;  ///< no waypoint is left, and psi_d holds its last value
 };
 
-/// True if the position is beyond the line that goes through the end of the leg and is
-/// perpendicular to the leg. Never true for a leg of zero length.
+/// True if the position is beyond the line through the end of the leg, perpendicular to the leg.
+/// False for a leg of zero length.
 template <class T>
 bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
              const Position<T>& leg_end_m) {
@@ -90,8 +89,8 @@ AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Posit
   return guide(waypoints, acceptance_m2, position_m, progress);
 }
 
-/// Fraction of the reference speed at which the vehicle arrives at the end of the route. It is
-/// above 0, because the vehicle would otherwise not reach the end.
+/// Fraction of the reference speed at which the vehicle arrives at the end of the route. With 0, it
+/// would never reach the end.
 template <class T>
 constexpr T arrival_share_min() {
   return T(0.1);
