@@ -28,8 +28,8 @@ double mcnemar_p(std::size_t only_first, std::size_t only_second) {
 double paired_t_p(double mean, double deviation, std::size_t count) {
   const auto n = static_cast<double>(count);
   const double error = deviation / std::sqrt(n);
-  // If the standard error is below 1e-12 of the mean, it comes from rounding alone, and all
-  // differences are equal. The t statistic is then undefined; p is 1 for a mean of 0, else 0.
+  // A standard error below 1e-12 of the mean comes from rounding alone: all differences are equal.
+  // The t statistic is then undefined; p is 1 for a mean of 0, else 0.
   if (!(error > 1e-12 * std::abs(mean))) return std::abs(mean) > 0.0 ? 0.0 : 1.0;
   return 2.0 * students_t_tail(std::abs(mean) / error, n - 1.0);
 }

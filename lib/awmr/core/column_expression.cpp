@@ -70,9 +70,8 @@ std::string_view take_bare_name(std::string_view& rest) {
   return name;
 }
 
-/// Each of the functions below removes one token from the front of `rest` (the part of the formula
-/// that is not parsed yet) and adds it to `formula`. It returns the text of an error, or nothing if
-/// there is none.
+/// Each function below removes one token from the front of `rest`, the part of the formula that is
+/// not parsed yet, and adds it to `formula`. It returns the text of an error, or nothing.
 using Wrong = std::optional<std::string>;
 
 Wrong take_number(std::string_view& rest, Formula& formula) {

@@ -22,7 +22,7 @@ class ColumnExpression {
   static constexpr std::size_t kLongest = 1000;
 
   /// Parses a formula. Errors, as text: the formula is longer than kLongest; it has a character or
-  /// a function that formulas cannot have; it is incomplete or malformed.
+  /// a function that is not listed above; it is incomplete or malformed.
   static tl::expected<ColumnExpression, std::string> parse(std::string_view text);
 
   ColumnExpression(ColumnExpression&&) noexcept;
@@ -31,8 +31,8 @@ class ColumnExpression {
 
   /// Names of the columns that the formula uses, each once, in order of first use.
   const std::vector<std::string>& names() const { return names_; }
-  /// Evaluates the formula; the result may be infinite or NaN. `values`: the values of names(), in
-  /// the same order.
+  /// Evaluates the formula for the `values` of names(), in the same order. The result may be
+  /// infinite or NaN.
   double operator()(std::span<const double> values);
 
  private:

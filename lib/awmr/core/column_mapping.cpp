@@ -140,8 +140,8 @@ Result<ColumnMapping> parse_column(std::string_view text) {
 std::string text_of(const ColumnMapping& mapping) {
   const std::string name =
       mapping.file.empty() ? mapping.name : fmt::format("{}:{}", mapping.file, mapping.name);
-  // A constant such as 0.5 is not scaled. (The parser also stored it as a column name, because a
-  // column could have this name.) The constant is written as it was given.
+  // A constant such as 0.5 is written as it was given, without scale. (The parser also stored it as
+  // a column name, because a column can have this name.)
   const bool scaled = !mapping.source.empty() && !number_from_text(mapping.expression);
   if (!scaled) return fmt::format("{}={}", name, mapping.expression);
   // The name is quoted only where the parser needs it, so that plain names remain readable.

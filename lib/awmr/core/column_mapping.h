@@ -1,5 +1,5 @@
-/// Mapping that defines a column of awmr by the columns of a user's file: by a column with another
-/// name or unit, or by a formula over several columns.
+/// Mapping that computes a column of awmr from the columns of a user's file: from a column with
+/// another name or unit, or by a formula over several columns.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace awmr {
 
-/// Up to three definitions of the column `name`. The first one that the header of the file permits
-/// is used:
+/// How to compute the column `name`. The first of these definitions that the header of the file
+/// permits is used:
 ///   1. if the header has a column called `expression`: this column;
 ///   2. if the header has a column called `source`: this column times `scale` plus `offset`;
 ///   3. else the formula `expression` over columns of the header.
@@ -26,16 +26,15 @@ struct ColumnMapping {
 };
 
 /// Parses `[FILE:]NAME=EXPRESSION`. EXPRESSION is a scaled column `SOURCE[*SCALE][+OFFSET]`, a
-/// formula (column_expression.h) or a constant. SOURCE is the name of a column; it must be in
-/// double quotes if it contains '*' or '+'. After a scale or a quoted SOURCE, `-OFFSET` is also
-/// accepted. Errors: a text that is none of these; a scale of 0.
+/// formula (column_expression.h) or a constant. SOURCE, the name of a column, must be in double
+/// quotes if it contains '*' or '+'. After a scale or a quoted SOURCE, `-OFFSET` is also accepted.
+/// Errors: any other text; a scale of 0.
 Result<ColumnMapping> parse_column(std::string_view text);
-/// As parse_column(text), but with `[FILE:]NAME` and EXPRESSION as separate texts, as JSON has
-/// them.
+/// As parse_column(text), for `[FILE:]NAME` and EXPRESSION as separate texts, as in JSON files.
 Result<ColumnMapping> parse_column(std::string_view name, std::string_view expression);
 
-/// Writes a mapping as `[FILE:]NAME=EXPRESSION`. Output files record it in this form among the
-/// options of the command (Provenance::options), and parse_column() reads it back.
+/// Writes a mapping as `[FILE:]NAME=EXPRESSION`, the form that parse_column() reads. Output files
+/// record the mappings in this form (Provenance::options).
 std::string text_of(const ColumnMapping& mapping);
 
 /// Returns an EXPRESSION (see parse_column()) for the column that `mapping` defines, multiplied by

@@ -38,9 +38,8 @@ struct Candidate {
   std::vector<std::string> missing;  ///< columns that the mapping uses and the header lacks
 };
 
-/// Interprets a mapping for the header of one file. Uses the first of these that the header
-/// permits: the column whose name is the mapping's whole expression; a column with scale and
-/// offset; a formula (column_mapping.h).
+/// Interprets a mapping for the header of one file: as the first definition of column_mapping.h
+/// that this header permits.
 Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, Header header) {
   Candidate candidate{
       .source = {.column = column, .indices = {}, .mapping = &mapping}, .names = {}, .missing = {}};
@@ -66,8 +65,8 @@ Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, He
   return candidate;
 }
 
-/// Priority of a mapping; the lowest number wins. 0: for this file only; 1: for every file; 2: for
-/// every file, from vehicle.json.
+/// Priority of a mapping; the lowest number wins. 0: only for this file; 1: for every file; 2: in
+/// vehicle.json, for every file.
 int distance(const ColumnMapping& mapping) {
   return !mapping.file.empty() ? 0 : mapping.standing ? 2 : 1;
 }
@@ -144,8 +143,7 @@ class Search {
   }
 
   /// Uses the column that find_time() recognises as the time t_s. Returns false if there is none.
-  /// Returns true if one is used, and also if several columns may be the time: this is reported as
-  /// a fault.
+  /// Several candidates are a fault; the result is then true.
   bool use_time() {
     auto time = find_time(header_, samples_);
     if (!time) {
@@ -157,8 +155,8 @@ class Search {
     ColumnSource source{.column = column_, .indices = {}};
     std::vector<std::string> names{(*time)->expression};
     if (!(*time)->is_date) {
-      // The expression quotes column names in backticks, so a name with a backtick cannot be
-      // parsed.
+      // A column name that contains a backtick cannot be parsed, because the expression quotes
+      // names in backticks.
       auto expression = ColumnExpression::parse((*time)->expression);
       if (!expression) return false;
       names = expression->names();

@@ -158,9 +158,8 @@ bool CsvParser::read_row() {
   return true;
 }
 
-/// True if decimal commas probably split numbers in this row into too many cells. Signs: the
-/// delimiter is a comma, the row has more cells than the header, and all its cells are whole
-/// numbers.
+/// True if decimal commas probably split numbers in this row into too many cells: the delimiter is
+/// a comma, the row has more cells than the header, and all cells are whole numbers.
 bool CsvParser::has_decimal_commas() const {
   if (header_.delimiter != ',' || cells_.size() <= header_.names.size()) return false;
   const auto is_whole = [](const CsvCell& cell) {

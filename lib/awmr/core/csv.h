@@ -22,9 +22,9 @@ enum class EmptyCells {
   kFault,   ///< a fault: every row needs a value
   kHeld,    ///< a command in a log with signals of different rates: the previous value still holds
   kAbsent,  ///< a measurement in a log with signals of different rates: none was made in this row
-  /// In a table with one row per run: the run has no value for this column. The value of the row
-  /// before is not used, and no row is dropped. A column that is empty in all rows counts as
-  /// absent.
+  /// For a table with one row per run: an empty cell means that the run has no value. The value of
+  /// the row before is not repeated, and no row is dropped. A column that is empty in all rows
+  /// counts as absent.
   kOptional,
 };
 
@@ -72,8 +72,8 @@ class CsvTable {
   /// As column(), but moves the values out of the table: its column is empty afterwards.
   /// Precondition: has(column).
   std::vector<double> take(std::string_view column);
-  /// By row: true if the file has a value. In the other rows, the table has the previous value, or
-  /// before the first value the first one. Empty: the file has a value in every row. Precondition:
+  /// By row: true if the file has a value. In the other rows, the table repeats the previous value,
+  /// or, at the start, the first value. Empty: the file has a value in every row. Precondition:
   /// has(column).
   const std::vector<bool>& present(std::string_view column) const;
   /// Line in the file, from 1.
@@ -94,13 +94,13 @@ class CsvTable {
   Parts parts_;
 };
 
-/// Reads the requested columns. A log can have signals of different rates in one table, so that
-/// many cells are empty. A file counts as such a log if at least a quarter of the cells of a
-/// command (kHeld) or a measurement (kAbsent) are empty. In such a log:
+/// Reads the requested columns. A log can have signals of different rates in one table, with many
+/// empty cells. A file counts as such a log if at least a quarter of the cells of a command (kHeld)
+/// or a measurement (kAbsent) are empty. In such a log:
 ///   - An empty cell of a command repeats the previous value. An empty cell of a measurement means
 ///     that nothing was measured in this row.
-///   - Rows are dropped if all their kHeld, kAbsent and kOptional cells are empty. The first rows
-///     are dropped until every command has had a value.
+///   - A row without any value in kHeld, kAbsent and kOptional columns is dropped. So are the first
+///     rows, until every command has had a value.
 /// In other files, empty cells are faults, except in kOptional columns. All faults of the file are
 /// reported at once: a missing required column; a duplicate column; no rows; a row with another
 /// number of cells than the header; a cell that is empty, not a number, NaN or infinite; an

@@ -22,13 +22,13 @@ inline std::string_view trimmed(std::string_view text) {
 tl::expected<double, std::string> number_from_text(std::string_view text);
 
 /// Returns text as a CSV cell, quoted if necessary. A text that begins with = + - @, a tab or a
-/// carriage return gets a leading apostrophe, because a spreadsheet would run it as a formula. A
-/// text that begins with an apostrophe gets one, too, so that reading can always remove one.
+/// carriage return gets a leading apostrophe, because a spreadsheet would run it as a formula. So
+/// does a text that begins with an apostrophe: a reader can then always remove one.
 std::string cell_of_text(std::string_view text);
 
 /// Removes the first record (row) from `csv` and returns its cells as text, without the quotation
-/// marks and apostrophes that cell_of_text() added. A quoted cell can contain line ends. Use it
-/// only for text that this program wrote: it detects no faults.
+/// marks and apostrophes of cell_of_text(). A quoted cell can contain line ends. Detects no faults,
+/// so use it only for text that this program wrote.
 std::vector<std::string> take_text_record(std::string_view& csv);
 
 }  // namespace awmr

@@ -32,9 +32,8 @@ struct Delimiter {
   int found = 0;  ///< number of requested columns among the cells of the header
 };
 
-/// Finds the delimiter of the scanner's next line. It is the character that splits the line into
-/// cells with the most names of requested columns. If several characters find equally many names,
-/// it is the one that makes the most cells.
+/// Finds the delimiter of the scanner's next line: the character that splits it into cells with the
+/// most names of requested columns; among equals, the character that makes the most cells.
 Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& wanted) {
   int best = 0;
   Delimiter chosen;
@@ -54,7 +53,7 @@ Delimiter delimiter_of(const CsvScanner& scanner, const std::set<std::string>& w
 }
 
 /// Takes the last comment above the first row as the header, because some programs write the header
-/// after a '#'. Changes nothing and returns false if this comment has another number of cells than
+/// after a '#'. Returns false, without a change, if this comment has another number of cells than
 /// the first row, or no requested column.
 bool take_comment(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   CsvScanner comment(scanner.comment());
@@ -92,8 +91,8 @@ bool is_number(const CsvCell& cell, bool may_have_comma) {
 }
 
 /// For a file without a header: if columns are requested by position (`column_1`) and the first
-/// line has only numbers, takes this line as the first row. Otherwise changes nothing and returns
-/// false.
+/// line has only numbers, takes this line as the first row. Otherwise returns false, without a
+/// change.
 bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, CsvHeader& header) {
   if (std::none_of(wanted.begin(), wanted.end(), is_position)) return false;
   for (const char delimiter : {';', '\t', '|', ','}) {
@@ -115,7 +114,7 @@ bool take_positions(CsvScanner& scanner, const std::set<std::string>& wanted, Cs
   return false;
 }
 
-/// True for a line that a program adds above a table: PuTTY's first line of a log, or Excel's
+/// True for a line that a program adds above a table: the first line of a PuTTY log, or Excel's
 /// `sep=;`.
 bool is_mark(std::string_view line) {
   std::string_view text = trimmed(line);
@@ -132,9 +131,9 @@ bool has_number(const std::vector<CsvCell>& cells, char delimiter) {
                      [&](const CsvCell& cell) { return is_number(cell, delimiter != ','); });
 }
 
-/// True if the scanner's next line is a header: at least two of its cells are names of requested
-/// columns. Without such names, it must have at least two cells and no number, and the row below it
-/// must have as many cells and at least one number.
+/// True if the scanner's next line is a header. Either at least two of its cells are names of
+/// requested columns. Or it has at least two cells and no number, and the row below it has as many
+/// cells and at least one number.
 bool is_above_rows(CsvScanner scanner, const Delimiter& chosen) {
   const std::vector<CsvCell> names = scanner.peek_cells(chosen.character);
   if (chosen.found >= 2) return true;

@@ -32,9 +32,8 @@ Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
                               std::span<const CsvColumn> columns,
                               std::span<const ColumnMapping> mappings);
 
-/// Returns a note to the user (`csv-format`) if the format of the file is unusual; else none. The
-/// usual format has the header in the first line, cells between commas, semicolons or tabs, and
-/// decimal points.
+/// Returns a note to the user (`csv-format`) if the file does not have the usual format: header in
+/// the first line, cells between commas, semicolons or tabs, decimal points.
 std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_commas);
 
 /// Message for a fault of the CSV scanner: a quote that is not closed, or text after a closing

@@ -16,10 +16,10 @@ constexpr std::array<double, 20> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,
                                               1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
                                               1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
 
-/// Parses a number such as `-12.5` at the beginning of `text` and returns its length. The value is
-/// computed as an integer divided by a power of ten, here 125/10. This is several times faster than
-/// std::from_chars. It is correctly rounded if both numbers are exact as double; otherwise `value`
-/// remains empty. [Clinger, How to Read Floating Point Numbers Accurately, 1990]
+/// Parses a number such as `-12.5` at the beginning of `text` and returns its length. Computes the
+/// value as an integer divided by a power of ten, here 125/10, which is several times faster than
+/// std::from_chars. The value is correctly rounded if both numbers are exact as double; otherwise
+/// `value` remains empty. [Clinger, How to Read Floating Point Numbers Accurately, 1990]
 std::size_t parse_plain_number(std::string_view text, std::optional<double>& value) {
   constexpr std::uint64_t kMaxExact = std::uint64_t{1} << 53U;
   const std::size_t first = text.starts_with('-') ? 1 : 0;

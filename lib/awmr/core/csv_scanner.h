@@ -36,11 +36,11 @@ class CsvScanner {
   /// Line of the comment that comment() returns; 0: no comment was skipped.
   int comment_line() const { return comment_line_; }
 
-  /// Reads the next record. On a fault (an outcome other than kRecord and kEnd), the last cell is
-  /// the faulty one.
+  /// Reads the next record. On a fault (kOpenQuote, kTextAfterQuote), the last cell is the faulty
+  /// one.
   Outcome next(std::vector<CsvCell>& cells);
-  /// Cells of the next record, split by another delimiter, up to the first fault. The record is not
-  /// consumed: next() reads it again.
+  /// Cells of the next record, split by another delimiter, up to the first fault. next() still
+  /// reads this record.
   std::vector<CsvCell> peek_cells(char delimiter) const;
 
   /// Skips the rest of the current line, for example after a fault.

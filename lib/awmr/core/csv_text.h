@@ -29,8 +29,8 @@ Result<CsvHead> csv_head(std::string_view bytes, const std::string& file,
                          std::span<const CsvColumn> columns,
                          std::span<const ColumnMapping> mappings, std::size_t most_rows);
 
-/// Name of the table's file without its directory. Findings use this name, so that outputs do not
-/// depend on where the file is.
+/// Name of the table's file without its directory, for findings: so outputs do not depend on where
+/// the file is.
 std::string finding_file(const CsvTable& table);
 
 }  // namespace awmr

@@ -9,8 +9,8 @@
 
 namespace awmr {
 
-/// Record of the commas and points in the cells of a file, in order to find out what a comma means.
-/// "1,250" can be 1250 or 1.25. All numbers of a file must use the same decimal mark.
+/// Commas and points in the cells of a file, which together show what a comma means: "1,250" can be
+/// 1250 or 1.25. All numbers of a file must use the same decimal mark.
 struct DecimalCommas {
   std::optional<CsvCell> comma = {};  ///< the first number with a comma
   std::optional<CsvCell> point = {};  ///< the first number with a point
@@ -24,8 +24,8 @@ std::optional<double> number_with_comma(const CsvCell& cell, DecimalCommas& seen
 /// Records in `seen` that the number in this cell has a decimal point. No effect if it has none.
 void note_point(const CsvCell& cell, DecimalCommas& seen);
 
-/// Message for a file whose numbers have commas. There is a fault if other numbers have a decimal
-/// point, or if each comma may be a thousands separator. Empty without a fault.
+/// Message for a fault: other numbers of the file have a decimal point, or each comma may also be a
+/// thousands separator. Empty without a fault.
 std::optional<std::string> fault_of(const DecimalCommas& seen);
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Probabilities and quantiles of the normal, t, chi-squared and F distributions. Only
-/// distributions.cpp includes Boost.Math, which is slow to compile. Private: not installed.
+/// Probabilities and quantiles of the normal, t, chi-squared and F distributions. Wraps Boost.Math,
+/// which is slow to compile. Private: not installed.
 #pragma once
 
 namespace awmr {

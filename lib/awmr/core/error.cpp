@@ -15,8 +15,7 @@ constexpr std::size_t kMaxFaultsShown = 20;
 /// Maximum number of faults with the same cause that are listed one by one.
 constexpr std::size_t kMaxAlike = 3;
 
-/// Place of a fault without its numbers: line and column, or array indices in the JSON pointer, are
-/// removed.
+/// Place of a fault without line and column, or without array indices in the JSON pointer.
 std::string file_and_keys(const std::string& place) {
   std::string text = place;
   const std::size_t pointer = place.find(":/");

@@ -39,8 +39,8 @@ bool read_all(int descriptor, std::size_t max_bytes, std::string& bytes) {
   return true;
 }
 
-/// Checks an output with `read_back` before it is written. If `read_back` rejects the bytes, the
-/// program itself has made a wrong file, so the error is an internal one (kFault).
+/// Checks an output with `read_back` before it is written. Rejected bytes are an internal error
+/// (kFault), because the program itself has made a wrong file.
 Status check_read_back(const fs::path& path, std::string_view bytes, const ReadBack& read_back) {
   if (!read_back) return {};
   const Status read = read_back(bytes, path.string());
@@ -65,8 +65,8 @@ Result<PathKind> kind_of(const fs::path& path) {
   return S_ISDIR(status.st_mode) ? PathKind::kDirectory : PathKind::kOther;
 }
 
-/// The umask of this process. To read it, umask() must change it for a moment, which would disturb
-/// other threads. So it is read only once.
+/// The umask of this process, read only once: reading changes it for a moment, which would disturb
+/// other threads.
 mode_t creation_mask() {
   static const mode_t kMask = [] {
     const mode_t current = ::umask(077);

@@ -22,11 +22,11 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30U;
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::size_t max_bytes = kMaxFileBytes);
 
-/// Function that checks the bytes of an output before they are written. It parses them in the same
-/// way as the commands that later read the file. `file`: name of the file in errors.
+/// Function that checks the bytes of an output before they are written, by parsing them as the
+/// commands do that later read the file. `file`: name of the file in errors.
 using ReadBack = std::function<Status(std::string_view bytes, const std::string& file)>;
 
-/// Writes a file. Writes a temporary file next to `path`, flushes it and renames it to `path`. So
+/// Writes a file: writes a temporary file next to `path`, flushes it and renames it to `path`. So
 /// another program reads either the whole old file or the whole new one. Pipes and terminals are
 /// written directly. A symbolic link stays, and its target is written, even if the target does not
 /// exist yet. The directory must exist. Also removes temporary files (`.awmr-PID-XXXXXX`) that
@@ -41,10 +41,10 @@ struct OutputFile {
   ReadBack read_back = {};  ///< empty: no check, for files that no command reads
 };
 
-/// Writes a set of files. All are first written under temporary names, and then renamed one after
-/// the other. If a temporary file cannot be written, or a path is a pipe or a device, no file is
-/// changed. A program that is killed between two renames (some microseconds) leaves a mixture of
-/// new and old files. To make this detectable, let the last file contain the hashes of the others.
+/// Writes a set of files: first all under temporary names, then renames them one after the other.
+/// If a temporary file cannot be written, or a path is a pipe or a device, no file is changed. If
+/// the program is killed between two renames (some microseconds), new and old files remain side by
+/// side. To make this detectable, let the last file contain the hashes of the others.
 Status write_files(std::span<const OutputFile> files);
 
 /// Checks that the output `path` can be written and is none of the inputs. Call it before a long
@@ -57,8 +57,8 @@ Status check_output(const std::filesystem::path& path,
 /// Makes the directory `path` and its missing parents. Errors: those of check_output_directory().
 Status make_directory(const std::filesystem::path& path);
 
-/// Maximum time to wait for a program at the other end of a pipe, s. Without it, a pipe that nobody
-/// opens would block the program for ever.
+/// Maximum time to wait for a program at the other end of a pipe, s. Without a limit, a pipe that
+/// nobody opens would block the program for ever.
 inline constexpr double kPipeWait_s = 5.0;
 
 /// True if a file, a directory or anything else has this name. Symbolic links are followed. Errors
@@ -72,9 +72,9 @@ Result<bool> directory_exists(const std::filesystem::path& path);
 Result<bool> regular_file_exists(const std::filesystem::path& path);
 /// Checks that `path` is a regular file or does not exist. Errors: those of regular_file_exists().
 Status check_regular_file(const std::filesystem::path& path);
-/// Checks that files can be made in the directory `path`, or that this directory can be made if it
-/// is missing. Errors (input): as path_exists(); the directory, or its nearest existing parent, is
-/// not a writable directory; a name is too long.
+/// Checks that files can be made in the directory `path`, or that this directory can be made.
+/// Errors (input): as path_exists(); the directory, or its nearest existing parent, is not a
+/// writable directory; a name is too long.
 Status check_output_directory(const std::filesystem::path& path);
 /// Entries of a directory, sorted by path. Errors (input): the directory cannot be read.
 Result<std::vector<std::filesystem::path>> list_directory(const std::filesystem::path& path);

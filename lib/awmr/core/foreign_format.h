@@ -18,8 +18,8 @@ Result<std::string_view> text_of(std::string_view bytes, const std::string& file
 /// Checks the scanner's next line. Errors: it is the beginning of JSON, HTML or XML.
 Status check_format(CsvScanner scanner, const std::string& file);
 
-/// Checks the scanner's next line, which should be a header. Errors: its cells are separated by
-/// spaces. `wanted`: names of the requested columns, which show that the line is a header.
+/// Checks the scanner's next line, which should be a header. Errors: spaces separate its cells.
+/// `wanted`: names of the requested columns, which identify a header.
 Status check_spaces(CsvScanner scanner, const std::string& file,
                     const std::set<std::string>& wanted);
 

@@ -10,8 +10,7 @@
 namespace awmr {
 namespace {
 
-/// Hashes of the input files, by the path that the user gave. The hash is that of the bytes last
-/// read from the file.
+/// Hash of the bytes last read from each input file, by the path that the user gave.
 class Notes {
  public:
   void put(const std::string& path, std::string sha256) {

@@ -1,5 +1,5 @@
-/// Reads input files and records their hashes. Each file is read only once. So the hash in an
-/// output is that of the bytes that were used, even if the file changes later or is a pipe.
+/// Reads input files and records their hashes. Each file is read only once, so the hash in an
+/// output is that of the bytes used, even if the file changes later or is a pipe.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace awmr {
 Result<std::string> read_input(const std::filesystem::path& path,
                                std::size_t max_bytes = kMaxFileBytes);
 
-/// The name of the file, and the hash of the bytes last read from it by read_input(). Reads the
-/// file if it was not read yet. Errors: those of read_file().
+/// The name of the file, and the hash of the bytes that read_input() last read from it. Reads the
+/// file if this was not done yet. Errors: those of read_file().
 Result<InputFile> input_file(const std::filesystem::path& path);
 
 }  // namespace awmr

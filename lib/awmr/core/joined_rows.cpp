@@ -8,9 +8,8 @@
 namespace awmr {
 namespace {
 
-/// For each row, true if the row is kept. There are two conditions. Each command (kHeld) has had a
-/// value by this row. In this row, the file has a value of at least one kHeld, kAbsent or kOptional
-/// column.
+/// For each row, true if it is kept: each command (kHeld) has had a value by this row, and in this
+/// row, the file has a value of at least one kHeld, kAbsent or kOptional column.
 std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSources& sources) {
   const std::size_t rows = parts.lines.size();
   std::vector<bool> counts(rows, false);

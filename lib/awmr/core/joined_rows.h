@@ -8,9 +8,9 @@
 
 namespace awmr {
 
-/// Drops the rows in which no kHeld, kAbsent or kOptional column has a value. Also drops the first
-/// rows, up to the row in which the last of the commands (kHeld) gets its first value. Adds the
-/// note `joined-by-time` with the numbers of rows kept and dropped.
+/// Drops the rows in which no kHeld, kAbsent or kOptional column has a value, and the rows before
+/// every command (kHeld) has had a value. Adds the note `joined-by-time` with the numbers of rows
+/// kept and dropped.
 void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources);
 
 /// Adds a fault for each requested column without a value in any row, except for kOptional columns.

@@ -28,23 +28,22 @@ Result<Json> read_json_file(const std::filesystem::path& path);
 
 class JsonShape;
 
-/// A strict view of one JSON object. Each function that reads a key marks the key as known. These
-/// are faults: a value of the wrong type or out of range, and a missing key (except in the
-/// optional_ functions). On a fault, the function adds it to the shared list and returns a neutral
-/// value: NaN, `min` of an integer, the first of several choices, false or empty. So reading
-/// continues, and all faults of the file are found. After all keys were read, call
-/// `reject_unknown_keys()`.
+/// A strict view of one JSON object. Each function that reads a key marks the key as known. Faults:
+/// a value of the wrong type or out of range; a missing key (except in the optional_ functions). On
+/// a fault, the function adds it to the shared list and returns a neutral value: NaN, `min` of an
+/// integer, the first of several choices, false or empty. So reading continues and finds all faults
+/// of the file. Call `reject_unknown_keys()` after all keys were read.
 class JsonObject {
  public:
   JsonObject(const Json& value, std::string file, std::string pointer, std::vector<Fault>& faults);
-  /// A view without a document. json_schema_text() uses it to find the keys that a reader requests.
-  /// Records the requested keys in `shape` and returns neutral values.
+  /// A view without a document, for json_schema_text(): records the requested keys in `shape` and
+  /// returns neutral values.
   JsonObject(JsonShape& shape, std::vector<Fault>& ignored) : faults_(&ignored), shape_(&shape) {}
 
   /// True if the object has the key, even with the value null. Marks the key as known.
   bool has(std::string_view key);
-  /// Number of elements in the array or object under the key. Absent if the key is missing or has
-  /// another type. Elements with faults are counted; numbers() and strings() leave them out.
+  /// Number of elements in the array or object under the key, also of faulty elements, which
+  /// numbers() and strings() leave out. Absent if the key is missing or has another type.
   std::optional<std::size_t> size(std::string_view key) const;
   double number(std::string_view key, NumberRule rule = kAnyNumber);
   std::optional<double> optional_number(std::string_view key, NumberRule rule = kAnyNumber);
@@ -76,8 +75,8 @@ class JsonObject {
   std::optional<Interval> nullable_interval(std::string_view key);
   std::vector<double> numbers(std::string_view key, NumberRule rule = kAnyNumber);
   std::vector<std::string> strings(std::string_view key);
-  /// The array under the key. Its elements should be arrays of numbers, which the caller must
-  /// check. Null if the key is missing, which is a fault.
+  /// The array under the key. The caller must check that its elements are arrays of numbers. Null
+  /// if the key is missing, which is a fault.
   const Json* rows(std::string_view key);
   /// The object under the key. If it is missing or not an object (a fault), returns an empty view
   /// that reports no further faults.
@@ -118,9 +117,9 @@ class JsonObject {
 };
 
 /// Returns a JSON Schema (draft 2020-12) that accepts every document that `read` accepts. To derive
-/// it, `read` is run for every value of every choice(), with and without optional keys. If the
-/// value of a choice decides which other keys are allowed, the schema has a rule for it, but it has
-/// no rules for other relations between keys. `format`: value of the key `$id`.
+/// it, `read` is run for every value of every choice(), with and without optional keys. The schema
+/// has a rule where the value of a choice decides which other keys are allowed, and no rules for
+/// other relations between keys. `format`: value of the key `$id`.
 std::string json_schema_text(std::string_view format, std::string_view title,
                              const std::function<void(JsonObject&)>& read);
 
@@ -134,9 +133,8 @@ Provenance read_provenance(JsonObject& json);
 /// lists no inputs, for example because it was written by hand.
 std::optional<bool> is_made_from(const Json& document, std::string_view sha256);
 
-/// JSON text with an indentation of two spaces and a newline at the end. Reading the text gives the
-/// same numbers. Throws std::logic_error with the pointer of a number that is not finite, because
-/// JSON has no such numbers.
+/// JSON text, indented by two spaces, with a newline at the end. Reading it gives the same numbers.
+/// A number that is not finite is not possible in JSON: throws std::logic_error with its pointer.
 std::string to_text(const Json& json);
 
 }  // namespace awmr

@@ -58,9 +58,8 @@ std::optional<Fault> beyond_bounds(const std::string& file, std::string_view tex
   return std::nullopt;
 }
 
-/// Builds the document from the events of the parser, and reports duplicate keys. It replaces the
-/// builder of nlohmann/json, which is slow for many keys: its time grows with the square of their
-/// number.
+/// Builds the document from the events of the parser, and reports duplicate keys. Replaces the
+/// builder of nlohmann/json, whose time grows with the square of the number of keys.
 class DocumentBuilder final : public Json::json_sax_t {
  public:
   explicit DocumentBuilder(std::string file, std::string_view text)
@@ -112,8 +111,8 @@ bool DocumentBuilder::add(Json value) {
   } else if (Level& level = levels_.back(); level.value.is_array()) {
     level.value.push_back(std::move(value));
   } else {
-    // Json stores an object as a list of pairs in their order. Appending a pair cannot duplicate a
-    // key, because key() checks that first.
+    // Json stores an object as a list of pairs in their order. key() has already refused duplicate
+    // keys.
     std::vector<Json::object_t::value_type>& members = level.value.get_ref<Json::object_t&>();
     members.emplace_back(std::move(level.key), std::move(value));
   }

@@ -1,5 +1,5 @@
-/// Parses JSON text in memory. The limits on size protect against hostile files; they are far above
-/// the size of awmr's own files.
+/// Parses JSON text in memory. Limits on its size, far above the size of awmr's own files, protect
+/// against hostile files.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,8 @@ inline constexpr std::size_t kMaxJsonValues = 2'000'000;  ///< number of values 
 /// errors. Errors: a limit is exceeded; a syntax error; a number out of range; a duplicate key.
 Result<Json> read_json_text(std::string_view text, const std::string& file);
 
-/// Checks only that a text is JSON. For files whose keys no command reads, before they are written
-/// (a ReadBack, file.h). Errors: those of read_json_text().
+/// Checks only that a text is JSON, before it is written (a ReadBack, file.h); for files whose keys
+/// no command reads. Errors: those of read_json_text().
 Status check_json_text(std::string_view text, const std::string& file);
 
 /// Checks a JSON text before it is written (a ReadBack, file.h), with the function

@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kAnyKey = "*";
 
 /// True if the choices in `picks` had the given names (indices) in the run `way` of the reader. A
-/// choice that is not in Way::picks had its first name.
+/// choice that is not in Way::picks had its first name (index 0).
 bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   return std::all_of(picks.begin(), picks.end(), [&](const auto& pick) {
     const auto taken = way.picks.find(pick.first);
@@ -18,8 +18,8 @@ bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   });
 }
 
-/// JSON Schema that forbids those of `keys` that are not in `allowed`; an empty object if it
-/// forbids none.
+/// JSON Schema that forbids those of `keys` that are not in `allowed`; an empty object if all are
+/// allowed.
 Json forbidding(const std::set<std::string>& keys, const std::set<std::string>& allowed) {
   Json rule = Json::object();
   for (const std::string& key : keys) {
@@ -133,8 +133,7 @@ Json JsonShape::property_schema(const Property& property) const {
   return kinds.size() == 1 ? kinds.front() : Json{{"anyOf", kinds}};
 }
 
-/// Collects the keys that the reader requested in all runs that differ only in the name of the
-/// choice `key`.
+/// Collects the keys requested in all runs that differ only in the name of the choice `key`.
 JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   const std::string place = place_ + "/" + key;
   Keys keys;
@@ -150,7 +149,7 @@ JsonShape::Keys JsonShape::with_any_name(const std::string& key) const {
   return keys;
 }
 
-/// Rule of the JSON Schema for the documents in which the choice `key` has the value `name`. It
+/// Rule of the JSON Schema for the documents in which the choice `key` has the value `name`:
 /// requires the keys that always occur with this name, and forbids keys that occur only with other
 /// names.
 Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& name) const {
@@ -165,8 +164,8 @@ Json JsonShape::variant(const std::string& key, std::size_t pick, const Json& na
   for (const RequestedKeys& one : ways_) {
     if (!takes(one.way, at_least)) continue;
     if (!one.way.present && one.optional.contains(key)) {
-      // In this run, the optional keys are absent, also this choice. Keys that the reader requests
-      // only in such runs are allowed with every name of the choice.
+      // This run has no optional keys, so also not this choice. Keys requested only in such runs
+      // are allowed with every name of the choice.
       for (const std::string& other : one.keys) {
         if (!keys.present.contains(other)) allowed.insert(other);
       }
@@ -196,9 +195,9 @@ Json JsonShape::names_of(const std::map<std::string, std::size_t>& picks) const 
   return rule;
 }
 
-/// Rule of the JSON Schema for documents without the optional choice `key`. The choice then has its
-/// default name. The rule requires the keys that this name requires, and forbids keys that occur
-/// only with other names. Empty if the choice is not optional.
+/// Rule of the JSON Schema for documents without the optional choice `key`, which then has its
+/// default name: requires the keys that this name requires, and forbids keys that occur only with
+/// other names. Empty if the choice is not optional.
 Json JsonShape::variant_without(const std::string& key) const {
   const auto& on = exploration_->met.at(place_ + "/" + key).on;
   const RequestedKeys* absent = nullptr;
@@ -212,7 +211,7 @@ Json JsonShape::variant_without(const std::string& key) const {
   const Keys keys = with_any_name(key);
   Json then = forbidding(keys.all, allowed);
   std::set<std::string> required = absent->required;
-  // Drops keys that the reader requires only in runs without optional keys. They do not depend on
+  // Drop keys that the reader requires only in runs without optional keys: they do not depend on
   // this choice.
   std::erase_if(required, [&](const std::string& k) { return !keys.required.contains(k); });
   then["required"] = required;

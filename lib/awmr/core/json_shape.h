@@ -1,8 +1,8 @@
 /// Derives the JSON Schema of a file from the function that reads it (the reader), for
-/// json_schema_text(). The reader runs several times on JsonObjects without a document. They record
-/// in a JsonShape each key that the reader requests, with the permitted values. A choice is a key
-/// whose value is one of several names (JsonObject::choice()). The name can decide which other keys
-/// exist, so the runs try all names. Private to this folder.
+/// json_schema_text(). The reader runs several times on JsonObjects without a document, which
+/// record in a JsonShape each key that it requests, with the permitted values. A choice is a key
+/// whose value is one of several names (JsonObject::choice()). The runs try all names, because the
+/// name can decide which other keys exist. Private to this folder.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,7 @@ struct Way {
 /// A choice that the reader requested.
 struct MetChoice {
   std::size_t count = 0;  ///< number of its names
-  /// Names of the other choices (as in Way::picks) in the first run in which the reader requested
-  /// this choice.
+  /// Names of the other choices (as in Way::picks) in the run that first requested this choice.
   std::map<std::string, std::size_t> on = {};
 };
 

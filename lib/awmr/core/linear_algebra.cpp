@@ -29,8 +29,8 @@ Eigen::VectorXcd eigenvalues(const MatrixXd& a) {
   return Eigen::EigenSolver<MatrixXd>(a, false).eigenvalues();
 }
 
-// The singular values of A are those of R in the pivoted decomposition A Pi = Q R. They are
-// computed from R to save compile time: Eigen's code for A itself takes 10 s longer to compile.
+// The singular values of A equal those of R in the pivoted decomposition A Pi = Q R. They are
+// computed from R, because Eigen's code for A itself takes 10 s longer to compile.
 VectorXd singular_values(const MatrixXd& a) {
   if (a.rows() < a.cols()) return singular_values(a.transpose());
   return Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner>(PivotedQr(a).r()).singularValues();
@@ -62,7 +62,7 @@ MatrixXd PivotedQr::inverse_information() const {
   const Eigen::Index p = qr_.cols();
   const MatrixXd r_inverse = r().triangularView<Eigen::Upper>().solve(MatrixXd::Identity(p, p));
   const MatrixXd pivoted = r_inverse * r_inverse.transpose();
-  // Undoes the column pivoting: Pi M Pi^T with M = `pivoted`. Element (i, j) of M moves to row
+  // Undo the column pivoting: Pi M Pi^T with M = `pivoted`. Element (i, j) of M moves to row
   // pivot(i), column pivot(j).
   const Eigen::VectorXi& pivot = qr_.colsPermutation().indices();
   MatrixXd information(p, p);

@@ -1,5 +1,5 @@
-/// Decompositions of dense double matrices. Use these functions instead of Eigen's decompositions,
-/// which cost seconds of compile time in every source file. Private: not installed.
+/// Decompositions of dense double matrices, for use instead of Eigen's, which cost seconds of
+/// compile time in every source file. Private: not installed.
 #pragma once
 
 #include <Eigen/Core>
@@ -54,8 +54,8 @@ class PivotedQr {
   Eigen::MatrixXd inverse_information_by_pseudo_inverse() const;
 
  private:
-  /// Largest number of rows n for which all of Q is computed. A square Q has n^2 values, so for
-  /// more rows only its first p columns are computed.
+  /// Largest number of rows n for which all of Q is computed. For more rows, only the first p
+  /// columns of Q are computed, because a square Q has n^2 values.
   static constexpr Eigen::Index kMaxSquareQ = 200;
 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;

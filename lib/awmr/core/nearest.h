@@ -7,9 +7,9 @@
 
 namespace awmr {
 
-/// Returns the candidate with the smallest edit distance from `word`. Empty if no candidate is near
-/// enough: the distance exceeds both 1 and a third of the word's length. Candidates of more than
-/// 100 bytes are ignored. For a word of more than 100 bytes, the result is empty.
+/// Returns the candidate with the smallest edit distance from `word`; empty if this distance
+/// exceeds both 1 and a third of the word's length. Words and candidates of more than 100 bytes are
+/// ignored.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace awmr

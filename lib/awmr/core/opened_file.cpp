@@ -16,8 +16,8 @@ namespace awmr {
 namespace {
 
 /// Waits up to kPipeWait_s until a program has opened the pipe for writing, or has left bytes in
-/// it. Returns false if no program does. Uses tee(), which consumes no bytes. It returns 0 for an
-/// empty pipe that no program has opened for writing.
+/// it. Returns false if no program does. Uses tee(), which consumes no bytes and returns 0 for an
+/// empty pipe without a writer.
 bool has_writer(int pipe) {
   int copy[2] = {-1, -1};
   if (::pipe2(copy, O_CLOEXEC) != 0) return true;  // cannot check: reading will block for data

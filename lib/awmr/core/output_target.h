@@ -28,8 +28,8 @@ Result<OutputTarget> output_target(const std::filesystem::path& path);
 /// (input): no program reads the pipe; writing fails.
 Status write_stream(const std::filesystem::path& path, std::string_view bytes);
 
-/// Error for an output that cannot be written. The reason is `why`; the overload without it uses
-/// the text of errno.
+/// Error for an output that cannot be written, with the reason `why` or, without it, the text of
+/// errno.
 tl::unexpected<Error> write_error(const std::filesystem::path& path, const std::string& why);
 tl::unexpected<Error> write_error(const std::filesystem::path& path);
 

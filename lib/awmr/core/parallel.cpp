@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Keeps one of the exceptions that the items of a loop throw: that of the item with the smallest
-/// index. So the result does not depend on the order in which the threads run.
+/// Keeps the exception of the item with the smallest index, so that the result does not depend on
+/// the order in which the threads run.
 class FirstException {
  public:
   void keep(std::size_t item, std::exception_ptr exception) {
@@ -32,7 +32,7 @@ class FirstException {
   std::exception_ptr exception_;
 };
 
-/// Worker threads that are kept between loops. Reason: a search runs thousands of loops, and
+/// Worker threads that are kept between loops, because a search runs thousands of loops, and
 /// starting a thread takes about as long as one loop. A loop waits only for the threads that work
 /// on it, so nested loops cannot block each other.
 class Helpers {

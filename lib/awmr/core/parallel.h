@@ -13,13 +13,13 @@ std::size_t thread_count(int threads);
 /// Calls body(i) for i = 0 ... count - 1 on up to `threads` threads (0: one per core), including
 /// the caller's. If body(i) writes only to data of item i, the result does not depend on the number
 /// of threads. After an exception, no further item is started. When all started items have ended,
-/// the exception is rethrown: if there are several, that of the smallest i.
+/// the exception of the smallest i is rethrown.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
 
 /// Cancellation and progress callbacks of a long loop.
 struct LoopControl {
-  /// Called before each item, on the thread that would process it. Several threads can call it at
-  /// the same time. If it returns true, no further item is started.
+  /// Called before each item, on the thread that would process the item, also by several threads at
+  /// once. If it returns true, no further item is started.
   std::function<bool()> stop = {};
   /// Called after each item that the caller's thread has processed, on that thread.
   std::function<void()> progress = {};

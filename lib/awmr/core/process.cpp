@@ -50,8 +50,8 @@ struct Pipe {
 };
 
 /// Settings of a new process: working directory, stdin, stdout and stderr; no other open files; no
-/// signal blocked or ignored. It gets its own process group, so that it can be killed together with
-/// its children.
+/// signal blocked or ignored; its own process group, so that it can be killed together with its
+/// children.
 class SpawnSettings {
  public:
   SpawnSettings(const fs::path& directory, int output) {
@@ -121,8 +121,8 @@ bool read_on(int file, std::string& output) {
   return count > 0;
 }
 
-/// Reads the output until the process has ended or its time limit is reached. Then kills its
-/// process group, which includes the processes that it started.
+/// Reads the output until the process has ended or reached its time limit. Then kills its process
+/// group, which includes its children.
 ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
   ProgramEnd end;
   const auto deadline = Clock::now() + std::chrono::duration<double>(time_limit_s);
@@ -132,8 +132,8 @@ ProgramEnd wait_for(pid_t process, int file, double time_limit_s) {
     pollfd waiting{.fd = readable ? file : -1, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kPoll_ms) > 0) readable = read_on(file, end.output);
     if (waiting.revents != 0 && readable && Clock::now() < deadline) continue;
-    // WNOWAIT keeps the ended process in the process table. So its id cannot be used for another
-    // process before its process group has been killed.
+    // WNOWAIT keeps the ended process in the process table, so no other process can get its id
+    // before its process group has been killed.
     const int waited =
         ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
     if (waited == 0 && ended.si_pid == process) break;

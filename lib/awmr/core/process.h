@@ -27,17 +27,17 @@ struct ProgramEnd {
   std::string output;      ///< first 64 KiB of its stdout and stderr together
 };
 
-/// The first executable file of this name in the directories of PATH; none if there is none.
-/// Relative directories (".") are skipped.
+/// The first executable file of this name in the directories of PATH, if any. Relative directories
+/// (".") are skipped.
 std::optional<std::filesystem::path> find_program(std::string_view name);
 
 /// Environment for a compiler: PATH, HOME and LANG of this process, and `temporary` as TMPDIR.
-/// Variables that would change the compiler's behaviour, such as CPATH, are left out.
+/// Variables that change the compiler's behaviour, such as CPATH, are left out.
 std::vector<std::string> plain_environment(const std::filesystem::path& temporary);
 
-/// Runs a program until it ends or reaches its time limit. Then kills the processes that this
-/// program has left running. Its stdin is empty, and it inherits no open files of this process.
-/// Errors (input): the program cannot be started.
+/// Runs a program until it ends or reaches its time limit, then kills the processes that it left
+/// running. Its stdin is empty, and it inherits no open files of this process. Errors (input): the
+/// program cannot be started.
 Result<ProgramEnd> run_program(const ProgramCall& call);
 
 /// Kills all programs that run_program() waits for, and their children. Later calls of

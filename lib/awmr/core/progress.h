@@ -6,9 +6,8 @@
 
 namespace awmr {
 
-/// Called with `done`, the number of finished steps, and `total`, the number of all steps. If the
-/// work ends early, `done` never reaches `total`. Calls do not overlap. Leave the function empty if
-/// no progress is needed.
+/// Called with the number of finished steps, `done`, and of all steps, `total`. If the work ends
+/// early, `done` never reaches `total`. Calls do not overlap. Empty: no progress is reported.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
 }  // namespace awmr

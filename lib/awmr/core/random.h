@@ -1,5 +1,5 @@
 /// Counter-based random numbers (Philox 4x32-10). The n-th number of a stream depends only on the
-/// seed, the stream and n. So results do not depend on threads or on the order of work.
+/// seed, the stream and n, so results do not depend on threads or on the order of work.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ class Random {
   std::uint32_t bits();
   /// The next number, uniform in [0, 1), with 53 random bits.
   double uniform();
-  /// The next number, normal with mean 0 and standard deviation 1. It always consumes two uniform
-  /// numbers (Box-Muller method; the second output is not used).
+  /// The next number, normal with mean 0 and standard deviation 1. Consumes two uniform numbers in
+  /// each call (Box-Muller method, whose second output is not used).
   double normal();
 
  private:

@@ -13,8 +13,9 @@
 namespace awmr {
 namespace {
 
-/// Least fraction of empty cells in a command (kHeld) or a measurement (kAbsent) at which a table
-/// counts as one with signals of different rates. In other tables, such an empty cell is a fault.
+/// If at least this fraction of the cells of a command (kHeld) or a measurement (kAbsent) is empty,
+/// the table counts as one with signals of different rates. In other tables, such an empty cell is
+/// a fault.
 constexpr double kSparseShare = 0.25;
 
 bool is_empty(double value) { return std::isnan(value); }
@@ -25,7 +26,7 @@ std::size_t count_of_values(const RawColumn& column) {
       std::count_if(column.value.begin(), column.value.end(), has_value));
 }
 
-/// True for a command (kHeld) or a measurement (kAbsent): its cells may be empty if the table has
+/// True for a command (kHeld) or a measurement (kAbsent), whose cells may be empty in a table with
 /// signals of different rates.
 bool has_own_rate(const ColumnSource& source) {
   return source.column.empty == EmptyCells::kHeld || source.column.empty == EmptyCells::kAbsent;
@@ -66,7 +67,7 @@ struct FaultList {
 };
 
 /// Adds a fault if `value`, the value of a requested column in a row, is infinite or NaN. `inputs`:
-/// the values of the file's columns from which it was computed by scaling or by a formula.
+/// values of the file's columns from which it was computed.
 void check_value(double value, const ColumnSource& source, std::span<const double> inputs,
                  std::size_t row, FaultList& faults) {
   if (std::isfinite(value)) return;
@@ -90,9 +91,9 @@ void check_value(double value, const ColumnSource& source, std::span<const doubl
                          std::isnan(value) ? "not a number" : "infinite", at));
 }
 
-/// Index, among the columns of a formula, of the column with the most values. In a table of signals
-/// with different rates, the formula is evaluated in the rows in which this column has a value. Of
-/// the other columns, it then uses the latest values.
+/// Index of the formula's column with the most values. In a table of signals with different rates,
+/// the formula is evaluated in the rows that have a value of this column, with the latest values of
+/// the other columns.
 std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
   std::size_t best = 0;
   std::size_t most = 0;
@@ -145,9 +146,8 @@ std::vector<int> uses_of(const RawTable& raw, const ColumnSources& sources) {
   return uses;
 }
 
-/// Storage for the values of a requested column. To save memory, it is that of a file column from
-/// which the requested column is computed, if no other requested column still needs this file
-/// column.
+/// Storage for the values of a requested column. To save memory, this is the storage of a file
+/// column that the requested column is computed from, if no other requested column still needs it.
 std::vector<double> storage_for(const ColumnSource& source, const std::vector<int>& uses,
                                 RawTable& raw) {
   for (const std::size_t index : source.indices) {
@@ -156,8 +156,8 @@ std::vector<double> storage_for(const ColumnSource& source, const std::vector<in
   return std::vector<double>(raw.lines.size());
 }
 
-/// Computes a requested column. `uses`: for each column of the file, how many other requested
-/// columns must still be computed from it. `sparse`: the column may have empty cells.
+/// Computes a requested column. `uses`: for each file column, the number of other requested columns
+/// that still need it. `sparse`: the column may have empty cells.
 CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, bool sparse,
                            RawTable& raw, FaultList& faults) {
   // In a table with one row per run (kOptional), a formula must not use cells of other rows.
@@ -198,8 +198,8 @@ CsvTable::Column column_of(ColumnSource& source, const std::vector<int>& uses, b
   return column;
 }
 
-/// Completes a time column that find_time() found, or that has dates. If the first time is a date
-/// or a clock time (kClockTime_s), subtracts this time from all. Adds the note `time-column`.
+/// Completes a time column that find_time() found, or that has dates. If it begins with a date or a
+/// clock time (kClockTime_s), subtracts this first time from all. Adds the note `time-column`.
 void settle_time(const ColumnSource& source, CsvTable::Parts& parts) {
   if (!source.time) return;
   std::vector<double>& t_s = parts.columns.at(source.column.name).values;
@@ -262,8 +262,8 @@ Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
     parts.columns.emplace(source.column.name,
                           column_of(source, uses, may_be_empty(source), raw, list));
   }
-  // Columns that are used unchanged are moved out of `raw` last, because other columns are computed
-  // from them before.
+  // Columns that are used unchanged are moved out of `raw` last: the columns above are computed
+  // from them.
   for (const ColumnSource& source : sources.found) {
     if (source.mapping != nullptr || source.expression || may_be_empty(source)) continue;
     RawColumn& column = raw.columns[source.indices.front()];

@@ -11,8 +11,8 @@
 
 namespace awmr {
 
-/// Markers for a cell without a value, and for a cell whose fault was already reported. Values from
-/// files are finite, so they never equal a marker.
+/// Markers for a cell without a value, and for a cell whose fault was already reported. Numbers
+/// from files are finite, so they never equal a marker.
 inline constexpr double kEmptyCell = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kFaultyCell = std::numeric_limits<double>::infinity();
 
@@ -31,9 +31,9 @@ struct RawTable {
   bool joined = false;                   ///< true: signals of different rates; cells may be empty
 };
 
-/// Converts the table to the requested columns, whose sources find_columns() has found with
-/// `mappings`. `faults`: faults found so far; they are reported together with the new ones. Errors:
-/// as read_csv().
+/// Converts the table to the requested columns. `sources`: the result of find_columns() with
+/// `mappings`. `faults`: faults found so far, which are reported together with the new ones.
+/// Errors: as read_csv().
 Result<CsvTable> table_of(RawTable raw, ColumnSources sources,
                           std::span<const ColumnMapping> mappings, std::vector<Fault> faults);
 

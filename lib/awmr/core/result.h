@@ -1,5 +1,5 @@
-/// Errors as return values. Every failure that a user can cause is returned as an `Error`, with its
-/// place, its cause and the remedy. Errors in the program itself are found by assert().
+/// Errors as return values. A failure that a user can cause is returned as an `Error`, with its
+/// place, its cause and the remedy. Errors in the program itself fail an assert().
 #pragma once
 
 #include <cstddef>
@@ -50,8 +50,8 @@ tl::unexpected<Error> program_fault(std::string message);
 /// Makes an error of kind kInput with several faults. Precondition: `faults` is not empty.
 tl::unexpected<Error> input_errors(std::vector<Fault> faults);
 
-/// One line per fault: `error: PLACE: MESSAGE [CODE]`. More than three faults of a file with the
-/// same cause are merged into one. After 20 faults, a line gives the number of the others.
+/// One line per fault: `error: PLACE: MESSAGE [CODE]`. Shortened as by shown_faults()
+/// (option_text.h).
 std::string to_text(const Error& error);
 
 /// Exit code of a program that ends with this error: that of its ErrorKind.
@@ -59,8 +59,7 @@ int exit_code(const Error& error);
 
 }  // namespace awmr
 
-/// Macros for functions that return a Result. If the expression is an error, the function returns
-/// it.
+/// If the expression is an error, the function that contains these macros returns it.
 ///
 ///     AWMR_RETURN_IF_ERROR(write_file(path, text));
 ///     AWMR_ASSIGN_OR_RETURN(const Model model, read_model(path));

@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Tolerance for rounding errors of the rank p n: if the rank exceeds a whole number by at most
-/// this, it counts as this number.
+/// Tolerance for rounding errors of the rank p n: a rank above a whole number by at most this
+/// counts as the whole number.
 constexpr double kRounding = 1e-9;
 
 double between(double below, double above, double share) {

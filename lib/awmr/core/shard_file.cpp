@@ -93,10 +93,10 @@ std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& pro
   return inputs;
 }
 
-/// Describes, for a message, how the origin of a part differs from that of another part of the job:
-/// in program version, options or inputs. Only the first difference is described; empty if there is
-/// none. `found`, `found_version`: origin and program version of the part. `expected`: origin of
-/// the other part, which the text calls `name`. The version is compared with that of this program.
+/// Describes, for a message, the first difference between the origins of two parts of a job:
+/// program version, options or inputs. Empty if there is none. `found`, `found_version`: origin and
+/// program version of one part. `expected`: origin of the other part, which the text calls `name`.
+/// The version is compared with that of this program.
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name) {
   if (found_version != version()) {

@@ -22,14 +22,14 @@ namespace awmr {
 struct PartOrigin {
   Provenance provenance;
   Shard shard;
-  /// How numbers were rounded, "fused" or "scalar"; all parts of a job must agree. Files of earlier
-  /// versions lack it and count as "scalar".
+  /// How numbers were rounded, "fused" or "scalar"; all parts of a job must agree. Files without
+  /// this key count as "scalar".
   std::string arithmetic;
   std::string version = {};  ///< version of the program that wrote the part
 };
 
-/// Returns the texts of a part's files. `payload`: the keys that shard.json has only for this kind
-/// of job.
+/// Returns the texts of a part's files. `payload`: additional keys of shard.json for this kind of
+/// job.
 PartText part_text(const ShardKind& kind, const PartOrigin& origin, std::string table,
                    const Json& payload);
 
@@ -48,7 +48,6 @@ Result<std::vector<Part>> read_parts(const ShardKind& kind,
                                      const std::vector<std::filesystem::path>& directories);
 
 /// Reads keys of a shard.json that was already checked: returns the result of `read(JsonObject&)`.
-/// Faults are ignored.
 template <class Read>
 auto payload_of(const Json& shard_json, const Read& read) {
   std::vector<Fault> faults;
@@ -60,18 +59,18 @@ auto payload_of(const Json& shard_json, const Read& read) {
 /// from the one in shard.json.
 Result<std::string> read_table(const ShardKind& kind, const Part& part);
 
-/// Checks that the rows of a part's table belong to this part. The table must have all items of the
-/// part in order, once or several times. `items`: number of items of the whole job. `rows`: number
-/// of rows. `item_of(i)`: item of row i. `name`: what an item is, such as "run". Errors (input):
-/// the shard does not fit a job of `items` items; the table has no rows; a row belongs to another
-/// item; rows are missing or repeated.
+/// Checks that the rows of a part's table belong to this part: all items of the part in order, once
+/// or several times. `items`: number of items of the whole job. `rows`: number of rows.
+/// `item_of(i)`: item of row i. `name`: what an item is, such as "run". Errors (input): the shard
+/// does not fit a job of `items` items; the table has no rows; a row belongs to another item; rows
+/// are missing or repeated.
 Status check_items(const ShardKind& kind, const Part& part, std::string_view name, int items,
                    std::size_t rows, const std::function<int(std::size_t)>& item_of);
 
-/// Merges the rows of all parts into the order that a job without shards has. `parts`: the rows of
-/// each part, by shard index. A part has one or more blocks of rows; a block has one row for each
-/// item of the part, in order. `items`: number of items of the whole job. Errors (input): the parts
-/// have different numbers of blocks.
+/// Merges the rows of all parts into the order that a job without shards has. `parts`: rows of each
+/// part, by shard index, in one or more blocks. A block has one row for each item of the part, in
+/// order. `items`: number of items of the whole job. Errors (input): the parts have different
+/// numbers of blocks.
 template <class Row>
 Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& parts, int items) {
   std::size_t rows = 0;

@@ -1,5 +1,5 @@
-/// A part: the directory with the stored results of one shard (shard.h) of a job. The file
-/// shard.json in it identifies the shard and its origin (options, inputs, program version); a table
+/// A part: the directory with the stored results of one shard (shard.h) of a job. Its file
+/// shard.json identifies the shard and its origin (options, inputs, program version). Its table
 /// (CSV) has the results.
 #pragma once
 
@@ -48,8 +48,8 @@ std::vector<std::string> part_files(const ShardKind& kind);
 Status write_part(const ShardKind& kind, const std::filesystem::path& directory,
                   const PartText& part);
 
-/// The value of the key `schema` in the directory's shard.json, which identifies the kind of the
-/// part; empty if shard.json has no such key. Errors: those of read_json_file().
+/// The value of the key `schema` in the directory's shard.json, which identifies the kind of job;
+/// empty if the key is missing. Errors: those of read_json_file().
 Result<std::string> schema_of_part(const std::filesystem::path& directory);
 
 /// JSON Schema of shard.json, derived from its reader.

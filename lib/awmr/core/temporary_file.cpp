@@ -56,8 +56,8 @@ extern "C" void remove_and_end(int signal) {
 }
 
 /// Adds a path to the files that the signal handler removes. Returns its index in `registered`, or
-/// -1 if all entries are in use. Without an entry, a signal leaves the file behind; a later
-/// remove_stale_temporaries() removes it.
+/// -1 if all entries are in use; a signal then leaves the file behind, for
+/// remove_stale_temporaries().
 int register_path(const fs::path& path) {
   char* text = ::strdup(path.c_str());
   for (int i = 0; text != nullptr && i < kSlots; ++i) {
@@ -72,7 +72,7 @@ std::string random_characters() {
   constexpr std::string_view kCharacters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
   unsigned char bytes[kRandomCharacters] = {};
-  // If the system gives no random bytes, the names are equal, and TemporaryFile::in() fails after
+  // Without random bytes from the system, all names are equal, and TemporaryFile::in() fails after
   // kAttempts attempts.
   [[maybe_unused]] const ssize_t count = ::getrandom(bytes, sizeof bytes, 0);
   std::string text;
@@ -106,8 +106,8 @@ std::optional<TemporaryFile> TemporaryFile::in(const fs::path& directory) {
   return std::nullopt;
 }
 
-// The path is registered before the file is made. Otherwise a signal between the two would leave
-// the file behind.
+// The path is registered before the file is made, because a signal between both would otherwise
+// leave the file behind.
 TemporaryFile::TemporaryFile(fs::path path)
     : path_(std::move(path)),
       slot_(register_path(path_)),
@@ -116,8 +116,8 @@ TemporaryFile::TemporaryFile(fs::path path)
     path_.clear();  // no file is removed: there is none, or it belongs to another process
     return;
   }
-  // Failure is ignored: on a file system without locks, the process id in the name still shows that
-  // the program is running.
+  // A failure does no harm: on a file system without locks, the process id in the name still shows
+  // that the program is running.
   (void)::flock(file_.number(), LOCK_EX | LOCK_NB);
 }
 

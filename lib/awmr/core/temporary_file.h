@@ -39,14 +39,13 @@ class TemporaryFile {
   Descriptor file_;
 };
 
-/// Installs handlers for signals that end this process (SIGINT, SIGTERM, SIGHUP, ...). They remove
-/// its temporary files before the process ends. A signal that was set to be ignored, as with nohup,
-/// stays ignored.
+/// Installs handlers for signals that end this process (SIGINT, SIGTERM, SIGHUP, ...), which remove
+/// its temporary files first. A signal that was set to be ignored, as with nohup, stays ignored.
 void remove_temporaries_on_signals();
 
-/// Removes from `directory` the temporary files that ended programs left behind. A file is removed
-/// if no process has the id in its name, and no process holds its lock. (Process ids alone do not
-/// suffice in a directory that several machines share, because each machine has its own.)
+/// Removes from `directory` the temporary files that ended programs left behind: those for which no
+/// process has the id in the name, and no process holds the lock. (Process ids alone are not
+/// enough: in a directory that several machines share, each machine has its own ids.)
 void remove_stale_temporaries(const std::filesystem::path& directory);
 
 }  // namespace awmr

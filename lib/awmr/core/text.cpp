@@ -30,8 +30,8 @@ Character first_character(std::string_view text) {
   return {code, bytes};
 }
 
-/// True for the code points of characters that move the cursor, change the terminal's state or
-/// reverse the writing direction.
+/// True for characters that move the cursor, change the terminal's state or reverse the writing
+/// direction.
 bool is_control(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x200E || code == 0x200F ||
          (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);

@@ -28,16 +28,16 @@ std::string printable(std::string_view text);
 /// As printable(), but keeps line breaks.
 std::string printable_lines(std::string_view text);
 
-/// Breaks a text between words into lines of at most `width` bytes. All lines but the first are
-/// indented by `indent` spaces. The first line is shorter by as much, for text that the caller puts
-/// there.
+/// Breaks a text between words into lines of at most `width` bytes, and indents all lines but the
+/// first by `indent` spaces. The first line is shorter by `indent`, for a text that the caller puts
+/// before it.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
 
 /// Default length limit of shortened(), bytes.
 inline constexpr std::size_t kLongestShown = 1000;
 
-/// The text, shortened if it has more than `longest` bytes: its beginning, " ... " and its end. The
-/// end is kept because a message has its remedy there.
+/// The text; if it has more than `longest` bytes, only its beginning, " ... " and its end, where a
+/// message has its remedy.
 std::string shortened(std::string_view text, std::size_t longest = kLongestShown);
 
 }  // namespace awmr

@@ -59,8 +59,8 @@ bool is_time_word(std::string_view word) {
 
 std::string in_backticks(const std::string& name) { return "`" + name + "`"; }
 
-/// Recognises names such as `time_ms` and `header.stamp [us]`. `stop_time_s` is a duration and is
-/// not recognised.
+/// Recognises names such as `time_ms` and `header.stamp [us]`, but not `stop_time_s`, which is a
+/// duration.
 std::optional<TimeColumn> with_unit(const std::string& name) {
   // PlotJuggler exports seconds under this name.
   if (name == "__time") {
@@ -103,7 +103,8 @@ std::optional<TimeColumn> as_date(const std::string& name, std::string_view samp
 }
 
 /// Recognises a column such as `timestamp` with seconds since 1970, of the years 2001 to 2096. The
-/// number must have a fraction: counts of milliseconds or smaller units have none.
+/// number must have a fraction, which distinguishes it from a count of milliseconds or smaller
+/// units.
 std::optional<TimeColumn> as_unix_seconds(const std::string& name, std::string_view sample) {
   if (!is_time_word(parts_of(name).back()) || sample.find('.') == std::string_view::npos) {
     return std::nullopt;

@@ -15,8 +15,8 @@ namespace awmr {
 /// Name of the time column, s.
 inline constexpr std::string_view kTimeName = "t_s";
 
-/// Smallest magnitude, s, of a clock time, such as seconds since 1970. If a column that find_time()
-/// found begins with a clock time, all times are counted from the first row.
+/// Smallest magnitude of a clock time, such as seconds since 1970, s. If the time column that
+/// find_time() found begins with a clock time, times are counted from the first row.
 inline constexpr double kClockTime_s = 1e6;
 
 /// A column or a pair of columns with the time.
@@ -35,7 +35,7 @@ tl::expected<std::optional<TimeColumn>, std::string> find_time(
 
 /// Converts a date such as `2026-01-31T12:34:56.789Z` to seconds since 1970; empty for other text.
 /// A space may replace the T, and `+hh:mm` the Z. Seconds and their fraction are optional. Without
-/// a zone, UTC is assumed. A wrong zone would do no harm, because only differences of times matter.
+/// a zone, UTC is assumed: a wrong zone does no harm, because only differences of times matter.
 std::optional<double> seconds_of_date(std::string_view text);
 
 }  // namespace awmr

@@ -15,8 +15,8 @@ inline constexpr double kTyreFriction = 0.8;
 inline constexpr double kCorneringStiffness_per_rad = 10.0;
 
 /// v_0, m/s, chosen far below driving speeds. The slip of a tyre is its sideways speed divided by
-/// sqrt(w^2 + v_0^2), where w is its rolling speed. Without v_0, this would divide by 0 for a tyre
-/// at rest.
+/// sqrt(w^2 + v_0^2), where w is its rolling speed. v_0 prevents a division by 0 for a tyre at
+/// rest.
 inline constexpr double kTyreRestSpeed_mps = 0.1;
 
 }  // namespace awmr
