@@ -25,8 +25,8 @@ struct CompassCalibration {
   WithInterval gain_left;     ///< S: gain from left to left
   WithInterval field;         ///< radius of the circle that c describes, in the unit of f, > 0
   double residual = 0.0;      ///< standard deviation of |c|, divided by `field`
-  /// 97.5 % bound of the error of a heading that is computed with this calibration, for the
-  /// direction in which this bound is largest
+  /// 97.5 % bound of the error of a calibrated heading, in the direction in which this bound is
+  /// largest
   double heading_error_deg = 0;
   double turned_deg = 0.0;       ///< angle turned from the first row to the last, left positive
   double largest_gap_deg = 0.0;  ///< largest angle between neighbouring measured field directions

@@ -50,8 +50,8 @@ struct Plant {
   T yaw_scrub_m = T(0.0);
 };
 
-/// Upper bound of the yaw resistance: g3 plus the largest moment of tyre scrub. It is used to
-/// choose integration steps that are short enough.
+/// Upper bound of the yaw resistance: g3 plus the largest moment of tyre scrub. A larger resistance
+/// needs shorter integration steps.
 template <class T>
 Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   Resistance<T> law = p.yaw;
@@ -59,10 +59,11 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   return law;
 }
 
-/// Yaw moment N_c of tyre scrub divided by F_max, m. It has the sign of the yaw rate r, and resists
-/// the turn. In a differential turn the straight wheels are dragged sideways; in a steered turn
+/// Yaw moment N_c of tyre scrub divided by F_max, m. It has the sign of the yaw rate r and resists
+/// the turn. In a differential turn, the straight wheels are dragged sideways; in a steered turn,
 /// they roll. c = yaw_scrub_m is the moment measured in differential turns. In other turns, c is
 /// multiplied by q, the fraction of the yaw moment that comes from different left and right forces
+/// (tau_diff) and not from the steering (tau_steering):
 /// (tau_diff), not from the steering (tau_steering):
 ///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
 /// For |r| below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
@@ -146,8 +147,8 @@ State<T> rates(const Plant<T>& p, const State<T>& s, const T& surge_force, const
   using math::sin;
   const T cos_psi = cos(s.psi_rad);
   const T sin_psi = sin(s.psi_rad);
-  // Divisions would take most of the time of a batch of simulations. Therefore the code multiplies
-  // by the reciprocals of mass and inertia, which are constant.
+  // Reciprocals of mass and inertia, which are constant: divisions would take most of the time of a
+  // batch of simulations.
   const T per_mass = T(1.0) / p.mass_norm;
   const T per_inertia = T(1.0) / p.inertia_norm;
   State<T> d{};
@@ -202,7 +203,7 @@ WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelFor
 }
 
 /// The three terms of the yaw moment that the wheel forces make, m: tau_steering, and tau_diff of
-/// each axle.
+/// the front and of the rear axle.
 template <class T>
 struct YawMoments {
   T steering_m;    ///< l_f S_f sin d_r
@@ -337,8 +338,8 @@ State<T> side_driven_rates(const Plant<T>& p, const State<T>& s, const SideForce
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
 
-/// The command of each wheel if both wheels of a side get the same command, `f`. Rear wheels that
-/// are not driven get 0. The overload for WheelForces returns its argument unchanged.
+/// The command of each wheel if both wheels of a side get the same command, `f`; 0 for rear wheels
+/// that are not driven.
 template <class T>
 WheelForces<T> by_wheel(const Plant<T>& p, const SideForces<T>& f) {
   return {f.left, f.right, p.rear_driven * f.left, p.rear_driven * f.right};
@@ -359,9 +360,9 @@ T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) 
   return detail::scrub_of(p, s, tau) * s.r_radps;
 }
 
-/// Rates of the state if both motors of a side have the same command, `f`. Front and rear forces
-/// can differ in spite of equal commands (back-EMF, undriven rear wheels). In this case, and if the
-/// vehicle has scrub, the equations for individual wheels are used.
+/// Rates of the state if both motors of a side have the same command, `f`. The equations for
+/// individual wheels are used if front and rear forces can differ in spite of equal commands
+/// (back-EMF, undriven rear wheels), or if the vehicle has scrub.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {

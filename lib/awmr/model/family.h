@@ -23,8 +23,8 @@ inline constexpr NameTable<Family, 5> kFamilyNames{
      {"dead-zone", Family::kDeadZone}}};
 constexpr std::string_view name_of(Family family) { return name_in(kFamilyNames, family); }
 
-/// Parameters that a fit of the family estimates, in addition to alpha. Those that it does not
-/// estimate are 1 (beta) or 0 (the others).
+/// Parameters that a fit of the family estimates, in addition to alpha. The others are fixed: beta
+/// at 1, Coulomb, quadratic part and dead zone at 0.
 struct FamilyTerms {
   bool beta = false;
   bool coulomb = false;

@@ -19,15 +19,14 @@ enum class Effect {
   kNote,           ///< any other note
 };
 
-/// The effect of a finding, by its severity and code. Error: kRefusal. Warning: the effect that the
-/// table in finding_rank.cpp gives its code, else kDoubt. Note: kAssumption if the table gives this
-/// to its code, else kNote.
+/// The effect of a finding. Error: kRefusal. Warning: the effect of its code in the table of
+/// finding_rank.cpp, else kDoubt. Note: kAssumption if the table gives this effect to its code,
+/// else kNote.
 Effect effect_of(const Finding& finding);
 
-/// Returns the findings in display order. First come the errors, then the first finding of each
-/// other code, then the further findings of these codes, then the notes. Within the second and the
-/// third group, findings are sorted by effect. Otherwise the order of `findings` is kept.
-/// `findings` must outlive the result.
+/// Returns the findings in display order: the errors, then the first finding of each other code,
+/// then the further findings of these codes, then the notes. Findings with a code are sorted by
+/// effect, otherwise their order is kept. `findings` must outlive the result.
 std::vector<const Finding*> by_effect(const std::vector<Finding>& findings);
 
 }  // namespace awmr

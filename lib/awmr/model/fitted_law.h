@@ -8,9 +8,9 @@
 
 namespace awmr {
 
-/// A resistance law counts as extrapolated far outside the fitted speeds (or yaw rates): above the
-/// largest fitted one times this factor, or below the smallest one divided by it. Chosen: a larger
-/// factor warns later.
+/// Factor beyond the fitted speeds (or yaw rates) from which a resistance law counts as
+/// extrapolated far: above the largest fitted speed times this, or below the smallest divided by
+/// this. Chosen: a larger factor warns later.
 inline constexpr double kLittleFurther = 1.2;
 
 /// The model parameters that are the coefficients of a resistance law:
@@ -43,8 +43,8 @@ double variance_of_law(const Model& model, TrialKind kind, std::span<const doubl
 double variance_of_law(const Model& model, TrialKind kind, std::span<const double> rates);
 
 /// The largest yaw rate, deg/s, for which the yaw resistance was measured: the vehicle's
-/// yaw_rate_max_degps, else the largest of the turning trials and logs in the record. Absent if
-/// there is none.
+/// yaw_rate_max_degps, else the largest yaw rate of the turning trials and logs in the record.
+/// Absent if there is none.
 std::optional<double> measured_yaw_rate_degps(const Model& model);
 
 }  // namespace awmr

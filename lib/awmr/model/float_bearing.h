@@ -1,9 +1,9 @@
 /// The angle of a plane vector (atan2) for float, computed with 16-bit integers. Freestanding
 /// C++14.
 ///
-/// Guidance steers along this angle, so it needs only the accuracy of a heading sensor. An 8-bit
-/// processor divides 16-bit integers in half the time of floats. Integer results are the same on
-/// every machine.
+/// Guidance steers along this angle, so the accuracy of a heading sensor is sufficient. An 8-bit
+/// processor divides 16-bit integers in half the time of floats, and integer results are the same
+/// on every machine.
 #pragma once
 
 #include <stdint.h>
@@ -91,8 +91,8 @@ inline float bearing(float y, float x) {
     large = height;
   }
   if (large >= kInfinityBits) return not_a_number();
-  // Rounds the mantissas to 16 bits: adds half of the last place that is kept, before the other
-  // bits are cut off.
+  // Round the mantissas to 16 bits: add half of the last place that is kept, before the rest is cut
+  // off.
   int32_t angle =
       static_cast<int32_t>(detail::atan17(detail::ratio16(small + 0x80U, large + 0x80U)));
   if (steep) angle = detail::kQuarterTurn17 - angle;

@@ -1,10 +1,10 @@
 /// sin, cos, atan, atan2 and the wrap of an angle for float. Freestanding C++14.
 ///
 /// Uses only comparisons and operations that IEEE 754 rounds correctly (add, subtract, multiply,
-/// divide). So the ATmega2560 and a host compiled with -ffp-contract=off give the same bits. The
-/// functions of the C libraries differ in the last bit. The polynomials in z = x^2 are minimax
-/// approximations, found by the Remez exchange. The worst errors given below are checked by
-/// tests/model/float_math_test, with AWMR_EXHAUSTIVE=1 for every float of the range.
+/// divide). So the ATmega2560 and a host compiled with -ffp-contract=off give the same bits, unlike
+/// the functions of their C libraries, which differ in the last bit. The polynomials in z = x^2 are
+/// minimax approximations, found by the Remez exchange. tests/model/float_math_test checks the
+/// worst errors given below; with AWMR_EXHAUSTIVE=1 it checks every float of the range.
 ///
 /// Angles are valid up to +-kAngleMax. For larger angles, infinities and NaN, the result is NaN,
 /// which a caller can detect.
@@ -24,9 +24,9 @@
 /// optimise it for size.
 #ifdef __AVR__
 #define AWMR_CALLED __attribute__((noinline, optimize("Os")))
-/// As AWMR_CALLED, for member functions. The compiler must also not copy (clone) the function for a
-/// single object. The copy would use absolute addresses, which make the code twice as long as
-/// addresses relative to the object.
+/// As AWMR_CALLED, for member functions. The compiler must also not make a copy (clone) of the
+/// function for a single object: its absolute addresses make the code twice as long as addresses
+/// relative to the object.
 #define AWMR_CALLED_MEMBER __attribute__((noinline, noclone, optimize("Os")))
 #else
 #define AWMR_CALLED
@@ -50,8 +50,8 @@ inline float float_of(uint32_t bits) {
 
 namespace float_math {
 
-/// The bits of |x|. As integers, they have the order of the magnitudes. Comparing them takes half
-/// the cycles of a float comparison on the chip (ATmega2560). A result above kInfinityBits is a
+/// The bits of |x|: as integers, they have the order of the magnitudes. On the chip (ATmega2560),
+/// comparing them takes half the cycles of a float comparison. A result above kInfinityBits is a
 /// NaN.
 inline uint32_t magnitude_bits(float x) { return bits_of(x) & 0x7FFFFFFFUL; }
 constexpr uint32_t kInfinityBits = 0x7F800000UL;
@@ -64,8 +64,8 @@ inline int32_t order_of(float x) {
 }
 inline bool is_nan(float x) { return magnitude_bits(x) > kInfinityBits; }
 
-/// The leading 16 bits of |x|: exponent and seven bits of mantissa. If they differ for two numbers,
-/// they have the order of the magnitudes. Comparing them takes half the cycles of comparing
+/// The leading 16 bits of |x|: exponent and seven bits of mantissa. For two numbers, different
+/// leading bits have the order of the magnitudes. Comparing them takes half the cycles of comparing
 /// magnitude_bits().
 inline uint16_t leading_bits(float x) {
   return static_cast<uint16_t>(bits_of(x) >> 16U) & static_cast<uint16_t>(0x7FFFU);
@@ -76,8 +76,8 @@ inline int16_t leading_order_of(float x) {
   const int16_t magnitude = static_cast<int16_t>(leading_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? static_cast<int16_t>(-magnitude) : magnitude;
 }
-/// True if the leading 16 bits alone show that lo < x < hi. False for NaN, and at and near the
-/// ends, where the other bits would decide.
+/// True if the leading 16 bits alone show that lo < x < hi. False for NaN, and near the ends, where
+/// the other bits would decide.
 inline bool is_inside(float x, float lo, float hi) {
   const int16_t order = leading_order_of(x);
   return order > leading_order_of(lo) && order < leading_order_of(hi);
@@ -193,8 +193,7 @@ inline float atan2(float y, float x) {
   const float part = detail::atan_poly(ratio);
   const float angle = detail::eighths_of_turn(eighths) + (backwards ? -part : part);
   if (bits_of(y) >> 31U == 0 || magnitude_bits(y) == 0) return angle;
-  // Slightly below the negative x axis, the angle rounds to half a turn, which is returned as +pi
-  // and never as -pi.
+  // Slightly below the negative x axis, the angle rounds to half a turn: return +pi, never -pi.
   return eighths == 4 && magnitude_bits(angle) == bits_of(kPi) ? angle : -angle;
 }
 
@@ -216,16 +215,14 @@ inline float twice_atan(float x) {
   return half + half;
 }
 
-/// The equivalent angle in (-pi, pi]: unchanged if it is already in the range. Worst error 5e-7
-/// rad.
+/// The equivalent angle in (-pi, pi]; unchanged if x is in this range. Worst error 5e-7 rad.
 inline float wrapped(float x) {
   const uint32_t magnitude = magnitude_bits(x);
   if (magnitude < bits_of(kPi)) return x;
   if (magnitude == bits_of(kPi)) return kPi;
   float rest = x;
   if (magnitude < bits_of(9.42477F)) {
-    // Below 3 pi, one turn is added or subtracted. This is the common case of a heading that is not
-    // wrapped.
+    // Below 3 pi, the common case of a heading that is not wrapped: add or subtract one turn.
     rest = bits_of(x) >> 31U == 0 ? x - 2.0F * kPi : x + 2.0F * kPi;
   } else {
     if (!(magnitude <= bits_of(kAngleMax))) return not_a_number();

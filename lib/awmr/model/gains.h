@@ -32,8 +32,7 @@ struct HeadingGains {
   /// Time constant T2 of reaching the surface S = 0, s: in the boundary layer |S| <= epsilon, V =
   /// S^2/2 falls as exp(-t/T2), so S falls as exp(-t/(2 T2)).
   ///   T2 = epsilon/(2 mu)                                             [paper (92)-(95), corrected]
-  /// Corrected: the paper calls this phase sliding, but during it the surface is still being
-  /// reached.
+  /// Corrected: the paper calls this phase sliding, although the surface is only being reached.
   T reaching_time_constant_s() const { return epsilon / (T(2.0) * mu); }
 };
 
@@ -67,11 +66,10 @@ struct Gains {
 
   /// Friction width w, rad/s, in a mode of yaw control. At yaw rates below w, the controller feeds
   /// forward the resistance g3(w) sat((psi_d_dot + lambda e)/w) instead of g3, which jumps at rest
-  /// (fed_forward()). A larger w gives less noise in the steering command. But it also gives a
-  /// larger heading error at rest, which only an observer removes. With an observer, w is w0 in
-  /// every mode. Without one, w depends on `steering_share`, the share s of the yaw moment that the
-  /// steering makes. It is 0.02 for s = 0, the width of the combined mode for s = 1/2, and w0 for s
-  /// = 1.
+  /// (fed_forward()). A larger w gives less noise in the steering command, but a larger heading
+  /// error at rest, which only an observer removes. With an observer, w is w0 in every mode.
+  /// Without an observer, w depends on the share s = `steering_share` of the yaw moment that the
+  /// steering makes: 0.02 for s = 0, the width of the combined mode for s = 1/2, w0 for s = 1.
   T friction_width_at(const T& steering_share) const {
     const T w0 = heading.friction_width_radps;
     if (observer.is_on() || steering_share > T(0.5)) return w0;

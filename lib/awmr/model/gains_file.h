@@ -15,30 +15,29 @@
 
 namespace awmr {
 
-/// Reads `/heading`, `/speed` and, if present, `/observer`. These gains are for all modes without
+/// Reads `/heading`, `/speed` and, if present, `/observer`: the gains of all modes that have no
 /// gains of their own. Errors: those of read_json_file(); unknown keys; gains that are missing or
 /// out of range (ranges.h), also in `/modes`.
 Result<Gains<double>> read_gains(const std::filesystem::path& path);
 
-/// Reads `/certificate`, the worst cases of the closed loop. Absent in files without tuning results
-/// and in older files. Errors: as read_json_file(); a certificate in another form.
+/// Reads `/certificate`, the worst cases of the closed loop; absent if the file has no such key.
+/// Errors: as read_json_file(); a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
-/// As read_gains(), but also reads the gains of single modes (`/modes`), if there are any. Such a
-/// mode does not get the observer of `/observer`: its own gains must contain one.
+/// As read_gains(), and also reads the gains of single modes (`/modes`). Such a mode does not get
+/// the observer of `/observer`: its own gains must contain one.
 Result<ModeGains> read_mode_gains(const std::filesystem::path& path);
 
 /// JSON pointer of the gains of a mode in gains.json: "/modes/steering", or "" if the mode has no
 /// gains of its own.
 std::string pointer_of(const ModeGains& gains, YawMode mode);
 
-/// Checks that a text of gains.json can be read. Used before the file is written (ReadBack in
-/// core/file.h). Errors: those of read_gains().
+/// Checks that a text of gains.json can be read, before it is written (ReadBack in core/file.h).
+/// Errors: those of read_gains().
 Status check_gains_text(std::string_view text, const std::string& file);
 
-/// As read_mode_gains(), but also checks that the gains suit a controller with this sample time.
-/// Errors: as read_mode_gains(); the bandwidth of the observer is too large for the sample time
-/// (check_observer_rate()).
+/// As read_mode_gains(), and also checks that the observer suits a controller with this sample
+/// time. Errors: as read_mode_gains(); the bandwidth is too large (check_observer_rate()).
 Result<ModeGains> read_gains_for(const std::filesystem::path& path, double sample_time_s);
 
 /// Writes a file with gains only. Tuned gains are written by gains_text() in tune/tune.h.

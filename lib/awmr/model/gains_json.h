@@ -8,9 +8,9 @@ namespace awmr {
 
 inline constexpr std::string_view kGainsSchema = "awmr.gains/1";
 
-/// Returns {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}. "heading" also has
-/// "friction_width_radps" and "combined_friction_width_radps" if they are not the defaults. With an
-/// observer, there is also "observer": {bandwidth_radps, yaw_max_m, surge_max}.
+/// Returns {"heading": {lambda, mu, epsilon}, "speed": {mu, epsilon}}. "heading" also has the keys
+/// "friction_width_radps" and "combined_friction_width_radps" for values other than the defaults.
+/// An observer adds "observer": {bandwidth_radps, yaw_max_m, surge_max}.
 inline Json gains_to_json(const Gains<double>& gains) {
   Json json = {{"heading",
                 {{"lambda", gains.heading.lambda},

@@ -24,8 +24,8 @@ inline constexpr YawMode kYawModes[] = {YawMode::kDifferential, YawMode::kSteeri
 class ModeGains {
  public:
   ModeGains() = default;
-  /// One set for all modes. The constructor is not explicit, so that a function that takes
-  /// ModeGains also accepts one set.
+  /// One set for all modes. Not explicit, so that a function that takes ModeGains also accepts one
+  /// set.
   ModeGains(const Gains<double>& gains) : common_(gains) {}  // NOLINT(google-explicit-constructor)
 
   /// The gains to use in a mode.
@@ -42,8 +42,7 @@ class ModeGains {
     return in(YawMode::kDifferential).observer.is_on() || in(YawMode::kSteering).observer.is_on() ||
            in(YawMode::kCombined).observer.is_on();
   }
-  /// The modes that a file lists one by one: all modes if at least one has gains of its own, else
-  /// none.
+  /// The modes that a file lists one by one: all modes if a mode has gains of its own, else none.
   std::span<const YawMode> listed_modes() const {
     const bool has_any_own = has_own(YawMode::kDifferential) || has_own(YawMode::kSteering) ||
                              has_own(YawMode::kCombined);

@@ -124,8 +124,8 @@ Plant<double> Model::plant_as_known() const {
         (*this)[parameter.id].value.value_or(none_of(parameter.id));
   }
   Plant<double> plant = plant_of(vehicle, values);
-  // Tyre scrub always resists a turn, so a negative estimate of its moment is due to noise. It
-  // counts as 0.
+  // Tyre scrub always resists a turn, so a negative estimate of its moment is noise and counts as
+  // 0.
   if (yaw_scrub) plant.yaw_scrub_m = std::max(yaw_scrub->moment_m, 0.0);
   return plant;
 }

@@ -56,8 +56,8 @@ struct Estimate {
   Source source = Source::kGiven;
   std::string method;  ///< "log-linear", "box formula", "vehicle.json", ...
   /// Quantiles of the estimate: the ends of the 95 % interval, the quartiles and the median.
-  /// Present only if the error is not normal about `value`. Monte-Carlo simulations draw plants
-  /// from them (simulate/plant_sampler.h).
+  /// Present only if the error is not normally distributed about `value`. Monte-Carlo simulations
+  /// then draw the plants' values from the quantiles (simulate/plant_sampler.h).
   std::optional<Quantiles> quantiles = {};
 };
 
@@ -68,7 +68,7 @@ struct Covariance {
 };
 
 /// Tyre scrub: the yaw moment that resists differential (skid) turns in addition to the resistance
-/// g3 of steered turns. It is modelled as a Coulomb friction, the same at every yaw rate. In a
+/// g3 of steered turns. The model treats it as Coulomb friction, the same at every yaw rate. In a
 /// steady differential turn,
 ///   2 d (F'R - F'L) = g3(r) + moment_m            (moments divided by F_max; d: half track)
 struct YawScrub {
@@ -82,14 +82,14 @@ struct YawScrub {
   std::optional<Interval> changing_m = {};
 };
 
-/// False if the vehicle does not have this parameter. Only a vehicle without steering lacks one:
-/// the time constant of the servo.
+/// False if the vehicle does not have this parameter: the time constant of the servo without
+/// steering.
 bool has(const Vehicle& vehicle, ParameterId id);
 /// Description, for messages, of the trial that identifies a parameter of this vehicle.
 std::string_view trial_of(const Vehicle& vehicle, ParameterId id);
 
-/// Types of motion, by the parameters in their equations. All equations contain dead zone and
-/// back-EMF.
+/// Types of motion, by the parameters in their equations. Dead zone and back-EMF are in all
+/// equations.
 enum class Motion {
   kSteadySurge,  ///< straight ahead at constant speed: g1
   kSteadyTurn,   ///< turn at constant yaw rate: g3
@@ -113,8 +113,9 @@ struct Model {
   std::array<Estimate, kParameterCount> estimates;  ///< by ParameterId
   Covariance covariance;
   /// Smallest plausible m', s^2/m, > 0: g1(u)/(mu g). With a smaller m', the resistance g1(u) would
-  /// brake the vehicle harder than its tyres permit. u: highest initial speed of the coast-downs,
-  /// mu: kTyreFriction, g: acceleration of gravity. Absent if the identified m' is plausible.
+  /// brake the vehicle harder than its tyres permit. u: highest initial speed of the coast-downs;
+  /// mu: friction kTyreFriction; g: acceleration of gravity. Absent if the identified m' is
+  /// plausible.
   std::optional<double> mass_norm_by_grip;
   std::optional<YawScrub> yaw_scrub;  ///< absent: no turning trial determines it
   /// Largest yaw moment divided by F_max, m, > 0, that the difference of left and right wheel
@@ -131,17 +132,17 @@ struct Model {
   }
 
   /// The plant from estimates and vehicle, for simulation and control in this motion. Errors
-  /// (input): a parameter in the equations of the motion has no value. The message names each of
-  /// these parameters with the trial that identifies it.
+  /// (input): a parameter in the equations of the motion has no value. The message names it, with
+  /// the trial that identifies it.
   Result<Plant<double>> plant(Motion motion = Motion::kPlanar) const;
 
   /// The plant for simulating only the motions that the trials in `record` measured, such as
   /// straight driving. Only the parameters of these motions need a value. Errors: as plant().
   Result<Plant<double>> plant_of_trials() const;
 
-  /// The plant without checks, for motions whose equations do not contain the parameters that have
-  /// no value. Such a parameter is replaced: a resistance by 0; an inertia, an exponent or a time
-  /// constant by 1.
+  /// The plant without checks, for motions that do not depend on the parameters without a value.
+  /// Such a parameter is replaced: a resistance by 0; an inertia, an exponent or a time constant by
+  /// 1.
   Plant<double> plant_as_known() const;
 
   /// The most general motion for which the model can be simulated: kPlanar, or kStraight if a
@@ -149,8 +150,8 @@ struct Model {
   Motion simulated_motion() const;
 };
 
-/// True for an optional term (ParameterInfo::term) that this model does not have: it was not
-/// fitted, and its given value is 0 or missing. model.json does not contain such a term.
+/// True for an optional term (ParameterInfo::term) that this model lacks: it was not fitted, and
+/// its given value is 0 or missing. model.json does not contain it.
 bool is_absent_term(const Model& model, ParameterId id);
 
 /// The largest force of one motor, N:

@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::string_view kModelSchema = "awmr.model/1";
 
-/// Range of a parameter's quantiles. They must be positive if the fit estimates the logarithm of
-/// the parameter (transform.h). The quantiles of an exponent or of an optional term can be below 0.
+/// Range of a parameter's quantiles: positive if the fit estimates the logarithm of the parameter
+/// (transform.h). The quantiles of an exponent or of an optional term can be below 0.
 NumberRule rule_of_quantile(ParameterId id) {
   return scale_of(id) == Scale::kLogarithmic ? kPositive : kAnyNumber;
 }
@@ -123,8 +123,8 @@ void put_estimates(Json& json, const Model& model) {
   if (model.yaw_family != Family::kPower) json["yaw"]["family"] = name_of(model.yaw_family);
 }
 
-/// Writes /si, the values in SI units, for the user. They are computed from the rest of the file,
-/// so the reader ignores them.
+/// Writes /si, the values in SI units, for the user. The reader ignores them, because they follow
+/// from the rest of the file.
 void put_si(Json& json, const Model& model) {
   for (const SiQuantity& quantity : si_quantities(model)) {
     json["si"][Json::json_pointer(quantity.pointer)] =
@@ -259,8 +259,8 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
                     scrub.moment_m, ci.lo, ci.hi));
   check(scrub.yaw_rate_radps.lo > 0.0 && scrub.yaw_rate_radps.hi < 1e3, "yaw_rate_radps",
         "yaw rates must be above 0 and below 1000 rad/s");
-  // In the trials, the wheel forces overcame the scrub moment. So it cannot exceed the largest yaw
-  // moment of these forces.
+  // The moment was measured, so the wheel forces overcame it: it cannot exceed their largest yaw
+  // moment.
   const Interval force = model.vehicle.wheel_force;
   const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
   check(scrub.moment_m <= most_m, "moment_m",
@@ -294,8 +294,8 @@ void add_vehicle_contradictions(const Model& model, std::vector<Fault>& faults) 
                                 zone, model.vehicle.wheel_force.hi)});
 }
 
-/// True if the user accepted the implausible values of the vehicle. identify then has added a
-/// finding, which it does only with `--as-is`.
+/// True if the user accepted the vehicle's implausible values: only `identify --as-is` adds this
+/// finding.
 bool accepts_implausible(const Model& model) {
   return std::ranges::any_of(model.record.findings, [](const Finding& finding) {
     return finding.code == "implausible-vehicle";

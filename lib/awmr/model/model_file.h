@@ -14,14 +14,13 @@ namespace awmr {
 /// range (ranges.h); values that contradict each other, such as a value outside its interval; an
 /// implausible vehicle (plausibility.h) that the user did not accept with `identify --as-is`.
 Result<Model> read_model(const std::filesystem::path& path);
-/// As read_model(), but also accepts an implausible vehicle. Its numbers must be within the ranges
-/// of ranges.h.
+/// As read_model(), but also accepts an implausible vehicle, within the ranges of ranges.h.
 Result<Model> read_model_as_is(const std::filesystem::path& path);
 
 /// As read_model(), but reads a text in memory. `file`: name of the text in errors.
 Result<Model> model_from_text(std::string_view text, const std::string& file);
-/// Checks that a text of model.json can be read. Used before the file is written (ReadBack in
-/// core/file.h). Errors: those of model_from_text().
+/// Checks that a text of model.json can be read, before it is written (ReadBack in core/file.h).
+/// Errors: those of model_from_text().
 Status check_model_text(std::string_view text, const std::string& file);
 
 /// Text of model.json.

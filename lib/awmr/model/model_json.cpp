@@ -17,8 +17,7 @@
 namespace awmr {
 namespace {
 
-/// The kinds of trial that /trials of model.json lists. They are the kinds that are tables; logs
-/// are not listed.
+/// The kinds of trial that /trials of model.json lists: tables, but no logs.
 constexpr NameTable<TrialKind, 3> kTableNames{
     {kTrialKindNames[0], kTrialKindNames[1], kTrialKindNames[2]}};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -68,8 +67,8 @@ std::vector<std::vector<double>> matrix_from_json(JsonObject& json, const Json& 
   return rows;
 }
 
-/// False if the correlations of the covariance `m` contradict each other: their matrix then has an
-/// eigenvalue below 0.
+/// False if the correlations of the covariance `m` contradict each other: the matrix of
+/// correlations has an eigenvalue below 0.
 bool are_correlations(const std::vector<std::vector<double>>& m) {
   constexpr double kRounding = 1e-6;
   const auto n = static_cast<Eigen::Index>(m.size());
@@ -231,8 +230,8 @@ EstimatorReport report_from_json(JsonObject json) {
   for (JsonObject& parameter : json.objects("parameters")) {
     report.parameters.push_back(parameter_from_json(parameter));
   }
-  // residual_std is null for a fit without degrees of freedom, which has no spread of residuals.
-  // condition_number is null for a rank-deficient fit, because it is infinite.
+  // residual_std is null for a fit without degrees of freedom: it has no spread of residuals.
+  // condition_number is null for a rank-deficient fit: it is infinite.
   report.residual_std = json.nullable_number("residual_std", kNonNegative).value_or(kNaN);
   report.rows_used = count(json, "rows_used");
   report.degrees_of_freedom = count(json, "degrees_of_freedom");

@@ -1,5 +1,4 @@
-/// Upper limit of the bandwidth of a disturbance observer, which follows from the controller's
-/// sample time.
+/// Upper limit of the bandwidth of a disturbance observer, for the controller's sample time.
 #pragma once
 
 #include <string>
@@ -9,8 +8,8 @@
 namespace awmr {
 
 /// Checks that L T_s < 1, with the bandwidth L = `bandwidth_radps` and the sample time T_s =
-/// `sample_time_s`. Otherwise the observer's estimate would oscillate. Errors (input), at `place`:
-/// L T_s >= 1.
+/// `sample_time_s`. With a larger bandwidth, the observer's estimate would oscillate. Errors
+/// (input), at `place`: L T_s >= 1.
 Status check_observer_rate(double bandwidth_radps, double sample_time_s, const std::string& place);
 
 }  // namespace awmr

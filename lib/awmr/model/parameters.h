@@ -40,8 +40,8 @@ struct ParameterInfo {
   bool term = false;
 };
 
-/// Names of quantities that a fit of logs can estimate in addition to the parameters. In
-/// model.json, they are only in /estimates.
+/// Names of quantities that a fit of logs can estimate in addition to the parameters. model.json
+/// has them only in /estimates.
 inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";

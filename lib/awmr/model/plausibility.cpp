@@ -45,8 +45,8 @@ std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interv
   return best;
 }
 
-/// End of a message with the probable unit and the converted value: "; the value looks like mm:
-/// 0.32". Without a guess, it advises to measure again.
+/// End of a message with the probable unit and the converted value, such as "; the value looks like
+/// mm: 0.32". Without a guess, the text advises to measure again.
 std::string remedy(double value, const std::optional<Guess>& guess) {
   if (!guess) return "; measure it again";
   return fmt::format("; the value {}: {:.4g}", guess->words, value * guess->factor);
@@ -58,9 +58,9 @@ struct Scale {
   double mass;
 };
 
-/// The scale that brings the mass per footprint area nearest to 50 kg/m^2, which is typical of a
-/// robot. None if no scale brings it into 5 to 500 kg/m^2. Precondition: length and width have the
-/// same unit.
+/// The scale that brings the mass per footprint area nearest to 50 kg/m^2, a typical value for
+/// robots (chosen). None if no scale brings it into 5 to 500 kg/m^2. Precondition: length and width
+/// have the same unit.
 std::optional<Scale> likely_scale(double mass_per_area) {
   static constexpr std::array<Scale, 5> kScales{
       {{1e-3, 1.0}, {1e-2, 1.0}, {1.0, 1e-3}, {1e-3, 1e-3}, {1e-2, 1e-3}}};

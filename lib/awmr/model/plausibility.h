@@ -31,8 +31,8 @@ inline constexpr double kSlowestServo_s = 2.0;
 /// Ratio of the identified I'z/m' to Iz/m of the vehicle data; 1 if they agree. Precondition:
 /// mass_norm > 0.
 double inertia_over_vehicle(const Vehicle& vehicle, double inertia_norm, double mass_norm);
-/// Range of the ratio above that follows from the 95 % intervals of I'z and m'. If I'z or m' has no
-/// interval: half to twice the ratio of the values. Precondition: both estimates have a value.
+/// Range of this ratio for the 95 % intervals of I'z and m'. If I'z or m' has no interval: half to
+/// twice the ratio of the values. Precondition: both estimates have a value.
 Interval inertia_over_vehicle(const Vehicle& vehicle, const Estimate& inertia,
                               const Estimate& mass);
 
@@ -42,14 +42,14 @@ struct Implausible {
   std::string message;  ///< the comparison, the likely unit and the resulting value
 };
 
-/// Returns the implausible values. Checks in this order: length over width, mass and sizes, track,
-/// front axle, Iz, steering. If the length, the width or the mass is probably in another unit, the
-/// later checks use the converted value. Empty if all values are plausible.
+/// Returns the implausible values; empty if there are none. Checks in this order: length over
+/// width, mass and sizes, track, front axle, Iz, steering. If length, width or mass is probably in
+/// another unit, the later checks use the converted value.
 std::vector<Implausible> implausible_values(const Vehicle& vehicle);
 
-/// Checks that the vehicle has no implausible_values(). Errors (input): all of them, each at
-/// `place` followed by its pointer. `remedy`: a sentence for the end of each message that says what
-/// the user can do.
+/// Checks that the vehicle has no implausible_values(). Errors (input): each of them, at `place`
+/// followed by its pointer. `remedy`: sentence at the end of each message, which tells the user
+/// what to do.
 Status check_plausible(const Vehicle& vehicle, const std::string& place, const std::string& remedy);
 
 /// Returns the implausible values as findings (`implausible-vehicle`) in `file`; if `file` is

@@ -1,7 +1,7 @@
 /// sin and cos for float, computed with 16-bit integers. Freestanding C++14.
 ///
 /// For displacements along a heading, an error of 9e-5 is small compared with sensor errors. On an
-/// 8-bit processor, these functions take a seventh of the cycles of float_math::sin. Integer
+/// 8-bit processor, these functions take a seventh of the cycles of float_math::sin, and integer
 /// results are the same on every machine.
 #pragma once
 

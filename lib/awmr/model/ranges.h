@@ -1,6 +1,6 @@
 /// Valid ranges of the numbers in vehicle.json, model.json and gains.json, listed in VEHICLES.md of
-/// this folder. They are wider than any vehicle needs. Their purpose is to detect a wrong unit or a
-/// damaged file when it is read.
+/// this folder. They are wider than any vehicle needs: they only detect a wrong unit or a damaged
+/// file.
 #pragma once
 
 #include "awmr/core/number_rule.h"
@@ -39,13 +39,12 @@ inline constexpr NumberRule kCorneringStiffnessRule_per_rad{.min = 0.1, .max = 1
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kFrictionWidth_radps{.min = feed_forward_rest_speed<double>(),
                                                  .max = 1e3};
-/// Bandwidth of an observer, rad/s. check_observer_rate() also requires it to be below
-/// 1/sample_time_s.
+/// Bandwidth of an observer, rad/s. check_observer_rate() also requires less than 1/sample_time_s.
 inline constexpr NumberRule kObserverBandwidth{.min = 1e-6, .max = 1e4};
 inline constexpr NumberRule kObserverLimit{.min = 1e-9, .max = 1e6};
 
-/// The valid range of a parameter in model.json. The equations have narrower bounds, which the
-/// comments of the fields in dynamics.h and resistance.h state.
+/// The valid range of a parameter in model.json. The equations have narrower bounds, given at the
+/// fields in dynamics.h and resistance.h.
 NumberRule rule_of(ParameterId id);
 
 }  // namespace awmr

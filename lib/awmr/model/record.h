@@ -69,8 +69,8 @@ struct EstimatorParameter {
   double value = 0.0;
   std::optional<double> std_error;  ///< > 0; absent if there are too few data
   std::optional<Interval> ci95;     ///< 95 % interval from the curvature of the cost at its minimum
-  /// 95 % interval from the profile likelihood, that is, the cost minimised over the other
-  /// parameters. It can be asymmetric. If the data do not limit the parameter on one side, this end
+  /// 95 % interval from the profile likelihood: the cost, minimised over the other parameters, as a
+  /// function of this one. It can be asymmetric. Where the data do not limit the parameter, the end
   /// of the interval is the parameter's bound.
   std::optional<Interval> profile95 = {};
 };
@@ -113,7 +113,7 @@ struct EstimatorReport {
   std::string stop_reason;        ///< reason why the solver stopped
   std::string family = {};        ///< family of resistance; empty: the paper's power law
   /// Weight, in (0, 1], of this report in the average over noise models: the probability that
-  /// `noise` is the noisy quantity. Absent: the estimates were not averaged.
+  /// `noise` is the quantity with the noise. Absent: the estimates were not averaged.
   std::optional<double> weight = {};
   /// Akaike information criterion, lower is better: AICc of tables and coast-downs; AIC of logs,
   /// with the noise model of the chosen fit. Compare only reports of the same subject and `noise`.
@@ -123,8 +123,8 @@ struct EstimatorReport {
   std::vector<SearchStart> starts = {};
 };
 
-/// One row of a trial table as the fit used it. It is stored in the model, so that `validate` and
-/// other later steps do not need the CSV file.
+/// One row of a trial table as the fit used it. Stored in the model, so that `validate` and other
+/// later steps do not need the CSV file.
 struct TrialPoint {
   TrialKind kind = TrialKind::kSurge;  ///< not kLog
   std::string file;

@@ -22,11 +22,10 @@ struct Resistance {
   /// beta, dimensionless, >= 0: exponent of the speed. Surge: b1, in [0, 1] in the paper; yaw: b3.
   /// Below 1 the slope at rest is infinite.
   T beta;
-  /// Speed, m/s or rad/s, >= 0. Below this speed, a straight line through the origin (chord)
-  /// replaces g(w); it meets the curve at this speed. 0 keeps the law exact, for fits and steady
-  /// states. A simulation needs a chord, because the curve jumps at rest for c > 0 and has an
-  /// infinite slope there for beta < 1. rest_speed() in steady.h computes this speed from the
-  /// length of the steps.
+  /// Speed, m/s or rad/s, >= 0, below which a straight line through the origin (chord) replaces
+  /// g(w) and meets the curve at this speed. 0 keeps the law exact, for fits and steady states. A
+  /// simulation needs a chord, because at rest the curve jumps for c > 0 and has an infinite slope
+  /// for beta < 1. rest_speed() in steady.h computes this speed from the length of the steps.
   T rest_speed = T(0.0);
   /// c, in the unit of g, >= 0: Coulomb friction, the same at every speed. 0 in the paper.
   T coulomb = T(0.0);
@@ -47,8 +46,8 @@ struct Resistance {
     using math::select;
     const T magnitude = abs(speed);
     if (!MaskOf<T>::kOneLane) {
-      // A batch has one vehicle per lane, and lanes cannot branch differently, so this code has no
-      // branches. The quotient 1/chord is the same in every step, so the compiler can compute it
+      // In a batch, each lane is one vehicle, and lanes cannot branch differently, so this code has
+      // no branches. The quotient 1/chord is the same in every step, so the compiler can compute it
       // once for several calls.
       const T chord = larger(rest_speed, T(1e-30));
       const T sign = select(speed < T(0.0), T(-1.0), T(1.0));
@@ -63,14 +62,14 @@ struct Resistance {
 };
 
 /// Default speed (m/s) or yaw rate (rad/s) below which a controller replaces a resistance with
-/// Coulomb friction c by a straight line through the origin (its chord). The curve itself jumps
-/// from -c to c at rest. Fed forward, it would make the command chatter between these values.
+/// Coulomb friction c by its chord, a straight line through the origin. The curve itself jumps from
+/// -c to c at rest, which would make the command chatter.
 template <class T>
 constexpr T feed_forward_rest_speed() {
   return T(0.02);
 }
-/// The law that a controller feeds forward. It is `law` itself, or if this has Coulomb friction,
-/// `law` with a chord below the speed `rest_speed`.
+/// The law that a controller feeds forward: `law`, and if this has Coulomb friction, with a chord
+/// below the speed `rest_speed`.
 template <class T>
 Resistance<T> feed_forward(Resistance<T> law, const T& rest_speed = feed_forward_rest_speed<T>()) {
   if (law.coulomb > T(0.0)) law.rest_speed = rest_speed;

@@ -12,16 +12,16 @@ namespace awmr {
 /// deviations decay without a change of sign. Above 2.78, the method is unstable.
 inline constexpr double kMaxRateTimesStep = 1.0;
 
-/// Maximum number of successive halvings of one step, and maximum number of halved steps in a run.
-/// They limit the time of a run; a run that exceeds them fails.
+/// Limits of the time of a run: successive halvings of one step, and halved steps in the run. A run
+/// that exceeds one of them fails.
 inline constexpr int kMaxHalvings = 40;
 inline constexpr double kMaxHalves = 5e7;
 
 /// Rate at which a small deviation from the speed w decays, 1/s: g'(w)/inertia with
 ///   g'(w) = alpha beta |w|^(beta-1) + 2 q |w|
-/// Returns 0 where the rate needs no check: below law.rest_speed, where the chord replaces g, and
-/// for beta < 1 with q = 0. There the rate is at most 1/h for steps of h, because rest_speed() in
-/// steady.h chooses the chord accordingly.
+/// Returns 0 where the rate needs no check: below law.rest_speed, where the chord replaces g; and
+/// for beta < 1 with q = 0. In both cases, the rate is at most 1/h for steps of h, because
+/// rest_speed() in steady.h chooses the chord accordingly.
 template <class T>
 T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   using math::abs;
@@ -31,8 +31,8 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   const T w = abs(speed);
   const Mask<T> counts = (law.beta >= T(1.0) || law.quadratic > T(0.0)) && !(w < law.rest_speed);
   if (!any(counts)) return T(0.0);
-  // pow() is not valid for all lanes (vehicles of a batch): lanes at rest, and lanes whose result
-  // is 0, compute with the speed 1. The select() calls below replace their results.
+  // Lanes (vehicles of a batch) at rest, and lanes whose result is 0, compute pow() with the speed
+  // 1, because pow() is not valid for them. The select() calls below replace their results.
   const Mask<T> moves = w > T(0.0);
   const T power = pow(select(counts && moves, w, T(1.0)), T(law.beta - T(1.0)));
   const T share = select(moves || !(law.beta > T(1.0)), power, T(0.0));
@@ -74,9 +74,9 @@ struct Resolution {
   Mask<T> resolved = Mask<T>(true);  ///< false: no step is short enough, or a number is not finite
 };
 
-/// advance() and advance_by_halves() call each other, so advance() is declared here. In these
-/// functions, `body` is a Plant or another type that has a fastest_rate(), such as FourWheels
-/// (tyres.h). `step(from, h)` returns the state after one integration step, without step control.
+/// Declared here, because advance() and advance_by_halves() call each other. `body`: a Plant or
+/// another type with a fastest_rate(), such as FourWheels (tyres.h). `step(from, h)` returns the
+/// state after one integration step, without step control.
 template <class Body, class T, class Step>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution);
@@ -100,9 +100,9 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Step step, M
   return blend(halved, end, from);
 }
 
-/// Makes one step of h seconds if the motion is slow enough: at both ends of the step,
-/// fastest_rate() times h is at most kMaxRateTimesStep. Otherwise makes two steps of half the
-/// length. The result is undefined in lanes outside of `requested`.
+/// Makes one step of h seconds if fastest_rate() times h is at most kMaxRateTimesStep at both ends
+/// of the step. Otherwise makes two steps of half the length. The result is undefined in lanes
+/// outside of `requested`.
 template <class Body, class T, class Step>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,
                  const Mask<T>& requested, int halvings, Resolution<T>& resolution) {
@@ -120,8 +120,8 @@ State<T> advance(const Body& body, const State<T>& from, const T& h, const Step&
                advance_by_halves(body, from, h, step, requested && !fits, halvings, resolution));
 }
 
-/// True in the lanes in which every number of the state is finite. The sum of 0 times each number
-/// is NaN if one of them is infinite or NaN.
+/// True in the lanes in which every number of the state is finite: 0 times an infinite number or
+/// NaN is NaN.
 template <class T>
 Mask<T> is_finite(const State<T>& s) {
   using math::abs;
@@ -130,7 +130,7 @@ Mask<T> is_finite(const State<T>& s) {
   return abs(none) <= T(0.0);
 }
 
-/// Returns the speed, but 0 if it is below 1e-150 in magnitude. Products of such speeds can be
+/// Returns the speed, or 0 if its magnitude is below 1e-150. Products of such speeds can be
 /// subnormal numbers, with which arithmetic is slow.
 template <class T>
 T settled(const T& speed) {

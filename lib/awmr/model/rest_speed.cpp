@@ -7,8 +7,8 @@ namespace awmr {
 double rest_speed(const Resistance<double>& law, double inertia, double step_s) {
   if (law.coulomb > 0.0) {
     double w = law.coulomb * step_s / inertia;
-    // Near the solution, each iteration multiplies the error by w g'(w)/g(w). This factor is small
-    // if Coulomb friction dominates, as it does at the low speed w of a chord.
+    // Near the solution, each iteration multiplies the error by w g'(w)/g(w). This is small if
+    // Coulomb friction dominates, as at the low speed w of a chord.
     for (int i = 0; i < 60; ++i) w = law.at(w) * step_s / inertia;
     return w;
   }

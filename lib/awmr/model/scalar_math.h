@@ -11,8 +11,7 @@
 #include "awmr/model/float_bearing.h"
 #include "awmr/model/float_math.h"
 
-/// Attribute of a helper that is always inlined on the chip (the AVR microcontroller of the
-/// firmware).
+/// Attribute of a helper that is always inlined on the chip (AVR microcontroller).
 #ifdef __AVR__
 #define AWMR_NO_CALL inline __attribute__((always_inline))
 #else
@@ -24,14 +23,14 @@
 
 namespace awmr {
 
-/// Result type of a comparison of two T: bool. A batch, whose lanes can differ, has its own mask
-/// type with any(), all(), select() and the operators !, && and || (simulate/lanes/lanes.h).
+/// Result type of a comparison of two T: bool. A batch of vehicles, whose lanes can differ, has its
+/// own mask type with any(), all(), select() and the operators !, && and ||
+/// (simulate/lanes/lanes.h).
 ///
 /// A branch that can differ between lanes is written as
 ///   if (any(m)) { if (MaskOf<T>::kOneLane || all(m)) return a;  x = select(m, a, x); }
-/// For bool this is an ordinary branch. The condition names the constant kOneLane for the sake of
-/// the compiler, which knows it before it decides on inlining. Inlining affects the flash size on
-/// the chip.
+/// For bool this is an ordinary branch. The compiler knows the constant kOneLane before it decides
+/// on inlining, which affects the flash size on the chip.
 template <class T>
 struct MaskOf {
   using Type = bool;
@@ -93,16 +92,16 @@ T larger(const T& x, const T& y) {
   return select(x < y, y, x);
 }
 
-/// Returns x; for float, 0 if |x| < 2^-90. Use it for a number that is divided by a force later:
-/// the quotient is then never a subnormal number, which an AVR rounds differently from a host.
+/// Returns x; for float, 0 if |x| < 2^-90. Use it for a number that is divided by a force later.
+/// Otherwise, the quotient can be a subnormal number, which an AVR rounds differently from a host.
 template <class T>
 T flushed(const T& x) {
   return x;
 }
 inline float flushed(float x) { return float_math::leading_bits(x) < 0x1280U ? 0.0F : x; }
 
-/// a - b. If a is 0, the float version returns -b without a subtraction, which is faster on the
-/// chip. This case is common: the rate of a constant reference is 0.
+/// a - b. If a is 0, the float version returns -b, which is faster on the chip. This case is
+/// common: the rate of a constant reference is 0.
 template <class T>
 T difference(const T& a, const T& b) {
   return a - b;
@@ -132,8 +131,8 @@ AWMR_CALLED inline bool is_above(float x, float y) {
          !float_math::is_nan(y);
 }
 
-/// True if x and y differ; false for NaN. The float version compares only the bits, so it takes -0
-/// and 0 as different. Use it only if x is a copy of y, or the limit to which y was clamped.
+/// True if x and y differ; false for NaN. The float version compares only the bits, so -0 and 0
+/// differ. Use it only if x is a copy of y, or the limit to which y was clamped.
 template <class T>
 Mask<T> is_different(const T& x, const T& y) {
   return x < y || x > y;

@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// The variance of a quantity Q in SI units counts as 0 if it is below this fraction of its
-/// positive terms. It is then only a rounding error: Q does not depend on m', and the terms cancel.
+/// Below this fraction of its positive terms, the variance of a quantity Q in SI units counts as 0:
+/// it is only rounding, because Q does not depend on m' and the terms cancel.
 constexpr double kRounding = 1e-14;
 
 /// True for parameters that are divided by F_max in the equations of motion: all except exponents

@@ -7,8 +7,8 @@
 ///   u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
 /// If the speed u passes 0 in an integration step, the step is cut at the time at which u is 0.
 /// Then friction holds the vehicle (u_dot = 0) as long as the driving force |X + m' r v| is at most
-/// c. Yaw is treated in the same way. With a chord (rest.h) instead of the jump, a vehicle that
-/// friction should hold would creep.
+/// c. Yaw is treated in the same way. A chord (rest.h) instead of the jump would let a vehicle
+/// creep that friction should hold.
 #pragma once
 
 #include "awmr/model/rest.h"
@@ -44,8 +44,8 @@ Plant<T> without_friction(Plant<T> plant) {
   return plant;
 }
 
-/// As resolved_at_rest(), for integration with exact Coulomb friction c. The speeds below which
-/// chords apply are computed from the resistances without c.
+/// As resolved_at_rest(), for integration with exact Coulomb friction c: the chords are those of
+/// the resistances without c.
 template <class T>
 Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   const Plant<T> resolved = resolved_at_rest(without_friction(plant), step_s);
@@ -62,9 +62,9 @@ struct Sliding {
   Value yaw = Value(0.0);
 };
 
-/// Direction of sliding: the sign of `speed`. At rest, it is the sign of `rate`, the acceleration
-/// without friction, or 0 if friction (the deceleration `friction`) holds the motion: |rate| <=
-/// friction.
+/// Direction of sliding: the sign of `speed`. At rest: the sign of `rate`, the acceleration without
+/// friction, or 0 if friction holds the motion, that is, if |rate| is at most the deceleration
+/// `friction`.
 template <class Value>
 Value slides(const Value& speed, const Value& rate, const Value& friction) {
   using math::select;
@@ -90,8 +90,8 @@ Mask<Value> is_held(const Value& way, const Value& friction) {
   return friction > Value(0.0) && !(way > Value(0.0) || way < Value(0.0));
 }
 
-/// Adds friction in the directions `way` to `rates` without friction. The acceleration of a motion
-/// that friction holds becomes 0.
+/// Adds friction in the directions `way` to the `rates` without friction. If friction holds a
+/// motion, its acceleration becomes 0.
 template <class T>
 State<T> with_friction(const FrictionRates<T>& friction, const Sliding<ValueOf<T>>& way,
                        State<T> rates) {
@@ -103,9 +103,8 @@ State<T> with_friction(const FrictionRates<T>& friction, const Sliding<ValueOf<T
   return rates;
 }
 
-/// Fraction of a step after which the speed is 0, if it changes linearly from `from` to `to`.
-/// Returns 1 if the speed does not pass 0, or starts at 0. `way`: direction of sliding in this
-/// step.
+/// Fraction of a step after which the speed is 0, if it changes linearly from `from` to `to`. 1 if
+/// the speed does not pass 0, or starts at 0. `way`: direction of sliding in this step.
 template <class T>
 T share_until_rest(const ValueOf<T>& way, const T& from, const T& to) {
   using math::select;
@@ -114,15 +113,15 @@ T share_until_rest(const ValueOf<T>& way, const T& from, const T& to) {
   return select(passes, T(from / (from - to)), T(1.0));
 }
 
-/// Maximum number of stops at which one step is cut. The rest of the step is then integrated
-/// without further cuts.
+/// Maximum number of stops at which one step is cut; the rest of the step is integrated without
+/// cuts.
 inline constexpr int kMaxStopsInAStep = 4;
 
 /// One integration step with Coulomb friction: the state h seconds after s. `rates(state)`: the
 /// rates without friction. `step(s, h, rates)`: one step without friction, such as rk4_step().
 ///
-/// In a batch, each lane is cut at its own stops. A lane that needs no cut makes its whole step,
-/// then steps of 0 s, which do not change it.
+/// In a batch, each lane is cut at its own stops. A lane without a cut makes its whole step, then
+/// steps of 0 s, which do not change it.
 template <class T, class Rates, class Step>
 State<T> step_with_friction(const FrictionRates<T>& friction, State<T> s, T h, const Rates& rates,
                             const Step& step) {

@@ -6,8 +6,8 @@
 
 namespace awmr {
 
-/// The state X = (x, y, psi, u, v, r) and the servo's angle. The struct is also used for the time
-/// derivative of the state; each field is then per second.
+/// The state X = (x, y, psi, u, v, r) and the servo's angle. As a time derivative of the state,
+/// each field is per second.
 template <class T>
 struct State {
   T x_m;           ///< x, m: position of the centre of gravity in the world frame

@@ -15,9 +15,8 @@ std::optional<double> finite(double value) {
 
 /// Solves alpha w^beta + v w + q w^2 = excess for w, with v = `viscous`, by Newton's method on
 ///   h(s) = ln((alpha e^(s beta) + v e^s + q e^(2 s))/excess),   w = e^s
-/// h is increasing and convex, because it is the logarithm of a sum of exponentials. So an
-/// iteration that starts above the root falls monotonically to the root. It ends when rounding
-/// would reverse a step.
+/// h is increasing and convex, because it is the logarithm of a sum of exponentials. So iterations
+/// that start above the root fall monotonically to it. They end when rounding would reverse a step.
 std::optional<double> rate_above_coulomb(const Resistance<double>& law, double excess,
                                          double viscous) {
   constexpr double kFastest = 1e9;
@@ -37,8 +36,8 @@ std::optional<double> rate_above_coulomb(const Resistance<double>& law, double e
     if (!(next < w)) return finite(next);
     w = next;
   }
-  // There is no solution in two cases: the speed would exceed that of any vehicle; or beta = 0, and
-  // g jumps at rest by more than the force.
+  // No solution: the speed would exceed that of any vehicle; or beta = 0, and g jumps at rest by
+  // more than the force.
   return std::nullopt;
 }
 

@@ -10,9 +10,9 @@ namespace awmr {
 
 /// The steady speed w > 0, at which the resistance equals the driving force: g(w) = force. For g1,
 /// `force` is tau_speed and w is in m/s; for g3, it is tau_turn in m, and w is a yaw rate in rad/s.
-/// `viscous` >= 0 adds a term that is linear in w: g(w) + viscous w = force. Back-EMF is such a
-/// term; straight ahead with four motors, viscous = 4 k_e. None if the force does not exceed the
-/// Coulomb friction c, or if no finite w exists, as for a power law with beta = 0.
+/// `viscous` >= 0 adds a linear term such as back-EMF: g(w) + viscous w = force, with viscous = 4
+/// k_e straight ahead with four motors. None if the force does not exceed the Coulomb friction c,
+/// or if no finite w exists, as for a power law with beta = 0.
 std::optional<double> steady_rate(const Resistance<double>& law, double force,
                                   double viscous = 0.0);
 

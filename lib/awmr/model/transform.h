@@ -1,5 +1,5 @@
-/// Coordinates of the parameters. Fits search in these coordinates, and random plants are drawn in
-/// them. The coordinate of a parameter is its value or the logarithm of its value; its error is
+/// Coordinates of the parameters, in which fits search and random plants are drawn. The coordinate
+/// of a parameter is its value or the logarithm of its value; the error of the coordinate is
 /// assumed to be normally distributed:
 ///   linear:       coordinate = value        d value / d coordinate = 1
 ///   logarithmic:  coordinate = ln value     d value / d coordinate = value

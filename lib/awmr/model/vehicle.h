@@ -63,15 +63,15 @@ struct Vehicle {
 
   /// Form of the allocation of the simulated controller; that of the firmware is always exact.
   AllocationForm allocation = AllocationForm::kExact;
-  /// Errors of the sensors, for which gains are tuned and with which runs are simulated
+  /// Errors of the sensors. Gains are tuned and runs are simulated with them
   /// (simulate/conditions.h).
   SensorQuality sensors = {};
-  /// Time constant of the first-order lag from the motors' command to their force, s, >= 0. It is
-  /// used to tune gains, to simulate runs, and to filter the logged commands before a fit. Absent:
-  /// no lag, unless a log identifies one.
+  /// Time constant of the first-order lag from the motors' command to their force, s, >= 0. Tuning
+  /// and simulation use it, and a fit filters the logged commands with it. Absent: no lag, unless a
+  /// log identifies one.
   std::optional<double> motor_time_constant_s;
-  /// k_e, s/m, >= 0: decrease of a motor's force, divided by F_max, per m/s at its wheel. From its
-  /// data sheet. Absent: no back-EMF, unless a log identifies it.
+  /// k_e, s/m, >= 0: decrease of a motor's force, divided by F_max, per m/s at its wheel, from the
+  /// motor's data sheet. Absent: no back-EMF, unless a log identifies it.
   std::optional<double> back_emf_s_per_m;
   /// P_s, W, > 0: power of one motor under full voltage at standstill, where all of it becomes
   /// heat; absent: electrical work is not reported in joules.
@@ -80,8 +80,8 @@ struct Vehicle {
   /// rate of the turning trials and fitted logs.
   std::optional<double> yaw_rate_max_degps;
 
-  /// For columns of awmr, by name: the column or formula in this vehicle's log files that gives it
-  /// (core/column_mapping.h).
+  /// For columns of awmr, by name: the column or formula in this vehicle's log files that gives
+  /// their values (core/column_mapping.h).
   std::map<std::string, std::string> columns = {};
 
   bool has_steering() const { return drive != Drive::kDifferential; }

@@ -51,8 +51,8 @@ std::optional<double> known_number(JsonObject& json, std::string_view key, Numbe
   return json.has(key) ? json.nullable_number(key, rule) : std::nullopt;
 }
 
-/// Reads the column mappings and checks their form. They are stored as text. When a log is read,
-/// its reader checks whether it has the columns that they name.
+/// Reads the column mappings as text and checks their form. Whether a log has the columns is
+/// checked when it is read.
 void columns_from_json(JsonObject json, Vehicle& vehicle) {
   for (const std::string& name : json.keys()) {
     const std::string expression = json.string(name);
@@ -156,8 +156,8 @@ void name_units(const Json& document, const std::string& place, std::vector<Faul
   }
 }
 
-/// Replaces the message of a fault about the drive `rear_wheel`: the nearest name that it suggests
-/// would mislead.
+/// Replaces the message of a fault about the drive `rear_wheel`, whose suggestion of the nearest
+/// name would mislead.
 void name_rear_wheel_drive(const Json& document, const std::string& place,
                            std::vector<Fault>& faults) {
   const Json::json_pointer pointer{"/drive"};

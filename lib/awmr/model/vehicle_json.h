@@ -13,7 +13,7 @@ namespace awmr {
 /// added to the faults of `json`.
 Vehicle vehicle_from_json(JsonObject& json);
 
-/// Completes the messages of faults of vehicle_from_json(). Adds the unit in which a number was
+/// Completes the messages of faults of vehicle_from_json(): adds the unit in which a number was
 /// probably given, and the drive to use in place of `rear_wheel`. `vehicle`: the JSON object;
 /// `place`: its place in the faults, "FILE:" or "FILE:/vehicle".
 void explain_vehicle_faults(const Json& vehicle, const std::string& place,
