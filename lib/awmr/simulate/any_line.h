@@ -1,5 +1,5 @@
-/// Follows a line in the simulator. Here the scenario selects the guidance law at run time; in a
-/// firmware, the law is selected when it is compiled.
+/// Follows a line in the simulator, where the scenario selects the guidance law at run time. (In a
+/// firmware, the law is selected when it is compiled.)
 #pragma once
 
 #include <variant>

@@ -37,8 +37,8 @@ const Kernel* kernel_of(const BatchArithmetic& arithmetic) {
 }
 
 /// Simulates the runs in blocks of up to kBatchRuns. Calls take(i, metrics, run) for each run i, in
-/// order. `metrics` is empty if the run failed; `run` has rows only if `keeps_rows`. Without a
-/// kernel for this processor, no run is simulated, and `metrics` is always empty.
+/// order. `metrics` is empty if the run failed, or if there is no kernel for this processor; `run`
+/// has rows only if `keeps_rows`.
 template <class Take>
 void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, double sample_time_s,
                      const BatchArithmetic& arithmetic, bool keeps_rows, const Take& take) {
@@ -90,7 +90,7 @@ std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
           results.emplace_back(*metrics);
           return;
         }
-        // The run failed in the batch. simulate() repeats it, which either succeeds or gives the
+        // The run failed in the batch. simulate() repeats it and either succeeds or gives the
         // error.
         const DrivenRun one = one_by_one(runs[i], scenario, sample_time_s);
         const Status failure = failure_of(one.run, scenario);

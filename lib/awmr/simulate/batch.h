@@ -1,8 +1,7 @@
 /// Simulates any number of runs of a scenario, up to sixteen at once, in the closed loop of
-/// closed_loop.h. Each run has one lane (element) of the processor's vector registers.
-///
-/// The results of a run do not depend on the other runs or on its lane. They equal those of
-/// simulate() except for rounding, because powers and angles are computed by polynomials of this
+/// closed_loop.h. Each run has one lane (element) of the processor's vector registers. Its results
+/// do not depend on the other runs or on its lane. They equal those of simulate() except for
+/// rounding, because polynomials of this project replace the C library in powers and angles.
 /// project instead of the C library.
 #pragma once
 
@@ -18,14 +17,14 @@
 namespace awmr {
 
 /// Standard normal numbers for the sensor noise of a run, one per sample and sensor. Runs that
-/// differ only in plant, gains or mode can share these numbers. Then they are drawn only once,
-/// which saves a tenth of the computing time of each run.
+/// differ only in plant, gains or mode can share them: drawing them only once saves a tenth of the
+/// computing time of each run.
 struct DrawnNoise {
   std::vector<double> heading, yaw_rate, speed;  ///< empty: the sensor has no noise
 };
 
-/// Draws the sensor noise of a run with this seed and draw number `sample`. The run would draw the
-/// same numbers itself. Memory: up to 24 bytes per sample time of the run.
+/// Draws the sensor noise that a run with this seed and draw number `sample` would draw itself.
+/// Memory: up to 24 bytes per sample time of the run.
 DrawnNoise draw_sensor_noise(const Scenario& scenario, double sample_time_s, std::uint64_t seed,
                              std::uint64_t sample);
 
@@ -46,7 +45,7 @@ struct BatchArithmetic {
   /// "avx512", "avx2" or "neon"; "scalar": simulate() computes one run at a time.
   std::string_view instructions;
   /// Rounding of a b + c: "fused" (once; vector instruction sets) or "scalar" (twice; simulate()).
-  /// Two machines give identical results only if their `rounding` is the same.
+  /// Two machines with different `rounding` give different results.
   std::string_view rounding;
 };
 
@@ -58,8 +57,8 @@ inline constexpr std::size_t kBatchRuns = 16;
 /// available.
 Result<BatchArithmetic> batch_arithmetic();
 
-/// Simulates the runs and returns the metrics of each, in order. A run that fails has the error of
-/// failure_of() in place of its metrics. Precondition: all runs have controllers with the same
+/// Simulates the runs and returns the metrics of each run, in order. A failed run has the error of
+/// failure_of() in place of its metrics. Precondition: the controllers of all runs have the same
 /// driven wheels, combined split and form of the allocation.
 std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,

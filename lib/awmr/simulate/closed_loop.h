@@ -68,8 +68,8 @@ class ClosedLoop {
     Sensed sensed = {};
     std::optional<ScenarioGuidance> guidance = {};  ///< set after the first measurement
     PathRow path = {};                              ///< guidance columns of the current row
-    /// Why the run ends at the current sample, before the scenario's duration is over. kDuration:
-    /// it does not end early.
+    /// Why the run ends at the current sample. kDuration: it does not end before the scenario's
+    /// duration.
     RunEnd ending = RunEnd::kDuration;
     std::vector<RunRow> rows = {};
     std::optional<Ending> end = {};  ///< absent: the run continues, or it failed
@@ -146,7 +146,7 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
                        index, runs_->vehicles);
 }
 
-/// True if the guidance must be computed run by run, because the runs have different references.
+/// True if the guidance must be computed run by run, because the references of the runs differ.
 /// False in open loop, and for heading steps without avoidance, shaping and stored rows.
 template <class Row>
 bool ClosedLoop<Row>::has_own_guidance() const {

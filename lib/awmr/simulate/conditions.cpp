@@ -10,8 +10,7 @@
 namespace awmr {
 namespace {
 
-/// True if the readings of all sensors are exact. The correlation of the noise is not tested:
-/// without noise, it has no effect.
+/// True if the readings of all sensors are exact. Without noise, its correlation has no effect.
 bool has_exact_sensors(const LoopConditions& c) {
   return c.heading_noise_deg == 0.0 && c.yaw_rate_noise_degps == 0.0 && c.speed_noise_mps == 0.0 &&
          c.heading_latency_s == 0.0 && c.yaw_rate_latency_s == 0.0 && c.speed_latency_s == 0.0;
@@ -74,8 +73,8 @@ Scenario equipped(const Vehicle& vehicle, Scenario scenario) {
   const bool has_sensors = scenario.sensors.has_value();
   const bool has_actuators = scenario.actuators.has_value();
   scenario = under(given, std::move(scenario));
-  // Exact sensors and motors without lag are not added: a scenario without these keys means the
-  // same.
+  // Exact sensors and motors without lag are not added, because a scenario without these keys means
+  // the same.
   const bool needs_no_sensors =
       has_exact_sensors(given) || std::holds_alternative<OpenLoop>(scenario.guidance);
   if (!has_sensors && needs_no_sensors) scenario.sensors.reset();

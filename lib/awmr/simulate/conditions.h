@@ -1,4 +1,4 @@
-/// Sensor noise, sensor latency and motor lag of simulated runs. They are not part of the
+/// Sensor noise, sensor latency and motor lag of simulated runs, which are not part of the
 /// identified model.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace awmr {
 
-/// Noise and latency of the sensors, and lag of the motors. vehicle.json can give these values
-/// (keys `noise`, `noise_correlation_s`, `latency_s`, `motor`). A noise is a standard deviation.
-/// The defaults are typical of a compass, a MEMS gyroscope and a coarse encoder with 20 ms of
-/// latency each, and of small brushed motors.
+/// Noise (standard deviation) and latency of the sensors, and lag of the motors. vehicle.json can
+/// give these values (keys `noise`, `noise_correlation_s`, `latency_s`, `motor`). The defaults are
+/// typical of a compass, a MEMS gyroscope and a coarse encoder with 20 ms of latency each, and of
+/// small brushed motors.
 struct LoopConditions {
   double heading_noise_deg = 1.0;
   double yaw_rate_noise_degps = 0.5;
@@ -39,26 +39,25 @@ inline constexpr LoopConditions kIdealConditions{.heading_noise_deg = 0.0,
                                                  .speed_latency_s = 0.0,
                                                  .motor_time_constant_s = 0.0};
 
-/// Returns the conditions that vehicle.json gives. Those that it does not give are taken from
-/// `missing`.
+/// Returns the conditions that vehicle.json gives, completed by those of `missing`.
 LoopConditions conditions_of(const Vehicle& vehicle, const LoopConditions& missing = {});
 
 /// Returns the conditions of a scenario. Sensors or motors that the scenario does not describe are
 /// ideal.
 LoopConditions conditions_of(const Scenario& scenario);
 
-/// Adds sensors and actuators with these conditions to the scenario. Sensors or actuators that the
-/// scenario already has stay unchanged.
+/// Adds sensors and actuators with these conditions to the scenario, unless it already has sensors
+/// or actuators.
 Scenario under(const LoopConditions& conditions, Scenario scenario);
 
-/// Adds the noise, latency and lag of vehicle.json to the scenario. What vehicle.json does not give
-/// is ideal (kIdealConditions). Sensors or actuators that the scenario already has stay unchanged,
-/// and an open-loop scenario gets no sensors. A second call changes nothing.
+/// Adds the noise, latency and lag of vehicle.json to the scenario; values that vehicle.json lacks
+/// are ideal (kIdealConditions). Sensors or actuators of the scenario stay unchanged, and an
+/// open-loop scenario gets no sensors. A second call changes nothing.
 Scenario equipped(const Vehicle& vehicle, Scenario scenario);
 std::vector<Scenario> equipped(const Vehicle& vehicle, std::vector<Scenario> scenarios);
 
-/// Describes, for printing, the sensors and motors that equipped() adds to at least one of the
-/// scenarios. Empty if it adds none.
+/// Describes, for printing, the sensors and motors that equipped() adds to the scenarios; empty if
+/// it adds none.
 std::string equipment_text(const Vehicle& vehicle, std::span<const Scenario> as_given);
 
 }  // namespace awmr

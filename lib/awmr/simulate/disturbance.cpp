@@ -8,7 +8,7 @@ namespace awmr {
 namespace {
 
 /// Number of the first random stream of each axis (RunSeed::random()). Each disturbance term uses
-/// one stream. The numbers leave room for 200 terms per axis.
+/// one stream, so there is room for 200 terms per axis.
 constexpr std::uint64_t kSurgeUse = 100;
 constexpr std::uint64_t kSwayUse = 300;
 constexpr std::uint64_t kYawUse = 500;

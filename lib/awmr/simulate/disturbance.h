@@ -9,13 +9,13 @@
 
 namespace awmr {
 
-/// Seed of a run. Each use of random numbers, such as a sensor or a term of a disturbance, gets its
-/// own random stream. So one use does not change the numbers of another.
+/// Seed of a run. Each use of random numbers, such as a sensor or a term of a disturbance, has its
+/// own random stream, so that one use does not change the numbers of another.
 struct RunSeed {
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;  ///< number of the draw
   /// Returns the random stream for the use with the number `use`, < 1024. Bit 62 of the stream
-  /// number is set. The streams of compare/ have small numbers or bit 63 set, so no stream is used
+  /// number is set; the streams of compare/ have small numbers or bit 63 set, so no stream is used
   /// twice.
   Random random(std::uint64_t use) const {
     return {seed, (std::uint64_t{1} << 62U) | (sample << 10U) | use};
@@ -23,8 +23,8 @@ struct RunSeed {
 };
 
 /// Computes the seed of a run from the scenario's seed, the seed of the simulation, and the number
-/// `sample` of the Monte-Carlo draw. The constant is 2^64 divided by the golden ratio. With it,
-/// adjacent seeds of the simulation give run seeds that are far apart.
+/// `sample` of the Monte-Carlo draw. The factor, 2^64 divided by the golden ratio, puts the run
+/// seeds of adjacent simulation seeds far apart.
 inline RunSeed run_seed(std::uint64_t scenario_seed, std::uint64_t seed, std::uint64_t sample) {
   return {scenario_seed + seed * 0x9E3779B97F4A7C15U, sample};
 }
@@ -55,8 +55,8 @@ class DisturbanceSource {
 class RunDisturbance {
  public:
   RunDisturbance(const Disturbance& disturbance, double sample_time_s, const RunSeed& seed);
-  /// Returns forces and moment over the sample that begins at `t_s`. The force of a slope is not
-  /// included. Call it once per sample, in order.
+  /// Returns forces and moment, without the force of a slope, over the sample that begins at `t_s`.
+  /// Call it once per sample, in order.
   BodyLoad next(double t_s) { return {surge_.next(t_s), sway_.next(t_s), yaw_.next(t_s)}; }
 
  private:

@@ -1,7 +1,6 @@
 /// The part of a sample that computes controllers and metrics, for all runs that are simulated
-/// together (rows of numbers, see row_view.h). Together with the functions of vehicle_steps.h, it
-/// is the arithmetic of the closed loop: for a single run, or several runs in vector registers.
-/// Private to this folder.
+/// together (rows of numbers, row_view.h). With vehicle_steps.h, it is the arithmetic of the closed
+/// loop: for a single run, or for several runs in vector registers. Private to this folder.
 #pragma once
 
 #include "awmr/simulate/meter.h"
@@ -10,9 +9,9 @@
 
 namespace awmr {
 
-/// All numbers of the runs that are simulated together. The struct is plain data. Reason: the
-/// kernels of lanes/ are compiled for other instruction sets, and a function shared with the rest
-/// of the program could contain instructions that the processor does not have.
+/// All numbers of the runs that are simulated together, as plain data. The kernels of lanes/ are
+/// compiled for other instruction sets: a function shared with the rest of the program could
+/// contain instructions that the processor does not have.
 template <class Row>
 struct LoopRuns {
   ControllerSetup control;
@@ -35,8 +34,8 @@ struct LoopRuns {
 };
 
 /// The functions that compute a sample, for one type of row. The closed loop calls them in the
-/// order control, vehicle.dissipate, measure, vehicle.actuate, vehicle.move. For an inactive run
-/// (Vehicles::active is 0), they change neither motion nor metrics.
+/// order control, vehicle.dissipate, measure, vehicle.actuate, vehicle.move. They do not change
+/// motion and metrics of an inactive run (Vehicles::active is 0).
 template <class Row>
 struct LoopSteps {
   const char* name;

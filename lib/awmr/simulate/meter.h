@@ -79,8 +79,8 @@ struct MetricsAccumulator {
   T saturation_s = T(0.0);
   T steering_travel_deg = T(0.0);
   T cross_track_m2 = T(0.0);
-  /// flag: in the second half of the run, the vehicle was more than tolerance_m from the path's
-  /// point
+  /// flag: in the second half of the run, the vehicle was more than tolerance_m from the moving
+  /// point of the path
   T strayed = T(0.0);
   T clearance_min_m = T(0.0);
   T speed_reached = T(0.0);  ///< flag: the speed has reached the commanded one
@@ -111,11 +111,10 @@ struct MetricsAccumulator {
 
 namespace meter {
 
-/// Fraction of the commanded speed. The commanded speed counts as reached if at most this is
-/// missing.
+/// The commanded speed counts as reached if at most this fraction of it is missing.
 constexpr double kReachedShare = 0.001;
-/// Half width of the settling band, divided by the size of the step; with a narrower band, settling
-/// times are longer.
+/// Half width of the settling band, divided by the size of the step; a narrower band gives longer
+/// settling times.
 constexpr double kSettledShare = 0.02;
 constexpr double kSettledLeastDeg = 0.5;  ///< smallest half width of the settling band, deg
 constexpr double kMovingMps = 0.05;       ///< the sideslip angle is evaluated above this speed, m/s
@@ -178,8 +177,8 @@ T share_of_stop(const T& steering_rad, const T& steering_max_rad) {
   return select(steers, T(steering_rad / select(steers, steering_max_rad, T(1.0))), T(0.0));
 }
 
-/// Ends the current heading step. If the heading has settled, updates the longest settling time,
-/// else sets the flag never_settled.
+/// Ends the current heading step: updates the longest settling time or, if the heading has not
+/// settled, sets the flag never_settled.
 template <class T>
 void close_step(MetricsAccumulator<T>& m) {
   using math::select;
@@ -269,7 +268,7 @@ void measure_motion(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, 
 }
 
 /// Adds the sample that ends at this row to energy, tyre work, time in saturation, steering travel
-/// and steering rate. Forces are constant over a sample; the speeds are those at its start.
+/// and steering rate. The forces are constant over the sample; the speeds are those at its start.
 template <class T>
 void measure_work(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, bool is_on_tyres,
                   double dt_s, MetricsAccumulator<T>& m) {

@@ -1,5 +1,5 @@
-/// Prepares the constants and times that the metrics accumulator (meter.h) needs. At the end of a
-/// run, computes the metrics from the accumulator's sums. Private to this folder.
+/// Constants and times for the metrics accumulator (meter.h), and the metrics computed from its
+/// sums at the end of a run. Private to this folder.
 #pragma once
 
 #include <cstddef>

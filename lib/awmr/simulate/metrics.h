@@ -1,5 +1,5 @@
-/// Metrics of one run, which are the columns of comparison.csv. Tuning computes its cost from them.
-/// A metric that has no meaning in the run's scenario is absent, never 0.
+/// Metrics of one run: the columns of comparison.csv, and the basis of the cost in tuning. A metric
+/// without a meaning in the run's scenario is absent, never 0.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@ namespace awmr {
 
 /// The metrics of one run.
 struct Metrics {
-  /// True if the vehicle completed its task without touching an obstacle. The task is, for heading
-  /// steps: the heading settled in every step; waypoints: all were reached; line: its end was
-  /// reached; timed path: in the second half of the run, the distance from the path's point stayed
-  /// within the tolerance.
+  /// True if the vehicle completed its task without touching an obstacle. Task of heading steps:
+  /// the heading settles in every step; of waypoints: all are reached; of a line: its end is
+  /// reached; of a timed path: in the second half of the run, the vehicle stays within the
+  /// tolerance of the moving point.
   bool completed = true;
   /// Settling time, s: time from a heading step until the heading error |e| stays within 2 % of the
-  /// size of the step (at least 0.5 deg). The longest of all steps counts. Absent if the heading
-  /// did not settle in a step.
+  /// size of the step (at least 0.5 deg); the longest time of all steps. Absent if the heading did
+  /// not settle in a step.
   std::optional<double> settling_time_s;
   /// Overshoot: largest angle by which the heading exceeds a commanded heading in the direction of
   /// its step, deg, >= 0.
@@ -29,8 +29,8 @@ struct Metrics {
   std::optional<double> cross_track_rms_m;  ///< RMS distance from the current leg, line or path
   double path_length_m = 0.0;               ///< length of the driven path
   /// Speed drop, m/s, >= 0: commanded speed minus the smallest speed after the vehicle first
-  /// reached 99.9 % of the commanded speed. Absent if the vehicle never reached it, or if the
-  /// commanded speed is not constant (slow-down, avoidance, timed path).
+  /// reached 99.9 % of the commanded speed. Absent if it never did, or if the commanded speed is
+  /// not constant (slow-down, avoidance, timed path).
   std::optional<double> speed_drop_mps;
   /// integral of t |u_d - u|, speed error weighted with time (for tuning)
   double speed_itae_m_s = 0.0;
@@ -41,11 +41,11 @@ struct Metrics {
   /// duration of the run, 1/s.
   double control_variation = 0.0;
   double control_effort = 0.0;  ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
-  /// Smallest distance from the vehicle to an obstacle, m. With avoidance, the vehicle is a circle,
-  /// else a point. < 0 if they overlapped. Absent without obstacles.
+  /// Smallest distance from the vehicle to an obstacle, m; < 0 if they overlapped. With avoidance,
+  /// the vehicle is a circle, else a point. Absent without obstacles.
   std::optional<double> clearance_min_m;
-  /// Time, s, at which the last waypoint or the end of the line was reached. Absent if it was not
-  /// reached, if a waypoint was missed, or if the vehicle overlapped an obstacle.
+  /// Time, s, at which the vehicle reached the last waypoint or the end of the line. Absent if it
+  /// did not, if it missed a waypoint, or if it overlapped an obstacle.
   std::optional<double> finish_time_s;
 
   /// Positive mechanical work of the motors, divided by F_max, m; braking recovers no energy:
@@ -72,13 +72,13 @@ struct Metrics {
 
 /// Computes the sum of copper loss and mechanical work, J, for the normalised mass m':
 ///   P_s energy_electric + F_max energy_mech,   F_max = m/m'                          [paper (66)]
-/// P_s is the stall power of one motor (Vehicle::motor_stall_power_w), m the mass. Absent if P_s is
-/// not known.
+/// P_s: stall power of one motor (Vehicle::motor_stall_power_w); m: mass. Absent if P_s is not
+/// known.
 std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& vehicle,
                                       double mass_norm);
 
-/// Computes the metrics of a run from its rows. Precondition: there is at least one row, and
-/// `controller` is that of the run. electric_work_j is absent in the result.
+/// Computes the metrics of a run from its rows, without electric_work_j. Precondition: there is at
+/// least one row, and `controller` is that of the run.
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller);
 
 }  // namespace awmr

@@ -29,9 +29,8 @@ struct MotorLag {
   double mean_share = 0.0;  ///< (1 - exp(-T_s/tau)) tau/T_s; 0: no lag
 };
 
-/// Returns the mean forces over the sample, and advances the lag. `motors`: forces at the start of
-/// the sample; set to those at its end. Without lag, returns the command and leaves `motors`
-/// unchanged.
+/// Returns the mean forces over the sample. `motors`: forces at the start of the sample; set to
+/// those at its end. Without lag, returns the command and leaves `motors` unchanged.
 template <class T>
 SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
                              SideForces<T>& motors) {
@@ -50,10 +49,9 @@ WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
   return {force.left, force.right, rear_driven * force.left, rear_driven * force.right};
 }
 
-/// Returns `arriving`, the motor forces after lag, with 0 for each motor whose command is 0.
-/// Reason: with back-EMF, the command 0 switches the motor off at once. Without this function, the
-/// remaining lag would keep the motor on, and its back-EMF would brake the wheel (motor_force() in
-/// dynamics.h).
+/// Returns `arriving`, the motor forces after lag, with 0 for each motor whose command is 0: with
+/// back-EMF, this command switches the motor off at once. Otherwise, the remaining lag would keep
+/// the motor on, and its back-EMF would brake the wheel (motor_force() in dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {
@@ -70,7 +68,7 @@ SideForces<T> up_to(const SideForces<T>& force, const T& most) {
   return {math::saturate(force.left, most), math::saturate(force.right, most)};
 }
 
-/// Scales both forces by the voltage s of a sagging battery. s is the ratio to the voltage without
+/// Scales both forces by the voltage s of a sagging battery, divided by its voltage without
 /// current:
 ///   s = 1 - rho sum c_i (s c_i - k_e w_i)
 ///     = (1 + rho k_e sum c_i w_i) / (1 + rho sum c_i^2)

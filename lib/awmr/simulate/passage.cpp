@@ -7,18 +7,18 @@
 namespace awmr {
 namespace {
 
-/// A disc that contains the start or target point is shrunk so that the point is outside. Its new
-/// radius is this fraction of the distance from its centre to the point.
+/// A disc that contains the start or target point is shrunk to this fraction of the distance from
+/// its centre to the point, so that the point is outside.
 constexpr double kShrunk = 1.0 - 1e-9;
 
-/// Twice the signed area of the triangle a, b, c. It is >= 0 if c is on the line from a to b or to
-/// the left of this line.
+/// Twice the signed area of the triangle a, b, c: >= 0 if c is on the line from a to b or to its
+/// left.
 double turn(const Position<double>& a, const Position<double>& b, const Position<double>& c) {
   return (b.x_m - a.x_m) * (c.y_m - a.y_m) - (b.y_m - a.y_m) * (c.x_m - a.x_m);
 }
 
-/// True if the segments a-b and c-d cross. A point on a line counts as left of it. So a chain of
-/// segments with a vertex on the segment a-b crosses a-b once and not twice.
+/// True if the segments a-b and c-d cross. A point on a line counts as left of it, so a chain of
+/// segments with a vertex on a-b crosses a-b once and not twice.
 bool cross(const Position<double>& a, const Position<double>& b, const Position<double>& c,
            const Position<double>& d) {
   const auto left = [](double area) { return area >= 0.0; };
@@ -26,15 +26,15 @@ bool cross(const Position<double>& a, const Position<double>& b, const Position<
 }
 
 /// Groups of overlapping discs (union-find with parities). An edge joins the centres of two
-/// overlapping discs. It is odd if it crosses the segment from `from` to `to`. The parity of a disc
-/// is odd if the path from it to the root of its group has an odd number of odd edges.
+/// overlapping discs; it is odd if it crosses the segment from `from` to `to`. The parity of a disc
+/// is that of the number of odd edges on the path from it to the root of its group.
 class ParitySets {
  public:
   explicit ParitySets(std::size_t count) : parent_(count), odd_(count, false) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   }
   /// Joins the groups of the discs a and b by an edge. Returns false if the edge closes a cycle
-  /// that has an odd number of odd edges: such a cycle encircles one of the two points.
+  /// with an odd number of odd edges, which encircles one of the two points.
   bool join(std::size_t a, std::size_t b, bool odd) {
     const auto [root_a, odd_a] = root(a);
     const auto [root_b, odd_b] = root(b);

@@ -7,8 +7,8 @@
 
 namespace awmr {
 
-/// True if a point can move from `from` to `to` without entering a disc. The discs are the
-/// obstacles enlarged by `grow_m`. The result is exact except for passages of zero width.
+/// True if a point can move from `from` to `to` without entering an obstacle that is enlarged by
+/// `grow_m` (a disc). Exact except for passages of zero width.
 ///
 /// Method: the two points are separated if and only if a closed chain of overlapping discs
 /// encircles exactly one of them. Such a chain crosses the segment from `from` to `to` an odd

@@ -11,16 +11,15 @@
 namespace awmr {
 namespace {
 
-/// Number of RK4 steps per shortest time constant of the plant, of those that do not depend on
-/// speed. A larger number is more exact and slower. For an eigenmode with the time constant T, a
-/// step h = T/6 has the error (h/T)^5/120 = 1e-6, relative to the excursion; this error decays with
-/// T. In tests/peers, positions after a minute differ by 1e-5 m from those of an independent
-/// integrator.
+/// Number of RK4 steps per shortest time constant of the plant that does not depend on speed. A
+/// larger number is more exact and slower. For an eigenmode with the time constant T, a step h =
+/// T/6 has the error (h/T)^5/120 = 1e-6, relative to the excursion; this error decays with T. In
+/// tests/peers, positions after a minute differ by 1e-5 m from those of an independent integrator.
 constexpr double kStepsPerTimeConstant = 6.0;
 
-/// Up to this speed (m/s or rad/s), the simulation may replace a resistance by a chord (a straight
-/// line through the origin). Near rest, a resistance can be too steep for the integration steps. A
-/// larger value permits longer steps, and makes the motion near rest less exact.
+/// Up to this speed (m/s or rad/s), a chord (straight line through the origin) may replace a
+/// resistance that is too steep near rest for the integration steps. A larger value permits longer
+/// steps and makes the motion near rest less exact.
 constexpr double kChordSpeed = 1e-3;
 
 double step_for_chord(const Resistance<double>& law, double inertia) {
@@ -29,9 +28,9 @@ double step_for_chord(const Resistance<double>& law, double inertia) {
 }
 
 /// Limits the command of a motor so that its force F' is at most `most` in magnitude, as on
-/// slippery ground. With back-EMF, F' = e - k_e w (motor_force()), with the drive e, the back-EMF
-/// coefficient k_e and the rolling speed w = `wheel_mps`. So the drive is limited to e = F' + k_e w
-/// for the largest F'.
+/// slippery ground. With back-EMF, F' = e - k_e w (motor_force()): drive e, back-EMF coefficient
+/// k_e, rolling speed w = `wheel_mps`. So the drive is limited to e = F' + k_e w for the largest
+/// F'.
 double slipping(const Plant<double>& plant, double command, double wheel_mps, double most) {
   const double k = plant.back_emf_s_per_m;
   const double drive = beyond_dead_zone(command, plant.wheel_dead_zone);

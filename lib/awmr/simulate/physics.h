@@ -1,6 +1,6 @@
 /// Simulates the motion of vehicles in the environment of a scenario, sample by sample. The closed
-/// loop (closed_loop.h) uses these functions. The class Physics is for an external controller, such
-/// as one on a chip.
+/// loop (closed_loop.h) uses these functions; an external controller, such as one on a chip, uses
+/// the class Physics.
 #pragma once
 
 #include "awmr/model/dynamics.h"
@@ -22,8 +22,8 @@ inline constexpr VehicleSteps<double> kOneVehicleSteps = {
 /// A single simulated vehicle that an external controller drives.
 class Physics {
  public:
-  /// `force_max` is the largest motor command divided by F_max, including the dead zone (the upper
-  /// end of Vehicle::wheel_force). A falling battery voltage reduces it.
+  /// `force_max`: largest motor command with a full battery, divided by F_max, including the dead
+  /// zone (upper end of Vehicle::wheel_force).
   Physics(const Plant<double>& plant, double force_max, const Scenario& scenario,
           const SimulateOptions& options);
 
@@ -46,8 +46,8 @@ class Physics {
 bool forces_differ_by_wheel(const Scenario& scenario);
 
 /// Returns the wheel forces at `t_s`: the motor commands `force`, reduced by motor faults and
-/// limited on slippery discs. Assumes that both axles have the same distance from the centre of
-/// gravity.
+/// limited on slippery discs. Assumes the rear axle as far from the centre of gravity as the front
+/// axle.
 WheelForces<double> at_the_ground(const Scenario& scenario, const Plant<double>& plant,
                                   const State<double>& state, double t_s,
                                   const SideForces<double>& force);
@@ -65,11 +65,11 @@ double battery_share(const Battery& battery, double t_s);
 void quantise(const Actuators& actuators, double force_max, SideForces<double>& force,
               double& steering_command_rad);
 
-/// Returns the plant for integration steps of step_s seconds. Near rest, a resistance can be too
-/// steep for such steps; there, it is replaced by a straight line through the origin (chord,
-/// rest.h). The plant has no Coulomb friction, because the integration steps add it (sliding.h). On
-/// tyres, the surge resistance g1 acts at the wheels, and its chord is chosen for them, with
-/// Coulomb friction (resolved_at_rest_on_tyres()).
+/// Returns the plant for integration steps of step_s seconds. A resistance that is too steep near
+/// rest for such steps is replaced there by a straight line through the origin (chord, rest.h). The
+/// plant has no Coulomb friction, because the integration steps add it (sliding.h). On tyres, the
+/// surge resistance g1 acts at the wheels, and its chord is chosen for them, with Coulomb friction
+/// (resolved_at_rest_on_tyres()).
 Plant<double> resolved_at_rest(const Plant<double>& plant, const Scenario& scenario, double step_s);
 
 /// Longest RK4 step that resolves those time constants of the plant that do not depend on speed.
@@ -79,15 +79,14 @@ struct StepLimit {
   ParameterId parameter{};
 };
 /// Computes the longest step for a plant. With `on_tyres`, the sway and yaw resistances g2 and g3
-/// do not limit the step, because tyre forces replace them.
+/// do not limit the step: tyre forces replace them.
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
-/// Number of RK4 steps in the whole duration of the scenario, assuming that no step has to be
-/// halved.
+/// Number of RK4 steps in the whole duration of the scenario, if no step has to be halved.
 double steps_of_run(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// Returns the properties that the vehicles of all runs share. Back-EMF, scrub and front-wheel
-/// drive are still missing: set_up_vehicle() adds them if any of the vehicles has them.
+/// Returns the properties that the vehicles of all runs share, without back-EMF, scrub and
+/// front-wheel drive: set_up_vehicle() adds these if a vehicle has them.
 VehicleSetup vehicle_setup(const Scenario& scenario, double sample_time_s);
 
 /// Sets up the vehicle of the run with the index `run`, in the scenario's initial state.

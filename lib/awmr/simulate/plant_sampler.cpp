@@ -17,15 +17,15 @@
 namespace awmr {
 namespace {
 
-/// Largest number of attempts to draw a plant whose exponents and resistance terms are not
-/// negative.
+/// Number of attempts to draw a plant without negative exponents and resistance terms. With more
+/// attempts, a model for which such a plant is rare takes longer to fail.
 constexpr int kMaxTries = 1000;
 
 /// Number of the random stream of the scrub moment. It is separate, so that the other parameters of
 /// a draw do not depend on whether the model has scrub.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 
-/// An eigenvalue of a covariance may be negative by this fraction of the largest one. A derived
+/// An eigenvalue of a covariance may be negative by this fraction of the largest one: a derived
 /// parameter (m' from a1, b1) makes the covariance singular, and rounding can then make an
 /// eigenvalue negative.
 constexpr double kSingularTolerance = 1e-9;
@@ -37,8 +37,8 @@ bool is_admissible(ParameterId id, double value) {
   return !(is_exponent || info(id).term) || value >= 0.0;
 }
 
-/// A draw is placed within its stratum at a fraction from 0 to 1 of the stratum's width. The
-/// fraction is at least this: at 0, the normal quantile of the first stratum would be infinite.
+/// Smallest fraction of a stratum's width at which a draw is placed: at 0, the normal quantile of
+/// the first stratum would be infinite.
 constexpr double kInsideStratum = 1e-6;
 
 /// Standard normal quantile: the z with P(Z <= z) = p, where Z is standard normal and 0 < p < 1.
@@ -215,8 +215,8 @@ int PlantSampler::rank() const {
 
 std::vector<std::vector<double>> PlantSampler::directions_of(
     std::span<const ParameterId> ids) const {
-  // Each row of L is divided by its length, so that the unit of a parameter has no effect. The
-  // directions are the eigenvectors of L^T L whose eigenvalues are above 0.
+  // Each row of L is divided by its length, so that units have no effect. The directions are the
+  // eigenvectors of L^T L whose eigenvalues are above 0.
   const std::size_t n = centre_.size();
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(eigen_index(n), eigen_index(n));
   for (std::size_t i = 0; i < n; ++i) {

@@ -22,9 +22,8 @@ inline constexpr double kGripShare = 0.25;
 ///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q)
 ///
 /// An estimate can have quantiles in model.json. Then z is a piecewise linear function of the
-/// normal number (a Gaussian copula), which passes through the quantiles and is extrapolated beyond
-/// them. So the distribution of the parameter has these quantiles, and its rank correlations are
-/// those of C.
+/// normal number (a Gaussian copula) through these quantiles, extrapolated beyond them. So the
+/// parameter has these quantiles, and its rank correlations are those of C.
 ///
 /// Model::mass_norm_by_grip is set if the identified normalised mass m' is too small: its
 /// accelerations would need more grip than tyres have. Therefore, in the fraction kGripShare of the
@@ -32,9 +31,9 @@ inline constexpr double kGripShare = 0.25;
 ///
 /// Exponents and optional terms of a resistance (Coulomb, quadratic, dead zone) must not be
 /// negative, because a resistance does not fall with speed and does not drive the vehicle. If one
-/// is negative, all parameters are drawn again. So a term that was fitted as 0 has a half-normal
-/// distribution with a mean of 0.8 standard errors. The ranges surge_beta_range and yaw_beta_range
-/// of the vehicle do not limit the draws: the true value can lie beyond an end of its range.
+/// of them is negative, all parameters are drawn again. So a term that was fitted as 0 has a
+/// half-normal distribution, whose mean is 0.8 standard errors. The vehicle's surge_beta_range and
+/// yaw_beta_range do not limit the draws: the true value can lie beyond an end of its range.
 class PlantSampler {
  public:
   /// Makes a sampler for the model. A scrub moment is drawn with its standard error
@@ -42,16 +41,15 @@ class PlantSampler {
   /// value; the covariance is missing, has the wrong size, or is not positive semi-definite.
   static Result<PlantSampler> make(const Model& model);
 
-  /// Draws the plant with the number `sample` (>= 1). The result depends only on `seed` and
-  /// `sample`. Errors (input): each of 1000 attempts gave a negative exponent or term of a
-  /// resistance.
+  /// Draws the plant with the number `sample` (>= 1), which depends only on `seed` and `sample`.
+  /// Errors (input): each of 1000 attempts gave a negative exponent or term of a resistance.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
   /// Same as draw(), but returns the plant as a model. Its intervals are those of the identified
   /// model.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
   /// Draws `count` plants by a Latin hypercube, so that even a few draws cover the distribution
-  /// evenly. The range of each standard normal number is divided into `count` strata of equal
+  /// evenly: the range of each standard normal number is divided into `count` strata of equal
   /// probability, and each stratum is used once. The seed determines the order of the strata and
   /// the position within each. If draw i (from 1) has a negative exponent or term, draw(seed, i)
   /// replaces it.
@@ -67,16 +65,16 @@ class PlantSampler {
   std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
   /// Degrees of freedom k of the draws: number of independent directions of the normal numbers n
   /// that change a parameter. Derived parameters (m' from a1, b1) add none. Let n' be the part of n
-  /// in these directions. Then P(|n'| <= r) is the probability that a chi-squared variable with k
-  /// degrees of freedom is at most r^2.
+  /// in these directions. The probability P(|n'| <= r) is that of a chi-squared variable with k
+  /// degrees of freedom for r^2.
   int rank() const;
   /// Orthonormal directions in the space of the normal numbers n that change the parameters `ids`.
   /// Parameters that are not in the covariance are ignored.
   std::vector<std::vector<double>> directions_of(std::span<const ParameterId> ids) const;
 
  private:
-  /// Number of standard normal numbers per draw: one for each parameter of the covariance. If the
-  /// model has mass_norm_by_grip, one more number decides whether m' is raised.
+  /// Number of standard normal numbers per draw: one for each parameter of the covariance, and with
+  /// mass_norm_by_grip one that decides whether m' is raised.
   std::size_t normals_of_a_draw() const {
     return centre_.size() + (model_.mass_norm_by_grip ? 1 : 0);
   }

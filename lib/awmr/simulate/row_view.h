@@ -2,17 +2,17 @@
 /// field is a row: one number of every run. The row of a single run is a double; the row of sixteen
 /// runs is lanes::Row. Private to this folder.
 ///
-/// A function of the loop (vehicle_steps.h, loop_steps.h) is a template on a view. A view selects
-/// one or several runs of the rows. Its scalar type T (View::Number) is a double, or lanes::Lanes
-/// with one double per run. For example, `view(rows)` loads State<Row> as State<T>, and
-/// `view.store()` writes it back.
+/// A function of the loop (vehicle_steps.h, loop_steps.h) is a template on a view, which selects
+/// one or several runs of the rows. The view's scalar type T (View::Number) is a double, or
+/// lanes::Lanes with one double per run. For example, `view(rows)` loads State<Row> as State<T>,
+/// and `view.store()` writes it back.
 #pragma once
 
 #include <cstddef>
 #include <cstring>
 
-/// Attribute of a function of the loop: the compiler inlines all functions that it calls. Without
-/// it, each call would move the contents of registers to memory, which is slow.
+/// Attribute of a function of the loop: the compiler inlines all functions that it calls.
+/// Otherwise, each call would move the contents of registers to memory, which is slow.
 #define AWMR_WHOLE __attribute__((flatten))
 
 namespace awmr {

@@ -22,8 +22,8 @@ std::filesystem::path run_side_path(const std::filesystem::path& csv);
 std::string run_side_text(std::string_view csv, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 
-/// Checks that the file `side` may be written. Errors (input): a file with this name exists, but is
-/// not a side file of a run. (It is then not overwritten.)
+/// Checks that the file `side` may be written. Errors (input): a file with this name exists and is
+/// not a side file of a run.
 Status check_run_side(const std::filesystem::path& side);
 
 /// The JSON Schema of the side file.

@@ -14,8 +14,8 @@ namespace awmr {
 /// those of read_csv(); the time decreases.
 Result<CsvTable> read_run(const std::filesystem::path& path);
 
-/// Checks that the text of a run.csv can be read. Used before the file is written (ReadBack in
-/// core/file.h). Errors: those of read_run().
+/// Checks that the text of a run.csv can be read, before it is written (ReadBack in core/file.h).
+/// Errors: those of read_run().
 Status check_run_text(std::string_view text, const std::string& file);
 
 }  // namespace awmr

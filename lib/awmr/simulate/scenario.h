@@ -24,7 +24,7 @@
 
 namespace awmr {
 
-/// Open loop: constant thrust and yaw moment. The allocation converts them to commands of the yaw
+/// Open loop: constant thrust and yaw moment, which the allocation converts to commands of the yaw
 /// mode, within their limits.
 struct OpenLoop {
   double tau_speed = 0.0;   ///< thrust divided by F_max, forward positive
@@ -76,14 +76,15 @@ struct LinePath {
   std::optional<double> slow_down_m;  ///< see WaypointPath; the distance is along the last segment
 };
 
-/// A timed path: a point that moves along a curve. If the scenario's speed_mps is 0, the commanded
-/// speed is that of the point. Another speed_mps is allowed only without position feedback.
+/// A timed path: the vehicle follows a point that moves along a curve. If the scenario's speed_mps
+/// is 0, the commanded speed is that of the point. Another speed_mps is allowed only without
+/// position feedback.
 struct LissajousPath {
   Lissajous<double> path{};
   bool closed_loop = false;          ///< with position feedback
   double position_gain_per_s = 0.5;  ///< k of closed_path(), > 0
   /// The run counts as completed if, in its second half, the vehicle stays within this distance of
-  /// the path's point, m.
+  /// the moving point, m.
   double tolerance_m = 1.0;
 };
 
@@ -103,8 +104,8 @@ enum class PositionMethod {
 inline constexpr NameTable<PositionMethod, 2> kPositionMethodNames{
     {{"filter", PositionMethod::kFilter}, {"none", PositionMethod::kNone}}};
 
-/// A scenario: one run to simulate. An absent optional field switches its feature off, unless the
-/// comment of the field says otherwise.
+/// A scenario: one run to simulate. An absent optional field switches its feature off, unless its
+/// comment says otherwise.
 struct Scenario {
   std::string name;
   double duration_s = 0.0;  ///< s, > 0
@@ -150,8 +151,8 @@ struct HeadingStepsOptions {
 };
 
 /// Returns the scenario of the paper's heading runs: the vehicle starts at rest at heading 0, and
-/// each of `headings_deg` (counter-clockwise positive; not empty) is commanded in turn. For
-/// example, heading_steps({30, -30}) is the paper's scenario C3. [paper 4.3]
+/// each of `headings_deg` (counter-clockwise positive; not empty) is commanded in turn.
+/// heading_steps({30, -30}) is the paper's scenario C3. [paper 4.3]
 Scenario heading_steps(const std::vector<double>& headings_deg,
                        const HeadingStepsOptions& options = {});
 
@@ -160,8 +161,8 @@ struct TyreConflict {
   std::string key;
   std::string message;  ///< the reason and the remedy
 };
-/// Returns the keys of the scenario that conflict with the key `tyres`. The scenario need not have
-/// this key, so that a caller can ask whether tyres may be added.
+/// Returns the keys of the scenario that conflict with the key `tyres`, even if the scenario has no
+/// such key yet.
 std::vector<TyreConflict> tyre_conflicts(const Scenario& scenario);
 
 /// Checks the keys of a scenario with tyres. Errors (input): there is one of tyre_conflicts().
@@ -176,12 +177,12 @@ Status check_scenario(const Scenario& scenario, const Model& model);
 /// the parameters of the tyres.
 std::string plant_text(const Scenario& scenario);
 
-/// Returns the model with each parameter of Scenario::corner set to the requested end of its 95 %
-/// interval. Errors (input): such a parameter has no interval.
+/// Returns the model with each parameter in Scenario::corner set to the end of its 95 % interval
+/// that corner names. Errors (input): such a parameter has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// Returns the plant of the scenario: the plant of model_at_corner(), with the parameters that
-/// `motion` (planar or straight) needs. Errors (input): those of model_at_corner(),
-/// check_scenario(), Model::plant() and check_work() (simulate.h).
+/// Returns the plant of the scenario: that of model_at_corner(), with the parameters that `motion`
+/// (planar or straight) needs. Errors (input): those of model_at_corner(), check_scenario(),
+/// Model::plant() and check_work() (simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

@@ -21,8 +21,8 @@ State<double> read_initial(JsonObject json) {
   return state;
 }
 
-/// Reads speed_mps, the commanded speed u_d. If the guidance commands a constant thrust
-/// (`holds_thrust`), there is no commanded speed: the result is 0, and the key is an error.
+/// Reads speed_mps, the commanded speed u_d. With a constant thrust (`holds_thrust`), there is no
+/// commanded speed: the key is then an error, and the result is 0.
 double read_speed(JsonObject& json, bool holds_thrust) {
   if (!json.has("speed_mps")) {
     if (!holds_thrust) json.fault(ErrorCode::kMissing, "speed_mps", "this key is missing; add it");

@@ -13,7 +13,7 @@ namespace awmr {
 /// range (scenario_json.h); keys that have no effect or contradict each other.
 Result<Scenario> read_scenario(const std::filesystem::path& path);
 
-/// Returns the JSON Schema of scenario.json. The function that reads the file also generates it.
+/// Returns the JSON Schema of scenario.json, derived from its reader.
 std::string scenario_schema();
 
 }  // namespace awmr

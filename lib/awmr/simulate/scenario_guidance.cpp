@@ -9,7 +9,7 @@ namespace awmr {
 namespace {
 
 /// Distance of the point p from the line through a and b, m, positive to the left of the direction
-/// from a to b. If a and b coincide, it is the distance of p from a.
+/// from a to b; if a and b coincide, the distance of p from a.
 double from_line_m(const Position<double>& a, const Position<double>& b,
                    const Position<double>& p) {
   const double length_m = distance_m(a, b);
@@ -93,8 +93,8 @@ GuidanceOutput ScenarioGuidance::step(double t_s, const Sensed& sensed) {
 }
 
 /// True if the obstacles leave a way from `from` to `to`, the target of the leg with the index
-/// `leg`. The check is made once per leg, at the vehicle's position at the start of the leg; later
-/// calls return the stored result. Always true without avoidance.
+/// `leg`. Checked once per leg, at the vehicle's position at its start; later calls return the
+/// stored result. Always true without avoidance.
 bool ScenarioGuidance::way_is_free(const Position<double>& from, const Position<double>& to,
                                    int leg) {
   if (!scenario_->avoidance) return true;

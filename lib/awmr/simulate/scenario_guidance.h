@@ -43,15 +43,15 @@ class ScenarioGuidance {
   ScenarioGuidance(const ScenarioGuidance&) = delete;
   ScenarioGuidance(ScenarioGuidance&&) = default;
 
-  /// Computes the references at the time `t_s`. Call it once per sample, in order. Do not call it
-  /// in open loop, where there are no references.
+  /// Computes the references at the time `t_s`. Call it once per sample, in order, and not in open
+  /// loop, which has no references.
   GuidanceOutput step(double t_s, const Sensed& sensed);
   /// Number of waypoints that have been missed so far, including those covered by an obstacle.
   int missed() const { return laws_.progress.missed; }
 
  private:
-  /// The parts of the guidance that a scenario can use (guidance/parts.h). Times are in s and do
-  /// not wrap, unlike the clock of a firmware.
+  /// The parts of the guidance that a scenario can use (guidance/parts.h). Their times, in s, do
+  /// not wrap like the clock of a firmware.
   struct Parts {
     using Line = AnyLineFollower<double>;
     using Path = TimedPathFollower;

@@ -19,7 +19,7 @@ inline constexpr NumberRule kSpeed_mps{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kAngle_deg{.min = -1e12, .max = 1e12};
 inline constexpr NumberRule kYawRate_degps{.min = -1e5, .max = 1e5};
 /// Forces divided by F_max, and moments divided by F_max in m: up to a thousand times the largest
-/// force of one motor, which is F_max.
+/// force of one motor.
 inline constexpr NumberRule kForce{.min = -1e3, .max = 1e3};
 inline constexpr NumberRule kForceSize{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kRate{.min = 0.0, .max = 1e6, .min_excluded = true};

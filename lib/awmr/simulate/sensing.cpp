@@ -8,12 +8,12 @@
 namespace awmr {
 namespace {
 
-/// Numbers of the random streams of the sensors (RunSeed::random()). They differ from those of the
+/// Numbers of the random streams of the sensors (RunSeed::random()), different from those of the
 /// disturbances.
 enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 
-/// Tolerances for times that should be multiples of the sample time but have rounding errors: in
-/// samples, and in seconds.
+/// Tolerances for rounding errors of times that should be multiples of the sample time: in samples,
+/// and in seconds.
 constexpr double kTimeRounding = 1e-9;
 constexpr double kTimeRounding_s = 1e-9;
 
@@ -87,8 +87,8 @@ Sensing::Sensing(const std::optional<Sensors>& sensors, double sample_time_s, co
              noise ? &noise->speed : nullptr),
       gps_(seed.random(kGps)),
       motion_(2 + std::max({heading_.latency, yaw_rate_.latency, speed_.latency})),
-      // Number of past positions that are kept for the fixes. A fix has the position of the last
-      // sample before its own time, and arrives at the first sample after its latency.
+      // Past positions to keep for the fixes. A fix has the position of the last sample before its
+      // own time, and arrives at the first sample after its latency.
       kept_(4 + whole_samples(sensors && sensors->gps ? sensors->gps->latency_s : 0.0,
                               sample_time_s)) {}
 
@@ -115,9 +115,9 @@ Sensed Sensing::at(std::size_t k, const State<double>& truth) {
 }
 
 /// Sets the measured position to the last fix that has arrived. Before the first fix arrives, it is
-/// the true initial position, as if a fix had been taken one GPS period before the start. Random
-/// numbers are also drawn for a fix that is lost in a drop-out, so that drop-outs do not change the
-/// noise of the other fixes.
+/// the true initial position, as if a fix had been taken one GPS period before the start. A fix
+/// that is lost in a drop-out also uses random numbers, so that drop-outs do not change the noise
+/// of the other fixes.
 void Sensing::receive_fixes(std::size_t k, const State<double>& truth, Sensed& sensed) {
   const Gps& gps = *sensors_->gps;
   if (k < kept_) true_m_.emplace_back();

@@ -53,8 +53,8 @@ class Sensing {
     Random random;
     const std::vector<double>* normals;  ///< one w_k per sample; null: they are drawn from `random`
   };
-  /// Returns the true value of a quantity at the time of sample k minus the latency of the sensor.
-  /// The value is interpolated linearly between samples. Before the first sample, it is that of the
+  /// Returns the true value of a quantity at the time of sample k minus the latency of the sensor,
+  /// interpolated linearly between samples. Before the first sample, the value is that of the
   /// first.
   double truth_at(std::size_t k, const Sensor& sensor, double Measurement<double>::*quantity) const;
 
@@ -62,8 +62,7 @@ class Sensing {
   double sample_time_s_;
   Sensor heading_, yaw_rate_, speed_;
   Random gps_;
-  /// True motion at the latest samples. The number of stored samples follows from the latencies of
-  /// the sensors.
+  /// True motion at the latest samples, as many as the latencies of the sensors need.
   std::vector<Measurement<double>> motion_;
   /// number of past positions to keep, for the latency of the GPS
   std::size_t kept_;

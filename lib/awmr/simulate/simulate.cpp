@@ -62,7 +62,7 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
 namespace {
 
 /// Returns the disturbance observer of the scenario, or else that of the gains. Bandwidth 0: none.
-/// The observer of the gains was tuned for the sliding mode, so it is not used with an LQI.
+/// The LQI does not use the observer of the gains, which was tuned for the sliding mode.
 ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>& gains) {
   ObserverGains<double> observer = scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
   if (const auto& own = scenario.control.observer) {
@@ -73,9 +73,9 @@ ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>&
   return observer;
 }
 
-/// True if nothing in this row turns the vehicle or moves it sideways. Rounding errors, such as
-/// those of sin(pi) or atan2, are tolerated. Here they have a larger effect than usual: the unknown
-/// resistances in yaw and sway are simulated as 0, so nothing damps them.
+/// True if nothing in this row turns the vehicle or moves it sideways, except rounding errors, such
+/// as those of sin(pi) or atan2. They are larger than usual: the unknown resistances in yaw and
+/// sway are simulated as 0, so nothing damps them.
 bool is_straight(const RunRow& row) {
   constexpr double kRounding = 1e-9;  // m/s, rad/s, rad, m
   const double turning[] = {row.state.v_mps,        row.state.r_radps,
@@ -85,9 +85,9 @@ bool is_straight(const RunRow& row) {
                      [](double number) { return std::abs(number) <= kRounding; });
 }
 
-/// Checks that the vehicle drives straight in this run. Errors (input): the run turns, or moves
-/// sideways. The message has the time and the parameters that the model lacks. Precondition: the
-/// model only has parameters for straight motion.
+/// Checks that the vehicle drives straight, for a model that only has parameters for straight
+/// motion. Errors (input): the run turns, or moves sideways. The message has the time and the
+/// missing parameters.
 Status check_straight(const Run& run, const Scenario& scenario, const Model& model) {
   const auto turned = std::find_if_not(run.rows.begin(), run.rows.end(), is_straight);
   if (turned == run.rows.end()) return {};

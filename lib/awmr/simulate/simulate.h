@@ -1,5 +1,5 @@
-/// Simulation of one run in closed loop. The commands of the controller are constant over each
-/// sample. RK4 steps integrate the plant over the sample.
+/// Simulation of one run in closed loop. Over each sample, the commands of the controller are
+/// constant, and RK4 steps integrate the plant.
 #pragma once
 
 #include <cstdint>
@@ -48,15 +48,15 @@ struct RunRow {
   Position<double> measured_position_m = {};  ///< position that the guidance uses
   /// external forces; the force of a slope is not included
   BodyLoad disturbance = {};
-  /// Distance from the vehicle to the nearest obstacle, m. With avoidance, the vehicle is a circle,
-  /// else a point. < 0 if they overlap; 0 without obstacles.
+  /// Distance from the vehicle to the nearest obstacle, m; < 0 if they overlap; 0 without
+  /// obstacles. With avoidance, the vehicle is a circle, else a point.
   double clearance_m = 0.0;
   /// Power divided by F_max, m/s, that the lateral tyre forces dissipate. In the 3-DOF model, it is
   /// the power of tyre scrub, without that of the yaw resistance g3.
   double tyre_power_mps = 0.0;
-  /// Mean wheel forces divided by F_max, over the sample that ends at this row. They include motor
-  /// lag, battery, faults and slippery ground. Dead zone and back-EMF are not subtracted. 0 in the
-  /// first row.
+  /// Mean wheel forces divided by F_max, over the sample that ends at this row. Effects of motor
+  /// lag, battery, faults and slippery ground are included, dead zone and back-EMF are not. 0 in
+  /// the first row.
   WheelForces<double> acting = {0.0, 0.0, 0.0, 0.0};
 };
 
@@ -65,9 +65,8 @@ enum class RunEnd {
   kDuration,   ///< the scenario's duration is over
   kFinished,   ///< the vehicle reached the last waypoint or the end of the line
   kNoPassage,  ///< obstacles leave no way to the target, and the vehicle has stopped
-  /// The run failed and has no valid result (failure_of() has the message): a number was not
-  /// finite, no integration step was short enough for the motion, or the run exceeds kMaxRows or
-  /// kMaxSteps.
+  /// The run failed and has no valid result: a number was not finite, no integration step was short
+  /// enough for the motion, or the run exceeds kMaxRows or kMaxSteps. failure_of() has the message.
   kFailed,
 };
 
@@ -78,8 +77,8 @@ struct Run {
   RunEnd end = RunEnd::kDuration;
   /// number of missed waypoints, including those that an obstacle covers
   int missed_waypoints = 0;
-  /// How often the position estimate was restarted because it rejected the GPS fixes. The counter
-  /// stops at 255.
+  /// Number of restarts of the position estimate, after it rejected several GPS fixes in a row; at
+  /// most 255.
   int position_resets = 0;
 };
 
@@ -93,8 +92,7 @@ struct SimulateOptions {
   /// Seed of the simulation. Together with the scenario's own seed, it determines all random
   /// numbers.
   std::uint64_t seed = 0;
-  /// Number of the Monte-Carlo draw (0, 1, 2, ...). With the same seed, each number gives different
-  /// random numbers.
+  /// Number of the Monte-Carlo draw (0, 1, 2, ...), which changes the random numbers of a seed.
   std::uint64_t sample = 0;
   /// Sensor noise drawn in advance, or null (BatchRun::noise).
   const DrawnNoise* noise = nullptr;
@@ -106,16 +104,16 @@ inline constexpr double kMaxRows = 2e6;
 inline constexpr double kMaxSteps = 1e8;
 inline constexpr int kMaxSubsteps = 100'000'000;
 
-/// Returns the number of RK4 steps per sample, in [1, kMaxSubsteps]. The steps are short enough for
+/// Returns the number of RK4 steps per sample, in [1, kMaxSubsteps]. They are short enough for
 /// those time constants of the plant that do not depend on speed (step_limit() in physics.h).
 int substeps_for(const Plant<double>& plant, double sample_time_s);
 /// Same as above, for a scenario. If the scenario has tyres, their forces replace the sway and yaw
 /// resistance of the plant.
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
-/// Makes a controller with these gains. It uses the plant as its model, feeds forward the plant's
+/// Makes a controller with these gains, whose model is the plant: it feeds forward the plant's
 /// resistances, and has the limits of the vehicle. Its friction width in yaw (HeadingGains in
-/// model/gains.h) is that of steering mode. Each run replaces it by that of its own mode.
+/// model/gains.h) is that of steering mode; each run replaces it by that of its own mode.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
@@ -145,9 +143,9 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
 /// message has the time and the speeds of the last row.
 Status failure_of(const Run& run, const Scenario& scenario);
 
-/// Simulates a run with the given plant and controller. The result has at least one row. Its end is
-/// RunEnd::kFailed if the run could not continue, or is too long for check_work(). The function
-/// does not set the parameters of Scenario::corner: pass the plant that plant_for() returns.
+/// Simulates a run with the given plant and controller. The plant must be that of plant_for(),
+/// because Scenario::corner is not applied here. The result has at least one row. Its end is
+/// RunEnd::kFailed if the run could not continue, or is too long for check_work().
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 

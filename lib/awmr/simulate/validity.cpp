@@ -65,8 +65,8 @@ void note_speed(const Scenario& scenario, const Model& model, std::vector<Findin
 }
 
 /// Simulates a turn of 10 s in open loop, with half of the largest thrust and the yaw moment
-/// tau_turn_m, and returns the magnitude of the final yaw rate, deg/s. The vehicle is the 3-DOF
-/// model, or, if `tyres` is given, the same vehicle on these tyres.
+/// tau_turn_m, and returns the magnitude of the final yaw rate, deg/s. With `tyres`, the vehicle is
+/// on these tyres; without, it is the 3-DOF model.
 double turned_degps(const Model& model, double tau_turn_m,
                     const std::optional<Tyres<double>>& tyres) {
   Scenario turn;
@@ -161,8 +161,7 @@ void limit_heading_rate(double limit_degps, Scenario& scenario) {
     scenario.shaping->rate_max_radps = std::min(scenario.shaping->rate_max_radps, limit_radps);
     return;
   }
-  // The acceleration limit is so large that the filter reaches its rate limit within its time
-  // constant.
+  // With this acceleration limit, the filter reaches its rate limit within its time constant.
   scenario.shaping =
       HeadingShaping<double>{.omega_radps = kShapingBandwidth_radps,
                              .rate_max_radps = limit_radps,
@@ -271,10 +270,10 @@ void note_extrapolation(const Model& model, double fastest_degps, const std::str
 
 namespace {
 
-/// Force divided by F_max with which the motors push a vehicle further backward. The vehicle rolls
-/// backward at the speed u = speed_mps, and the controller gets |u|. The speed law requests the
-/// force F' = -unsigned_push() / n of each of n driven wheels. The drive e of the motor and the
-/// force F at the wheel are
+/// Force divided by F_max with which the motors push a vehicle further backward that rolls backward
+/// at the speed u = speed_mps, while the controller gets |u|. The speed law requests the force F' =
+/// -unsigned_push() / n of each of n driven wheels. The drive e of the motor and the force F at the
+/// wheel are
 ///   e = max(F' + k_e u, F'min),   F = e + k_e u
 /// F'min is the largest backward force, including the dead zone. A drive e >= 0 does not push
 /// backward.

@@ -1,6 +1,6 @@
 /// Warnings about a simulation: turns faster than the measured ones, requests that the vehicle
-/// cannot meet, parameters without an interval. A function here also limits the rate of heading
-/// commands, which keeps turns within the measured range of yaw rates.
+/// cannot meet, parameters without an interval. Also limits the rate of heading commands, which
+/// keeps turns within the measured range of yaw rates.
 #pragma once
 
 #include <algorithm>
@@ -21,15 +21,14 @@ namespace awmr {
 /// highest measured yaw rate. Absent without tyres or without a measured yaw rate.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 
-/// Warning `no-interval`: some fitted parameters have neither standard error nor 95 % interval.
-/// Therefore the plants drawn from the model do not vary them. Absent if there are no such
-/// parameters.
+/// Warning `no-interval`: fitted parameters have neither standard error nor 95 % interval, so the
+/// plants drawn from the model do not vary them. Absent if there are no such parameters.
 std::optional<Finding> missing_intervals(const Model& model);
 
 /// Warning `imprecise-parameter` for each positive parameter that random plants vary, if its
 /// standard error is above kImprecise of its value. With a relative standard error sigma, 5 % of
 /// these log-normal draws are wrong by more than a factor of exp(2 sigma). The message names the
-/// trial that would identify the parameter.
+/// trial that identifies the parameter.
 std::vector<Finding> imprecise_parameters(const Model& model);
 /// Limit of the relative standard error; a larger limit warns later.
 inline constexpr double kImprecise = 0.5;
@@ -40,21 +39,19 @@ inline constexpr double kImprecise = 0.5;
 std::vector<Finding> unattainable_requests(const Scenario& scenario, const Model& model);
 
 /// Warning `unsigned-speed-runs-away`, for a speed sensor without a sign, such as a GPS. If the
-/// vehicle rolls backward, the speed law takes this for forward motion, and accelerates it
-/// backward. The limit is the largest backward force of the wheels, less dead zone and back-EMF;
-/// without backward force, the vehicle cannot run away. The message has the highest speed at which
-/// this happens. Absent if the vehicle cannot reach such a speed backward. `file`: the file of the
-/// gains.
+/// vehicle rolls backward, the speed law takes this for forward motion and can accelerate it
+/// backward, by at most the largest backward force of the wheels, less dead zone and back-EMF. The
+/// message has the highest speed at which this happens. Absent if the vehicle cannot reach such a
+/// speed backward. `file`: the file of the gains.
 std::optional<Finding> unsigned_speed_finding(const Plant<double>& plant, const Vehicle& vehicle,
                                               const ModeGains& gains, const std::string& file);
 
 /// Limits the rate of heading commands to `limit_degps`, > 0, by a filter with the bandwidth
-/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). A filter that the scenario already
-/// has keeps its bandwidth; only a larger rate limit is reduced to `limit_degps`. No effect in open
-/// loop.
+/// kShapingBandwidth_radps (control/guidance/heading_shaping.h). A filter of the scenario keeps its
+/// bandwidth and a smaller rate limit. No effect in open loop.
 void limit_heading_rate(double limit_degps, Scenario& scenario);
-/// Bandwidth of this filter, rad/s. With a larger one, the reference follows a heading command
-/// faster.
+/// Bandwidth of this filter, rad/s. With a larger bandwidth, the reference follows a heading
+/// command faster.
 inline constexpr double kShapingBandwidth_radps = 4.0;
 
 /// Value of the option --heading-rate-limit. "measured": the highest measured yaw rate of the model
@@ -70,9 +67,9 @@ inline constexpr const char* kRateName = "heading_rate_limit";
 /// Returns a message that describes why a choice is invalid; empty if it is valid.
 std::string fault_of_rate(const HeadingRateChoice& choice);
 
-/// Returns the heading rate limit for a comparison: the option `choice`, if it is given. Else
-/// "measured" if the model has a highest measured yaw rate, because faster turns extrapolate the
-/// yaw resistance; otherwise "none".
+/// Returns the heading rate limit for a comparison: the option `choice`, if given. Else "measured"
+/// if the model has a highest measured yaw rate, because faster turns extrapolate the yaw
+/// resistance; otherwise "none".
 HeadingRateChoice rate_to_compare_at(const HeadingRateChoice& choice, const Model& model);
 
 /// Limits the rate of heading commands in every scenario. No effect if the choice is empty or
@@ -86,16 +83,16 @@ Status limit_heading_rate(const HeadingRateChoice& choice, const Model& model,
 std::optional<Finding> heading_rate_not_limited(const HeadingRateChoice& choice,
                                                 const Model& model);
 
-/// How a scenario commands turns. It determines the remedy for turns that are too fast.
+/// Turn commands of a scenario, which determine the remedy for turns that are too fast.
 struct TurnCommands {
   bool are_headings = true;                   ///< false: open loop
   std::optional<double> rate_max_degps = {};  ///< limit of the heading rate; absent: none
 };
 TurnCommands turn_commands(const Scenario& scenario);
 
-/// Warning `beyond-trials`: a turn of `fastest_degps`, >= 0, is more than kLittleFurther times as
-/// fast as `measured_degps` > 0, the highest rate at which the yaw resistance was measured. Else
-/// absent. `file`: the file of the model. For the other parameters, see note_extrapolation().
+/// Warning `beyond-trials`: a turn at `fastest_degps`, >= 0, exceeds kLittleFurther times
+/// `measured_degps` > 0, the highest rate at which the yaw resistance was measured. Else absent.
+/// `file`: the file of the model. For the other arguments, see note_extrapolation().
 std::optional<Finding> extrapolation_finding(const std::string& file, double measured_degps,
                                              double fastest_degps, const std::string& where,
                                              const TurnCommands& commands);

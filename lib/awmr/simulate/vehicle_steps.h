@@ -1,6 +1,6 @@
 /// The part of a sample that computes the vehicles: motors and battery convert the commands to
-/// forces, and the forces move the vehicles. The functions compute all runs that are simulated
-/// together (rows of numbers, see row_view.h). Private to this folder.
+/// forces, which move the vehicles. Each function computes all runs that are simulated together
+/// (rows of numbers, row_view.h). Private to this folder.
 #pragma once
 
 #include "awmr/simulate/motion.h"
@@ -55,8 +55,8 @@ struct Vehicles {
   Row tyre_power_mps;  ///< RunRow::tyre_power_mps
 };
 
-/// The functions that compute the vehicles of a sample, for one type of row. They do not change the
-/// motion of an inactive run (Vehicles::active is 0).
+/// The functions that compute the vehicles of a sample, for one type of row. An inactive run
+/// (Vehicles::active is 0) does not move.
 template <class Row>
 struct VehicleSteps {
   /// Computes `tyre_power_mps` from state and motor commands. No-op if the vehicles have neither
@@ -134,8 +134,8 @@ AWMR_WHOLE void actuate(const View& view, Vehicles<Row>& v) {
   view.store(force, v.arriving);
 }
 
-/// The integrator of the simulation: one Runge-Kutta step of order 4. For comparison, tests/bench
-/// replaces it by another integrator.
+/// The integrator of the simulation: one Runge-Kutta step of order 4. tests/bench replaces it by
+/// others, for comparison.
 struct RungeKutta4 {
   template <class T, class Rates>
   State<T> operator()(const State<T>& from, const T& h, const Rates& rates) const {
@@ -204,9 +204,9 @@ void move_alone(const View& view, Vehicles<Row>& v, const SideForces<typename Vi
       stepper);
 }
 
-/// Integrates the vehicles. There are several functions for the time derivatives of the state, with
-/// more or fewer terms. This function selects the one with the fewest terms that suffices for these
-/// vehicles. Tests for each term inside the derivatives would slow down every integration step.
+/// Integrates the vehicles by the function for the state's time derivatives that has the fewest
+/// terms of those that suffice. Tests for each term inside the derivatives would slow down every
+/// integration step.
 template <class View, class Row, class Stepper = RungeKutta4>
 void move(const View& view, Vehicles<Row>& v, const Stepper& stepper = {}) {
   using T = typename View::Number;

@@ -118,9 +118,8 @@ struct Gps {
   std::vector<Window> dropouts;  ///< fixes measured in these windows of time are lost
 };
 
-/// Sensors of the controller. A quantity without a sensor is measured exactly. Exception: if
-/// `sway_measured` is false, the measured sway speed is 0, because most real vehicles cannot
-/// measure it.
+/// Sensors of the controller. A quantity without a sensor is measured exactly, except the sway
+/// speed: if `sway_measured` is false, it reads 0, because most real vehicles cannot measure it.
 struct Sensors {
   Channel heading;            ///< rad
   Channel yaw_rate;           ///< rad/s
@@ -154,9 +153,8 @@ struct ControlOptions {
     double yaw_max_m = 0.0;
     /// largest disturbance in surge that is compensated: force divided by F_max, > 0
     double surge_max = 0.0;
-    /// true: the observer gets the commands after the limits. false: it gets those before the
-    /// limits. A saturated actuator then looks like a disturbance, and the estimate grows without
-    /// reason (wind-up).
+    /// true: the observer gets the commands after the limits. false: before the limits; a saturated
+    /// actuator then looks like a disturbance, and the estimate grows without reason (wind-up).
     bool anti_windup = true;
   };
   std::optional<Observer> observer;

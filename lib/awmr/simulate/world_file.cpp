@@ -34,8 +34,8 @@ Window read_window(JsonObject& json) {
   return window;
 }
 
-/// Types of disturbance terms in a scenario file. The type `step` is read as a constant that begins
-/// at t_s.
+/// Types of disturbance terms in a scenario file. A `step` is read as a constant that begins at
+/// t_s.
 enum class TermType { kConstant, kStep, kSine, kNoise };
 constexpr NameTable<TermType, 4> kTermTypes{{{"constant", TermType::kConstant},
                                              {"step", TermType::kStep},
@@ -128,8 +128,7 @@ Battery read_battery(JsonObject json) {
   return battery;
 }
 
-/// Reads the errors of a sensor. `unit` is the factor from the unit of the file to that of the
-/// program.
+/// Reads the errors of a sensor. `unit`: factor from the unit of the file to that of the program.
 Channel read_channel(JsonObject json, double unit) {
   Channel channel{
       .noise = unit * json.optional_number("noise", kSensorSize).value_or(0.0),
@@ -172,9 +171,9 @@ Sensors read_sensors(JsonObject json) {
   return sensors;
 }
 
-/// Reads the actuators. `us_per_deg` of the file is the change of the servo's pulse width per
-/// degree of steering, microseconds. `step_us` is the resolution of the pulse width, microseconds
-/// (0.5 for a timer of an ATmega at 2 MHz).
+/// Reads the actuators. Keys of the servo: `us_per_deg`, the change of its pulse width per degree
+/// of steering, microseconds; `step_us`, the resolution of the pulse width, microseconds (0.5 for a
+/// timer of an ATmega at 2 MHz).
 Actuators read_actuators(JsonObject json) {
   Actuators actuators;
   if (auto servo = json.optional_object("servo")) {
@@ -196,8 +195,8 @@ enum class HeadingLaw { kSlidingMode, kLqi };
 constexpr NameTable<HeadingLaw, 2> kHeadingLaws{
     {{"sliding_mode", HeadingLaw::kSlidingMode}, {"lqi", HeadingLaw::kLqi}}};
 
-// Permitted ranges of the LQI weights. The upper ends exceed the range of any sensor. Within these
-// ranges, the gains are always finite.
+// Permitted ranges of the LQI weights. The upper ends exceed the range of any sensor; the gains are
+// always finite.
 constexpr NumberRule kLqiHeading_deg{.min = 1e-3, .max = 180.0};
 constexpr NumberRule kLqiYawRate_degps{.min = 1e-3, .max = 1e5};
 constexpr NumberRule kLqiIntegral_deg_s{.min = 1e-3, .max = 1e6};

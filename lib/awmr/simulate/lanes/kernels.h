@@ -26,7 +26,7 @@ namespace awmr {
 namespace lanes {
 
 /// Returns the kernels in this program that the processor can run, those with the widest registers
-/// first. If the list is empty, simulate() computes one run at a time.
+/// first. If there is none, simulate() computes one run at a time.
 std::vector<const Kernel*> supported_kernels();
 
 }  // namespace lanes

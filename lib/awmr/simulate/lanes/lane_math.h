@@ -15,8 +15,8 @@ namespace AWMR_LANES {
 
 using Bits = xsimd::batch<std::uint64_t, xsimd::AWMR_LANES_ARCH>;
 
-/// Reinterprets the bits of each lane as a 64-bit integer. The template argument of the cast is the
-/// type of a lane in xsimd 9 and later, and the type of a register in earlier versions.
+/// Reinterprets the bits of each lane as a 64-bit integer. The cast's template argument is the type
+/// of a lane in xsimd 9 and later, and the type of a register in earlier versions.
 AWMR_LANE_INLINE Bits to_bits(const Register& x) {
 #if XSIMD_VERSION_MAJOR < 9
   return xsimd::bitwise_cast<Bits>(x);
@@ -37,8 +37,8 @@ AWMR_LANE_INLINE Lanes only_where(const LaneMask& in_range, const Lanes& result)
   return select(in_range, result, Lanes(__builtin_nan("")));
 }
 
-/// Polynomial c[0] + c[1] x + c[2] x^2 + ..., computed by two Horner schemes, one for the even and
-/// one for the odd powers of x. The processor can compute both at the same time.
+/// Polynomial c[0] + c[1] x + c[2] x^2 + ..., computed by two Horner schemes, for the even and for
+/// the odd powers of x, which the processor can compute at the same time.
 template <int N>
 AWMR_LANE_INLINE Lanes polynomial(const double (&c)[N], const Lanes& x) {
   const Lanes z = x * x;
@@ -132,8 +132,8 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   const Lanes c = fma(z * z, polynomial(kCos, z), fma(z, Lanes(-0.5), Lanes(1.0)));
   // In odd quadrants, sine and cosine are swapped. The test shifts the last bit of the quadrant to
   // the place where this bit alone is the number 2.0. The second bit of the quadrant is the sign of
-  // the sine; that of quadrant + 1 is the sign of the cosine. To set a sign, this bit is shifted to
-  // the sign bit.
+  // the sine; the second bit of quadrant + 1 is the sign of the cosine. Each is shifted to the sign
+  // bit of the result.
   const Bits whole = to_bits(rounded.value);
   const LaneMask swapped = to_register((whole & Bits(std::uint64_t{1})) << 62) > Register(1.0);
   const auto with_sign = [&whole](const Lanes& value, std::uint64_t quadrants_on) -> Lanes {
@@ -187,8 +187,8 @@ AWMR_LANE_INLINE Lanes atan2(const Lanes& y, const Lanes& x) {
 
 AWMR_LANE_INLINE Lanes hypot(const Lanes& x, const Lanes& y) { return sqrt(x * x + y * y); }
 
-/// wrap_angle() of control/wrap_angle.h for lanes. It subtracts all full turns in one step, because
-/// the lanes would need different numbers of loops.
+/// wrap_angle() of control/wrap_angle.h for lanes. Subtracts all full turns in one step, because
+/// loops would have different lengths in the lanes.
 AWMR_LANE_INLINE Lanes wrap_angle(const Lanes& angle_rad) {
   constexpr double kTurn = 0x1.921fb54442d18p+2;
   constexpr double kTurnRest = 0x1.1a62633145c07p-52;

@@ -1,10 +1,10 @@
-/// `Lanes`: a vector register of doubles, one lane (element) per run. It is the scalar type with
-/// which the templates of model/ and control/ simulate several vehicles at once. For kernel files
-/// only (kernel.inc).
+/// `Lanes`: a vector register of doubles, one lane (element) per run. With this scalar type, the
+/// templates of model/ and control/ simulate several vehicles at once. For kernel files only
+/// (kernel.inc).
 ///
 /// Before a kernel file includes this file, it defines AWMR_LANES, the name of its instruction set.
 /// This name is a namespace around every type here, so each kernel has its own template instances.
-/// Without it, the linker would merge instances of several kernels. It could keep one with
+/// Otherwise, the linker would merge the instances of several kernels, and could keep one with
 /// instructions that the processor does not have.
 #pragma once
 

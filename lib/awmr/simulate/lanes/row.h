@@ -1,14 +1,14 @@
-/// `Row`: one number of each of the sixteen runs that are simulated together. The struct is plain
-/// data. Reason: kernels are compiled for other instruction sets, and a function shared with the
-/// rest of the program could contain instructions that the processor does not have.
+/// `Row`: one number of each of the sixteen runs that are simulated together, as plain data.
+/// Kernels are compiled for other instruction sets: a function shared with the rest of the program
+/// could contain instructions that the processor does not have.
 #pragma once
 
 namespace awmr {
 namespace lanes {
 
-/// Number of runs in a block: the runs that are simulated together. It is the same for every
-/// instruction set. A kernel processes a block in groups of Lanes::kCount runs: eight with AVX-512,
-/// four with AVX2, two with NEON.
+/// Number of runs in a block: the runs that are simulated together, the same for every instruction
+/// set. A kernel processes a block in groups of Lanes::kCount runs: eight with AVX-512, four with
+/// AVX2, two with NEON.
 constexpr int kLanes = 16;
 
 struct alignas(64) Row {
