@@ -42,7 +42,6 @@ class PositionEstimate {
   /// Returns the present position; in the first step, and in the first step after restart(), the
   /// position of the fix. Call it once per step, with the last fix and the measured motion. A fix
   /// that arrives while the previous fix is being processed is dropped.
-  /// A fix that arrives while the previous fix is being processed is not used.
   Position<T> step(const PositionFix<T>& fix, const Measurement<T>& m) {
     if (!is_started_) {
       start(fix.position_m);

@@ -30,15 +30,15 @@ TableShape shape_of(const EmittedTable& table) {
 /// Returns the value rounded to float32, as on the chip; -0 becomes 0.
 float single(double value) { return static_cast<float>(value) + 0.0F; }
 
-/// Range of the wheel force F' (divided by F_max) that the allocation can request. It is the range
-/// in vehicle.json, reduced by the dead zone of the motors as in make_controller().
+/// Range of the wheel force F' (divided by F_max) that the allocation can request: the range in
+/// vehicle.json, reduced by the dead zone of the motors as in make_controller().
 Interval force_beyond_dead_zone(const Plant<double>& plant, const Vehicle& vehicle) {
   const Controller<double> controller = make_controller(plant, vehicle, {});
   return {controller.limits.force_min, controller.limits.force_max};
 }
 
 /// Parameters of the friction at rest, the motors' dead zone and their back-EMF; absent if the
-/// model has none of these.
+/// model has none of them.
 std::optional<RestBlock> rest_of(const Plant<double>& plant, const ModeGains& gains) {
   const bool jumps = plant.surge.coulomb > 0.0 || plant.yaw.coulomb > 0.0;
   if (!jumps && !(plant.wheel_dead_zone > 0.0) && !(plant.back_emf_s_per_m > 0.0)) return {};
@@ -62,8 +62,8 @@ std::optional<RestBlock> rest_of(const Plant<double>& plant, const ModeGains& ga
   return rest;
 }
 
-/// Returns the controller in float. Derived values are computed in float, as awmr.cpp in the
-/// firmware does, because the check sum covers their bits.
+/// Returns the controller in float. The check sum covers the bits of derived values, so they are
+/// computed in float, as by awmr.cpp in the firmware.
 Controller<float> float_controller(const Plant<double>& plant, const Model& model,
                                    const Gains<double>& gains) {
   Controller<float> controller{};
@@ -83,8 +83,8 @@ Controller<float> float_controller(const Plant<double>& plant, const Model& mode
   return controller;
 }
 
-/// Returns the parameter block. The shapes of the resistance tables and the largest speeds, which
-/// depend on the tables, are still missing: add_tables() adds them.
+/// Returns the parameter block, without the shapes of the resistance tables and the largest speeds,
+/// which depend on the tables: add_tables() adds them.
 ParameterBlock block_of(const Plant<double>& plant, const Model& model, const ModeGains& gains,
                         const EmitOptions& options) {
   const auto estimate = [&](ParameterId id) { return single(*model[id].value); };
@@ -149,8 +149,8 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
   return chip;
 }
 
-/// Returns the largest float below `top`, the end of the table's last cell. `top` itself is outside
-/// of the table, because a cell does not contain its end.
+/// Returns the largest float below `top`, the end of the table's last cell: a cell does not contain
+/// its end.
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
 /// Adds the tables of g1 and g3 to the parameters. Errors (refused): the user gave `table_error`,

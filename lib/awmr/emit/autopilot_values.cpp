@@ -47,9 +47,9 @@ struct Autopilot {
   }
   bool knows(ParameterId id) const { return source.model[id].value.has_value(); }
 
-  /// Adds a positive number computed from the plant. Its interval is symmetric in the logarithm of
-  /// the number. `usual`: range in the autopilot's documentation. A number outside of it is
-  /// exported with a remark.
+  /// Adds a positive number computed from the plant, with an interval that is symmetric in its
+  /// logarithm. `usual`: range in the autopilot's documentation; a number outside of it is exported
+  /// with a remark.
   void add(const char* name, const char* unit, std::string derivation, const OfPlant& f,
            std::optional<Interval> usual = {}) {
     const double value = f(source.model.plant_as_known());
@@ -153,8 +153,8 @@ Status check_surge(const Model& model) {
           back_emf));
 }
 
-/// Adds ATC_STR_RAT_FF: the ratio of ArduPilot's steering output s to the yaw rate r that it
-/// causes, at half of the largest output.
+/// Adds ATC_STR_RAT_FF: ArduPilot's steering output s divided by the yaw rate r that it causes, at
+/// half of the largest output.
 void add_steering_feed_forward(Autopilot& pilot, double throttle) {
   constexpr const char* kName = "ATC_STR_RAT_FF";
   constexpr Interval kUsual{0.0, 3.0};
@@ -174,8 +174,8 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
     return;
   }
   // s/r: steering output s divided by the yaw rate r, with l_f g1(u) tan(s d_max/2) = g3(r) at
-  // constant yaw rate. Above MOT_SPD_SCA_BASE = 1 m/s, ArduPilot divides the output by the speed u.
-  // So the exported value is multiplied by u.
+  // constant yaw rate. Above MOT_SPD_SCA_BASE = 1 m/s, ArduPilot divides the output by the speed u,
+  // so the value is multiplied by u.
   pilot.add(
       kName, "1/(rad/s)",
       "s/r at the steering output s = 0.5; r: yaw rate with l_f g1(u) tan(s d_max/2) = g3(r) at "
@@ -189,9 +189,9 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
       kUsual);
 }
 
-/// Steady yaw rate r at the largest steering command. It is limited to the highest yaw rate at
-/// which resistance was measured. d: half track, l_f: centre of gravity to front axle, d_max:
-/// steering stop:
+/// Steady yaw rate r at the largest steering command, but at most the highest yaw rate at which
+/// resistance was measured. d: half track, l_f: centre of gravity to front axle, d_max: steering
+/// stop:
 ///   skid:     g3(r) = 2 d (F'max - F'min)
 ///   steered:  g3(r) = 2 l_f F'max sin d_max
 double largest_yaw_rate(const Plant<double>& plant, const Vehicle& vehicle,

@@ -7,11 +7,11 @@
 namespace awmr {
 
 /// Returns the float nearest to `value` as a C literal, with nine significant digits (%.9g) and the
-/// suffix `f`. A compiler reads the literal as the same float.
+/// suffix `f`. A compiler reads it back as the same float.
 std::string float_literal(double value);
 
-/// Returns the text as one line of printable ASCII; each other character becomes '?'. The line
-/// cannot begin or end a C comment, and has no line break, which would end a line comment.
+/// Returns the text as one line of printable ASCII, safe inside a C comment: each other character
+/// becomes '?', and the text cannot begin or end a comment.
 std::string comment_safe(std::string_view text);
 
 }  // namespace awmr

@@ -1,5 +1,4 @@
-/// Makes awmr_compass.h, a header with the calibration constants of a compass for the emitted
-/// sketches.
+/// Makes awmr_compass.h, a header with the calibration of a compass for the emitted sketches.
 #pragma once
 
 #include <string>
@@ -10,9 +9,9 @@
 
 namespace awmr {
 
-/// Text of awmr_compass.h, which the sketches include from src/ of the library. `record`: the file
-/// with the recorded magnetic field; the text gives its name and hash. Errors (input): a constant
-/// is neither 0 nor a normal float32.
+/// Text of awmr_compass.h, which belongs into src/ of the library. `record`: the file with the
+/// recorded magnetic field, for its name and hash. Errors (input): a constant is neither 0 nor a
+/// normal float32.
 Result<std::string> compass_header(const CompassCalibration& calibration, const InputFile& record);
 
 }  // namespace awmr

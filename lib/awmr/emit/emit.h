@@ -30,9 +30,8 @@ struct EmitInputs {
   std::optional<CertifiedGains> certificate = {};  ///< robustness certificate of the gains, if any
 };
 
-/// Returns the value of AWMR_PARAMS_SHA256, which identifies both input files. It is the SHA-256 of
-/// a text of 128 characters: the hexadecimal SHA-256 of the model file, then that of the gains
-/// file.
+/// Returns the value of AWMR_PARAMS_SHA256, which identifies both input files: the SHA-256 of a
+/// text of 128 characters, the hexadecimal SHA-256 of the model file, then that of the gains file.
 std::string params_sha256(const EmitInputs& inputs);
 
 /// Text of awmr_params.h in ASCII, valid in C89, C++98 and later. Each value is rounded to float32
@@ -73,9 +72,9 @@ inline constexpr NameTable<FirmwarePart, 6> kFirmwarePartNames{
 std::set<FirmwarePart> parts_with(std::set<FirmwarePart> parts, const ModeGains& gains);
 
 /// Largest number of clock cycles that a control step with these parts takes on the ATmega2560: the
-/// slowest guidance, plus the parts that are computed in addition. Source: the largest
-/// `cycles_bound` of `awmr pil` over configs/ (apps/awmr-pil/README.md), rounded up. It was
-/// measured in a search for slow steps, and is not a proven bound.
+/// slowest guidance, plus the parts computed in addition. The numbers are the largest
+/// `cycles_bound` of `awmr pil` over configs/ (apps/awmr-pil/README.md), rounded up. They were
+/// measured in a search for slow steps: a slower step is possible.
 std::uint32_t longest_step_cycles(const std::set<FirmwarePart>& parts, ResistanceForm resistance);
 
 /// Clock frequency of the ATmega2560 on the supported boards, Hz.
@@ -89,10 +88,10 @@ inline constexpr double kTableError = 5e-4;
 struct EmitOptions {
   /// kPowf saves flash but lengthens the control step, and supports only the power law.
   ResistanceForm resistance = ResistanceForm::kTable;
-  /// Bound on the relative error of a resistance table, > 0. The error is divided by the resistance
-  /// or, where the resistance is small, by a tenth of the largest force (surge: 4 F'max) or moment
-  /// (yaw: 4 d F'max). A larger bound gives a smaller table. Absent: kTableError or, if no table
-  /// meets this bound, the smallest error possible.
+  /// Bound on the relative error of a resistance table, > 0: relative to the resistance or, where
+  /// this is small, to a tenth of the largest force (surge: 4 F'max) or moment (yaw: 4 d F'max). A
+  /// larger bound gives a smaller table. Absent: kTableError or, if no table meets this bound, the
+  /// smallest error possible.
   std::optional<double> table_error = {};
   /// Optional features to compile in. Each needs flash, RAM and, while in use, time in every step.
   std::set<FirmwarePart> parts = {};
@@ -106,8 +105,8 @@ struct EmitOptions {
   /// Maximum age of speed and position, ms, > 0. The default permits two missing fixes of a 5 Hz
   /// GPS.
   std::uint32_t speed_timeout_ms = 600;
-  /// Maximum age of the last command, ms, > 0. If it is exceeded, the motors stop. An unreliable
-  /// radio link needs a larger limit.
+  /// Maximum age of the last command, ms, > 0; after it, the motors stop. An unreliable radio link
+  /// needs a larger limit, with which the vehicle also drives on longer without commands.
   std::uint32_t command_timeout_ms = 1000;
   /// Maximum time between two control steps, ms; 0: three sample times, rounded up.
   std::uint32_t step_timeout_ms = 0;
@@ -131,13 +130,14 @@ struct EmittedTable {
   ResistanceTable view() const;
 };
 
-/// Values that are used if vehicle.json does not give noise or latency of the GPS: standard
-/// deviation of a fix per axis, m, and latency, s.
+/// Noise (standard deviation of a fix per axis, m) and latency (s) of the GPS, if vehicle.json does
+/// not give them.
 inline constexpr double kUsualFixNoise_m = 1.5;
 inline constexpr double kUsualFixLatency_s = 0.2;
 
-/// Upper bound of AWMR_ON_COURSE_RAD, rad: the heading error up to which the sketches count a
-/// vehicle as on course.
+/// Upper bound of AWMR_ON_COURSE_RAD, rad, the heading error up to which the sketches count a
+/// vehicle as on course. With a larger bound, a vehicle off its course drives further before it is
+/// stopped.
 inline constexpr double kMaxOnCourse_rad = radians(45.0);
 
 /// Parameters of the firmware, in the types that the chip uses.
@@ -175,9 +175,8 @@ struct AutopilotParameters {
 bool is_power_law(const Plant<double>& plant);
 
 /// Computes the numbers of the firmware from the model and the gains. Errors: those of
-/// params_header(); (input) small-angle allocation, front-wheel drive, or kPowf for a resistance
-/// other than the power law; (refused) options.table_error is given, and no table has an error
-/// within it.
+/// params_header(); (input) small-angle allocation, front-wheel drive, or kPowf for another
+/// resistance than the power law; (refused) no table meets the given options.table_error.
 Result<AutopilotParameters> autopilot_parameters(const Model& model, const ModeGains& gains,
                                                  const EmitInputs& inputs,
                                                  const EmitOptions& options);
@@ -193,7 +192,7 @@ struct EmittedFile {
 };
 
 /// Creates an Arduino library: awmr_params.h, library.properties, src/ with the C interface and the
-/// unchanged control sources, and examples/. PlatformIO and plain avr-gcc (with -I src) can use it,
+/// unchanged control sources, and examples/. PlatformIO and plain avr-gcc (with -I src) accept it,
 /// too. The same inputs give the same bytes. Errors: those of autopilot_parameters().
 Result<std::vector<EmittedFile>> firmware_library(const Model& model, const ModeGains& gains,
                                                   const EmitInputs& inputs,

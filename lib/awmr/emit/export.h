@@ -38,9 +38,9 @@ struct ExportSource {
 };
 
 /// Returns the text of the file in ASCII: every value with its unit, 95 % interval and origin.
-/// Unknown quantities are left out; files for autopilots give the reason in a comment for each.
-/// Errors (input), only for autopilots: the model lacks the surge law or has back-EMF; not all four
-/// wheels are driven.
+/// Unknown quantities are left out; files for autopilots give a reason for each. Errors (input),
+/// only for autopilots: the model lacks the surge law or has back-EMF; not all four wheels are
+/// driven.
 Result<std::string> export_text(const ExportSource& source, ExportFormat format);
 
 }  // namespace awmr

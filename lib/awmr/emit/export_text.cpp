@@ -12,8 +12,8 @@ namespace awmr {
 namespace {
 
 /// Returns the shortest decimal that reads back to the same value, always with a point: 1.0,
-/// 1.5e-07, 1.0e-07. Without the point, some languages would read 1 as an integer, and YAML 1.1
-/// would read 1e-07 as a string.
+/// 1.5e-07, 1.0e-07. Without it, some languages would read 1 as an integer, and YAML 1.1 would read
+/// 1e-07 as a string.
 std::string number(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find('.') != std::string::npos) return text;
@@ -105,8 +105,8 @@ std::string csv_text(const ExportSource& source) {
 }
 
 /// Appends each value of an autopilot to `text`: a comment with the equation, then the value in the
-/// format of `row`. Last comes one comment for each parameter that the model does not determine,
-/// with the reason.
+/// format of `row`; last, a comment with the reason for each parameter that the model does not
+/// determine.
 template <class Row>
 std::string autopilot_text(std::string text, const AutopilotValues& found, const Row& row) {
   for (const ExportedValue& value : found.values) {

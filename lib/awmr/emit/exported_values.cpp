@@ -78,8 +78,8 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
   add("sample_time_s", vehicle.sample_time_s, "s", "T_s: time between two steps of the controller");
 }
 
-/// Adds the friction widths of `mode`, or of steering and combined mode if `mode` is absent. Those
-/// at the smallest possible width are left out. `add(name, value, unit, meaning)` adds a value.
+/// Adds the friction widths of `mode`, or of steering and combined mode if `mode` is absent, except
+/// those at the smallest possible width. `add(name, value, unit, meaning)` adds a value.
 template <class Add>
 void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode, const Add& add) {
   const auto add_width = [&](const char* name, double width_radps, const char* meaning) {
@@ -100,8 +100,8 @@ void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode
 }
 
 /// Adds the gains of one mode (`mode`, which becomes part of the names), or those of all modes
-/// without gains of their own. `has_observer`: the observer is added, with zeros if these gains
-/// have none. `has_widths`: the friction widths are added.
+/// without gains of their own. `has_observer`: also adds the observer, with zeros if these gains
+/// have none. `has_widths`: also adds the friction widths.
 void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool has_observer,
                   bool has_widths, std::vector<ExportedValue>& values) {
   const auto add = [&](const char* name, double value, const char* unit, const char* meaning) {

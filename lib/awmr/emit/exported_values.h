@@ -36,8 +36,8 @@ struct AutopilotValues {
 Result<AutopilotValues> ardupilot_values(const ExportSource& source);
 Result<AutopilotValues> px4_values(const ExportSource& source);
 
-/// Standard error and interval as text: "std error 0.018, 95 % [1.275, 1.357]". Either is left out
-/// if it is unknown.
+/// Standard error and interval as text, as far as they are known: "std error 0.018, 95 % [1.275,
+/// 1.357]".
 std::string uncertainty_text(const ExportedValue& value);
 
 }  // namespace awmr

@@ -6,8 +6,8 @@
 namespace awmr {
 namespace {
 
-/// Text of library.properties, which the Arduino IDE requires. It is formatted with the version
-/// and the SHA-256 of the parameters.
+/// Text of library.properties, which the Arduino IDE requires. Gets the version and the SHA-256 of
+/// the parameters.
 constexpr std::string_view kProperties = R"(name=awmr
 version={}
 author=awmr
@@ -19,8 +19,8 @@ architectures=*
 includes=awmr.h
 )";
 
-/// Text of library.json, the metadata for PlatformIO. Without this file, PlatformIO would offer the
-/// library only for Arduino boards, although it runs on any chip.
+/// Text of library.json, the metadata for PlatformIO, which would otherwise offer the library only
+/// for Arduino boards, although it runs on any chip.
 constexpr std::string_view kLibraryJson = R"({{
   "name": "awmr",
   "version": "{}",

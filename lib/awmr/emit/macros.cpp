@@ -42,8 +42,8 @@ void add_parameters(std::vector<Macro>& macros, const Model& model, const std::s
   add("AWMR_SWAY_ALPHA", ParameterId::kSwayAlpha, MacroRange::kPositive);
   add("AWMR_MASS_NORM", ParameterId::kMassNorm, MacroRange::kPositive);
   add("AWMR_INERTIA_NORM", ParameterId::kInertiaNorm, MacroRange::kPositive);
-  // Adds the terms of the other resistance families, but only those that are not 0. So the header
-  // of a power law has none of them.
+  // Terms of the other resistance families, if they are not 0: the header of a power law has none
+  // of them.
   const std::pair<const char*, ParameterId> terms[] = {
       {"AWMR_SURGE_COULOMB", ParameterId::kSurgeCoulomb},
       {"AWMR_SURGE_QUADRATIC", ParameterId::kSurgeQuadratic},
@@ -89,8 +89,8 @@ std::string of_mode(std::optional<YawMode> mode) {
   return mode ? fmt::format(", in {} mode", name_of(*mode)) : "";
 }
 
-/// Adds the friction widths of the modes steering and combined. Those at the smallest possible
-/// width are left out.
+/// Adds the friction widths of the modes steering and combined, except those at the smallest
+/// possible width.
 void add_friction_widths(std::vector<Macro>& macros, const ModeGains& gains,
                          const std::string& file) {
   const auto add = [&](std::string name, YawMode mode, double value, std::string_view comment,
@@ -143,8 +143,8 @@ void add_laws(std::vector<Macro>& macros, const ModeGains& gains, std::optional<
       "/speed/epsilon");
 }
 
-/// Adds the observer of one mode (`mode`; all values are 0 if this mode has none). Without `mode`,
-/// adds the observer of the modes without gains of their own, if there is one.
+/// Adds the observer of one mode (`mode`; all values are 0 if this mode has none). Without `mode`:
+/// the observer of the modes without gains of their own, if there is one.
 void add_observer(std::vector<Macro>& macros, const ModeGains& gains, std::optional<YawMode> mode,
                   const std::string& file) {
   const ObserverGains<double>& observer = mode ? gains.in(*mode).observer : gains.common().observer;

@@ -29,8 +29,8 @@ std::string mode_suffix(YawMode mode);
 /// The macros, in the order of the header. Precondition: the model has a value for each of them.
 std::vector<Macro> macros_of(const Model& model, const ModeGains& gains, const EmitInputs& inputs);
 
-/// Checks the values. Errors (input), for each value: it is neither 0 nor a normal float32, or it
-/// is outside its range.
+/// Checks the values. Errors (input), for each value: it is neither 0 nor a normal float32, or out
+/// of its range.
 Status check_macros(const std::vector<Macro>& macros);
 
 }  // namespace awmr

@@ -58,8 +58,8 @@ Result<Hashes> hashes_in(const std::filesystem::path& directory) {
   return hashes;
 }
 
-/// Returns the reason why `file` must not replace the existing file, whose content is `bytes`.
-/// Empty if it may replace the file. `written`: hashes of the manifest.
+/// Returns the reason why `file` must not replace the existing file with the content `bytes`; empty
+/// if it may. `written`: hashes of the manifest.
 std::string fault_of(const EmittedFile& file, const std::string& bytes, const Hashes& written) {
   if (bytes == file.bytes) return {};
   const auto known = written.find(file.path);

@@ -16,8 +16,8 @@ ParameterValues<double> values_of(const Model& model) {
   return values;
 }
 
-/// Returns df/dp, the derivative of the number f with respect to the parameter p with this id. It
-/// is computed by a central difference; 0 if the parameter is 0.
+/// Returns df/dp, the derivative of the number f with respect to the parameter p with this id, by a
+/// central difference; 0 if the parameter is 0.
 double sensitivity(const Model& model, ParameterId id, const OfPlant& f) {
   const auto at = [&](double factor) {
     ParameterValues<double> values = values_of(model);

@@ -32,7 +32,7 @@ constexpr std::string_view kCheckMacro = R"(
 )";
 
 /// The constraint T2 < T1 of tune/: the sliding surface is reached faster than the heading error
-/// decays on it. A compiler can check it in the form without a division:
+/// decays on it. A compiler checks it in the form without a division:
 ///   epsilon/(2 mu) < 1/lambda   is   epsilon lambda/2 < mu                      [paper (91), (95)]
 constexpr std::string_view kReaching =
     R"(AWMR_PARAMS_CHECK(AWMR_T2_IS_BELOW_T1{0},
@@ -74,8 +74,8 @@ std::string checks_text(const std::vector<Macro>& macros, const ModeGains& gains
   return text + "#undef AWMR_PARAMS_CHECK\n";
 }
 
-/// Returns the robustness certificate of the gains as comment lines: the smallest damping ratio and
-/// delay margin of each mode. Empty without a certificate.
+/// Returns the worst cases of the heading loop in gains.json as comment lines: the smallest damping
+/// ratio and delay margin of each mode. Empty if gains.json has none.
 std::string certificate_text(const std::optional<CertifiedGains>& certificate) {
   if (!certificate) return {};
   std::string text = fmt::format(
@@ -115,11 +115,11 @@ std::string defines_text(const std::vector<Macro>& macros, const EmitInputs& inp
              params_sha256(inputs));
 }
 
-/// Checks T2 < T1 (heading law). The values are compared after rounding to float32, because
-/// rounding can make them equal. `place`: place of the gains, for the error.
+/// Checks T2 < T1 (heading law) after rounding to float32, which can make both equal. `place`:
+/// place of the gains, for the error.
 Status check_reaching(const HeadingGains<double>& gains, const std::string& place) {
-  // The user's compiler may evaluate the product epsilon lambda in float or exactly, so T2 < T1
-  // must hold in both cases.
+  // The user's compiler may evaluate the product epsilon lambda in float or exactly: T2 < T1 must
+  // hold in both cases.
   const float epsilon = static_cast<float>(gains.epsilon);
   const float lambda = static_cast<float>(gains.lambda);
   const float mu = static_cast<float>(gains.mu);

@@ -19,8 +19,8 @@ constexpr int kLowestExponent = -20;
 constexpr int kMaxLines = 1024;  ///< per table: 8 KiB of flash
 constexpr int kSamplesPerCell = 64;
 
-/// Returns the straight line through the points of the law at the speeds `from` and `to`. If `from`
-/// is 0, the line begins at the origin, although a law with Coulomb friction does not.
+/// Returns the straight line through the points of the law at the speeds `from` and `to`. From 0,
+/// the line begins at the origin, although a law with Coulomb friction does not.
 ResistanceLine chord(const ResistanceLaw& law, double from, double to) {
   const double start = from > 0.0 ? law(from) : 0.0;
   const double slope = (law(to) - start) / (to - from);
@@ -54,8 +54,8 @@ struct TableErrors {
   double relative = 0.0;
 };
 
-/// Compares the table with the law at `samples` speeds in [lo, hi), except those below
-/// `rest_speed`. Increases `errors` to the largest differences found.
+/// Compares the table with the law at `samples` speeds in [lo, hi) from `rest_speed` on, and
+/// increases `errors` to the largest differences.
 void measure(const ResistanceLaw& law, double lo, double hi, int samples, double rest_speed,
              const EmittedTable& table, TableErrors& errors) {
   const ResistanceTable view = table.view();
@@ -104,8 +104,8 @@ Result<EmittedTable> resistance_table(const std::string& name, const ResistanceL
   const int top_exponent = std::ilogb(top);
   EmittedTable best;     // the smallest table within the bound
   EmittedTable closest;  // the table with the smallest error
-  // Errors below the first cell, by the exponent of the speed at which this cell begins. They are
-  // the same for every number of mantissa bits.
+  // Errors below the first cell, by the exponent of the speed at which this cell begins; they do
+  // not depend on the number of mantissa bits.
   std::map<int, TableErrors> below;
   for (int bits = 0; bits <= kMaxMantissaBits; ++bits) {
     // Errors from the first cell on. Each pass of the inner loop adds the next lower octave.

@@ -16,17 +16,17 @@ namespace awmr {
 /// A resistance as a function of a speed >= 0: g1(u) with u in m/s, or g3(r) with r in rad/s.
 using ResistanceLaw = std::function<double(double)>;
 
-/// Returns the top speed of a table of `law`. The vehicle cannot reach this speed. It is the
-/// smallest power of two, from 1 to 64 m/s or rad/s, at which the law is at least 1.5 times the
-/// largest force or moment (`full_scale`). 64 if the law is too small even there.
+/// Returns the top speed of a table of `law`, which the vehicle cannot reach: the smallest power of
+/// two, from 1 to 64 m/s or rad/s, at which the law is at least 1.5 times the largest force or
+/// moment (`full_scale`). 64 if the law is too small even there.
 double table_top(const ResistanceLaw& law, double full_scale);
 
 /// Returns the smallest table of `law` up to the speed `top` (m/s or rad/s) whose error, in the
-/// chip's float32 arithmetic, is at most `error_share`. The error is divided by the law, or by a
-/// tenth of `full_scale` where the law is smaller than that. Without `error_share`, the bound is
-/// kTableError; if no table meets it, the table with the smallest error is returned. Errors below
-/// `rest_speed` do not count, because the chip uses a line through the origin there. `name`:
-/// "surge" or "yaw", for the message. Errors (refused): no table is within `error_share`.
+/// chip's float32 arithmetic, is at most `error_share`. The error is relative to the law, or to a
+/// tenth of `full_scale` where the law is smaller. Without `error_share`, the bound is kTableError
+/// or, if no table meets it, the smallest error possible. Errors below `rest_speed` do not count,
+/// because the chip uses a line through the origin there. `name`: "surge" or "yaw", for the
+/// message. Errors (refused): no table is within `error_share`.
 Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
                                       double full_scale, double top,
                                       std::optional<double> error_share, double rest_speed);

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Returns AWMR_ROUTE_SPEED_MPS: 1 m/s, but at most 0.6 times the top speed, because at the top
-/// speed no force would be left for turning.
+/// Returns AWMR_ROUTE_SPEED_MPS: 1 m/s, but at most 0.6 times the top speed, at which no force is
+/// left for turning.
 double route_speed_mps(const Plant<double>& plant, double full_force) {
   constexpr double kUsual_mps = 1.0;
   constexpr double kShare = 0.6;
@@ -21,10 +21,9 @@ double route_speed_mps(const Plant<double>& plant, double full_force) {
   return std::min(kUsual_mps, kShare * top_mps);
 }
 
-/// Fastest steady yaw rate of the vehicle at a speed, rad/s. Absent if the yaw moment does not
-/// exceed the resistance at rest. The largest yaw moment tau_turn comes from the steering or,
-/// without steering, from the wheel forces. tau_speed is the surge force at this speed, l_f the
-/// distance of the front axle, d_max the steering stop, d the half track:
+/// Fastest steady yaw rate of the vehicle at a speed, rad/s, with the largest yaw moment tau_turn.
+/// Absent if this does not exceed the resistance at rest. tau_speed: surge force at this speed,
+/// l_f: distance of the front axle, d_max: steering stop, d: half track:
 ///   tau_turn = l_f tau_speed tan(d_max/2)                by steering            [paper (41)]
 ///   tau_turn = d (4 F'max - tau_speed)                   by the wheel forces
 std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle& vehicle,
@@ -36,15 +35,15 @@ std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle&
   return steady_rate(plant.yaw, moment_m);
 }
 
-/// Yaw moment, m, of motors that make unequal forces from equal commands. If left and right force
-/// differ by 16 % of their mean, it is 0.08 d tau_speed, with the half track d and the surge force
-/// tau_speed.
+/// Yaw moment, m, of motors whose forces differ in spite of equal commands: 0.08 d tau_speed if the
+/// left and right forces differ by 16 % of their mean (assumed). d: half track, tau_speed: surge
+/// force.
 double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
   return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
 }
 
 /// Fastest steady yaw rate r that the heading law reaches at a speed, rad/s, under unfavourable
-/// conditions. It is assumed that the yaw resistance is 1.4 times that of the model. The forces of
+/// conditions, both assumed: the yaw resistance is 1.4 times that of the model, and the forces of
 /// the motors differ by 16 %, which takes the moment 0.08 d tau_speed. Outside of the boundary
 /// layer of the law (sat = 1), r is the solution of
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
@@ -71,11 +70,11 @@ double on_course_rad(double error_rad) {
 }
 
 /// Returns AWMR_OFF_COURSE_MRAD, m rad, the limit of fault 17. The detector
-/// (control/motion_check.h) integrates (heading error - e0) over the distance, with e0 =
-/// `on_course_rad`. Even without any failure, a turn by 180 deg with the radius R adds R (pi -
-/// e0)^2/2 to this integral. The limit is that amount plus 10 m rad for the distance until the turn
-/// begins, but at most 90 m rad. R is the largest turning radius at 1/4, 1/2, 3/4 and all of the
-/// route's speed, because friction at rest can make slow turns wide.
+/// (control/course_check.h) integrates (heading error - e0) over the distance, with e0 =
+/// `on_course_rad`. Even without a failure, a turn by 180 deg with the radius R adds R (pi -
+/// e0)^2/2. The limit is this amount plus 10 m rad for the distance until the turn begins, but at
+/// most 90 m rad. R is the largest turning radius at 1/4, 1/2, 3/4 and all of the route's speed,
+/// because friction at rest can make slow turns wide.
 double off_course_mrad(const Plant<double>& plant, const Vehicle& vehicle,
                        const HeadingGains<double>& gains, double full_force, double route_mps,
                        double on_course_rad) {

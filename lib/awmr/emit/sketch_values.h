@@ -15,7 +15,7 @@ struct SketchValues {
   double off_course_mrad = 0.0;  ///< AWMR_OFF_COURSE_MRAD, m rad
 };
 
-/// Computes values that suit every mode: each is the largest that a mode needs with its gains.
+/// Computes values that suit every mode, the largest that a mode needs with its gains.
 /// `full_force`: sum of the largest F' of the four wheels, beyond the dead zone.
 SketchValues sketch_values(const Plant<double>& plant, const Vehicle& vehicle,
                            const ModeGains& gains, double full_force);

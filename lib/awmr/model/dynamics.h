@@ -64,7 +64,6 @@ Resistance<T> yaw_with_scrub(const Plant<T>& p) {
 /// they roll. c = yaw_scrub_m is the moment measured in differential turns. In other turns, c is
 /// multiplied by q, the fraction of the yaw moment that comes from different left and right forces
 /// (tau_diff) and not from the steering (tau_steering):
-/// (tau_diff), not from the steering (tau_steering):
 ///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
 /// For |r| below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
 template <class T>

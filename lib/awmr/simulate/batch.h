@@ -2,7 +2,6 @@
 /// closed_loop.h. Each run has one lane (element) of the processor's vector registers. Its results
 /// do not depend on the other runs or on its lane. They equal those of simulate() except for
 /// rounding, because polynomials of this project replace the C library in powers and angles.
-/// project instead of the C library.
 #pragma once
 
 #include <cstdint>
