@@ -66,7 +66,7 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
   }
   add("half_track_m", vehicle.half_track_m, "m", "d: centre line to the middle of a wheel");
   add("wheel_force_min", vehicle.wheel_force.lo, "1",
-      "F': least force of a wheel, divided by F_max");
+      "F': smallest force of a wheel, divided by F_max");
   add("wheel_force_max", vehicle.wheel_force.hi, "1",
       "F': largest force of a wheel, divided by F_max");
   if (vehicle.has_steering()) {
@@ -88,13 +88,13 @@ void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode
   if (mode) {
     return add_width("heading_friction_width",
                      gains.friction_width_at(steering_share<double>(*mode)),
-                     "w0: the fed-forward Coulomb friction is proportional to psi_d_dot + lambda e "
-                     "while the magnitude of this sum is below w0");
+                     "w0: the controller compensates friction in proportion to s = psi_d_dot + "
+                     "lambda e (psi_d: desired heading, e: heading error) while |s| is below w0");
   }
   add_width("heading_friction_width", gains.heading.friction_width_radps,
-            "w0: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot "
-            "+ lambda e while the magnitude of this sum is below w0; in differential mode this "
-            "limit is 0.02 rad/s, with an observer w0");
+            "w0: in steering mode, the controller compensates friction in proportion to s = "
+            "psi_d_dot + lambda e (psi_d: desired heading, e: heading error) while |s| is below "
+            "w0; in differential mode this limit is 0.02 rad/s, with an observer w0");
   add_width("heading_combined_friction_width", gains.friction_width_at(0.5),
             "w0 of the combined mode");
 }

@@ -66,7 +66,7 @@ void add_vehicle(std::vector<Macro>& macros, const Vehicle& vehicle, const std::
       "front_axle_m");
   add("AWMR_HALF_TRACK_M", vehicle.half_track_m, "d, m: centre line to a wheel", "half_track_m");
   add("AWMR_WHEEL_FORCE_MIN", vehicle.wheel_force.lo,
-      "F'min, 1: least force of one wheel, divided by F_max", "wheel_force/min",
+      "F'min, 1: smallest force of one wheel, divided by F_max", "wheel_force/min",
       MacroRange::kAnySign);
   add("AWMR_WHEEL_FORCE_MAX", vehicle.wheel_force.hi,
       "F'max, 1: largest force of one wheel, divided by F_max", "wheel_force/max");
@@ -102,9 +102,9 @@ void add_friction_widths(std::vector<Macro>& macros, const ModeGains& gains,
   const Gains<double>& combined = gains.in(YawMode::kCombined);
   add("AWMR_HEADING_FRICTION_WIDTH_RADPS", YawMode::kSteering,
       gains.in(YawMode::kSteering).heading.friction_width_radps,
-      "w0, rad/s: in steering mode the fed-forward Coulomb friction is proportional to psi_d_dot "
-      "+ lambda e while the magnitude of this sum is below w0; in differential mode this limit "
-      "is 0.02 rad/s, with an observer w0",
+      "w0, rad/s: in steering mode, the controller compensates friction in proportion to s = "
+      "psi_d_dot + lambda e (psi_d: desired heading, e: heading error) while |s| is below w0; in "
+      "differential mode this limit is 0.02 rad/s, with an observer w0",
       "/heading/friction_width_radps");
   add("AWMR_HEADING_COMBINED_FRICTION_WIDTH_RADPS", YawMode::kCombined,
       combined.friction_width_at(0.5), "rad/s: w0 of the combined mode",
@@ -133,8 +133,8 @@ void add_laws(std::vector<Macro>& macros, const ModeGains& gains, std::optional<
   } else if (const double width_radps = set.friction_width_at(steering_share<double>(*mode));
              width_radps > feed_forward_rest_speed<double>()) {
     add("AWMR_HEADING_FRICTION_WIDTH_RADPS", width_radps,
-        "w0, rad/s: the fed-forward Coulomb friction is proportional to psi_d_dot + lambda e while "
-        "the magnitude of this sum is below w0",
+        "w0, rad/s: the controller compensates friction in proportion to s = psi_d_dot + lambda e "
+        "(psi_d: desired heading, e: heading error) while |s| is below w0",
         "/heading/friction_width_radps");
   }
   add("AWMR_SPEED_MU", set.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");

@@ -1,5 +1,4 @@
-// C interface to the controller in awmr/control/, the same source as in the simulations and the
-// tuning.
+// C interface to the controller in awmr/control/, whose source is that of simulation and tuning.
 
 // Disables fused multiply-add, which rounds a b + c once instead of twice. With it, the chip's
 // results would differ from those of the simulation.
@@ -18,7 +17,7 @@
 #include "awmr/control/autopilot.h"
 
 // 1: awmr_input.speed_unsigned may be 1; the autopilot then computes the direction of travel. 0:
-// saves flash if the speed sensor gives a sign. speed_unsigned = 1 is then a fault.
+// saves flash, for a speed sensor with a sign; speed_unsigned = 1 is then a fault.
 #ifndef AWMR_WITH_DIRECTION
 #define AWMR_WITH_DIRECTION 1
 #endif
@@ -156,12 +155,12 @@ struct Parts {
 
 awmr::Autopilot<Resistance, Parts> autopilot;
 
-// Reads the caller's C structs as C++ structs of the same layout. The compiler assumes that the two
-// types do not alias, so it could move the caller's writes behind this call. The empty asm
-// statements here and in awmr_step() are memory barriers that prevent it.
+// Reads the caller's C structs as C++ structs of the same layout. The compiler assumes that objects
+// of different types do not overlap, so it could move the caller's writes behind this call. The
+// empty asm statements here and in awmr_step() are memory barriers that prevent this.
 __attribute__((noinline)) void follow(const awmr_point* points, int16_t count, float acceptance_m, bool skip_passed) {
-  // A waypoint that is not a number. It replaces the route if the acceptance radius is invalid, so
-  // that each step gives AWMR_FAULT_OUTPUT until the next route.
+  // If the acceptance radius is invalid, a waypoint that is not a number replaces the route. Each
+  // step then gives AWMR_FAULT_OUTPUT until the next route.
   static const awmr_point kNowhere = {__builtin_nanf(""), __builtin_nanf("")};
   if (!(acceptance_m >= 0.0f && acceptance_m < 1e6f)) {
     points = &kNowhere;

@@ -1,6 +1,6 @@
 /* C interface of the autopilot for one vehicle. C99 and C++11. Angles are in rad, counter-clockwise
-   positive; x is forward, y left. Forces are divided by F_max, the largest force of one motor. No
-   memory is allocated. There is one autopilot: call all functions from the same thread or
+   positive; x is forward, y left. Forces are divided by F_max, the largest force of one motor. The
+   autopilot allocates no memory. There is only one: call all functions from the same thread or
    interrupt.
 
      awmr_init();
@@ -13,9 +13,9 @@
 #include "awmr_autopilot_params.h"
 #include "awmr_params.h"
 
-/* 1: the position can be estimated from a receiver's fixes (awmr_input.position_is_fix); needs
-   2.9 kB of flash and 140 bytes of RAM. 0: an input with position_is_fix 1 gives AWMR_FAULT_RANGE.
-   0 is the default of the Uno, whose flash has no room for the estimate next to the sketches. */
+/* 1: the autopilot can estimate the position from the fixes of a GPS receiver
+   (awmr_input.position_is_fix); this needs 2.9 kB of flash and 140 bytes of RAM. 0, the default of
+   the Uno, whose flash is too small: an input with position_is_fix 1 gives AWMR_FAULT_RANGE. */
 #ifndef AWMR_WITH_POSITION_ESTIMATE
 #ifdef __AVR_ATmega328P__
 #define AWMR_WITH_POSITION_ESTIMATE 0
@@ -27,8 +27,8 @@
 /* awmr_input.mode: the actuators that make the yaw moment */
 #define AWMR_DIFFERENTIAL 0 /* left and right wheel forces, wheels straight */
 #define AWMR_STEERING 1     /* the front wheels, equal forces on both sides */
-#define AWMR_COMBINED 2     /* both; if one reaches its limit, the other makes the rest of the
-                               moment; with AWMR_FIXED_HALF 1, each makes half */
+#define AWMR_COMBINED 2     /* both: each makes half of the moment. With AWMR_FIXED_HALF 0, if one
+                               reaches its limit, the other makes the rest */
 
 /* awmr_output.fault: reasons for the safe command (forces 0, wheels straight), one bit each.
    AWMR_FAULT_PARAMETERS is set until reset; the others last as long as their cause. */
@@ -64,9 +64,9 @@ typedef struct awmr_input {
   uint8_t speed_unsigned;  /* 1: u_mps is the magnitude of the speed, as from a GPS; the
                               autopilot computes the direction from x_m, y_m and the commands.
                               0: u_mps has a sign */
-  uint8_t position_is_fix; /* 1: x_m, y_m are the last fix of a receiver, taken at fix_ms: the
-                              present position is estimated from the fix, heading and speed. 0: x_m,
-                              y_m are the present position */
+  uint8_t position_is_fix; /* 1: x_m, y_m are the last fix of a receiver, taken at fix_ms; the
+                              autopilot estimates the present position from it, heading and
+                              speed. 0: x_m, y_m are the present position */
   uint32_t fix_ms;
 } awmr_input;
 
@@ -100,8 +100,8 @@ typedef struct awmr_line_law {
   float width_m;           /* half width of the lane around the line in which the angle of approach
                               is proportional to the distance from the line, > 0 */
   float corner_m;          /* the next segment starts this far before a corner, >= 0 */
-  uint8_t sideslip_compensation; /* 1: the course over ground is controlled, not the heading; v_mps
-                                    is measured */
+  uint8_t sideslip_compensation; /* 1: the autopilot controls the course over ground instead of the
+                                    heading; only if v_mps is measured */
 } awmr_line_law;
 #endif
 
@@ -167,15 +167,15 @@ extern "C" {
 #endif
 
 /* Reads the parameters in flash and compares them with their check sum. Returns AWMR_FAULT_NONE if
-   they agree, else AWMR_FAULT_PARAMETERS: awmr_step then gives only the safe command. */
+   they agree. Else returns AWMR_FAULT_PARAMETERS, and awmr_step gives only the safe command. */
 uint8_t awmr_init(void);
 
 /* Runs one control step. */
 void awmr_step(const awmr_input* input, awmr_output* output);
 
 /* Follows `count` waypoints in order from the next step on. A waypoint is reached at a distance of
-   acceptance_m. The points are not copied. count 0 ends the guidance: the vehicle holds psi_ref_rad
-   again. */
+   acceptance_m. The points are not copied: keep them unchanged. count 0 ends the guidance, and the
+   vehicle holds psi_ref_rad again. */
 void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
 
 /* Follows waypoints as awmr_follow, but skips a waypoint that the vehicle passes without reaching
@@ -183,16 +183,18 @@ void awmr_follow(const awmr_point* points, int16_t count, float acceptance_m);
 void awmr_follow_skipping(const awmr_point* points, int16_t count, float acceptance_m);
 
 #if AWMR_WITH_POSITION_ESTIMATE
-/* Returns how often the position estimate was reset to a fix since the start, at most 255. Five
-   fixes in a row that are too far from the estimate cause a reset. */
+/* Returns the number of resets of the position estimate to a fix since the start, at most 255. A
+   reset follows five fixes in a row that are too far from the estimate. */
 uint8_t awmr_position_resets(void);
 #endif
 
 #if AWMR_WITH_LINE
 /* Follows the line through `count` corners from the next step on, instead of waypoints. The corners
-   are not copied. `parameters`: those of the law that was given to awmr emit --line-law, in the
-   order and units (rad, m, s) of the law's header in src/awmr/control/guidance. corner_m: as in
-   awmr_line_law; 0 for pure_pursuit. sideslip_compensation: as in awmr_line_law. */
+   are not copied: keep them unchanged. `parameters`: those of the law given to awmr emit
+   --line-law, in the order and units (rad, m, s) of its header in src/awmr/control/guidance.
+   corner_m: distance before a corner at which the next segment starts; 0 for pure_pursuit.
+   sideslip_compensation: 1: controls the course over ground instead of the heading; only if v_mps
+   is measured. */
 void awmr_follow_line_by(const awmr_point* corners, int16_t count, const float* parameters,
                          float corner_m, uint8_t sideslip_compensation);
 #if AWMR_LINE_LAW == 0
@@ -214,8 +216,8 @@ void awmr_slow_down(float distance_m);
 #endif
 
 #if AWMR_WITH_AVOIDANCE
-/* Avoids `count` obstacles, with any guidance. `sectors`: working memory for `count` elements.
-   Neither array is copied. count 0: off. */
+/* Avoids `count` obstacles, with any guidance. `sectors`: working memory for `count` elements. Keep
+   both arrays: they are not copied. count 0: off. */
 void awmr_avoid(const awmr_avoidance* avoidance, const awmr_obstacle* obstacles, awmr_sector* sectors,
                 int16_t count);
 #endif
@@ -227,8 +229,8 @@ void awmr_shape(const awmr_shaping* shaping);
 
 #if AWMR_WITH_OBSERVER
 /* Estimates a constant disturbance (slope, unequal motors) and compensates it. NULL: off. If the
-   gains were tuned with an observer (AWMR_OBSERVER_... in awmr_params.h), awmr_init() switches this
-   observer on. */
+   gains were tuned with an observer (AWMR_OBSERVER_... in awmr_params.h), awmr_init() already
+   switches this observer on. */
 void awmr_observe(const awmr_observer* observer);
 #endif
 

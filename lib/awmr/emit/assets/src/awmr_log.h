@@ -5,8 +5,8 @@
      idle loop:                    awmr_log::drain(ring, file);
 
    The step copies 56 bytes and never waits. The loop computes check sums and writes to the card. If
-   the card blocks the loop for longer than the ring can buffer, rows are lost. `awmr log` detects
-   the loss, because the sequence numbers of these rows are missing in the file. */
+   the card blocks the loop for too long, the ring is full and rows are lost. `awmr log` reports
+   this, because their sequence numbers are missing in the file. */
 #ifndef AWMR_LOG_H
 #define AWMR_LOG_H
 
@@ -16,8 +16,8 @@
 
 namespace awmr_log {
 
-/* Eight blocks of 512 bytes: 4 KiB of a Mega's 8 KiB. They buffer 56 sample times during which the
-   card accepts no data: 0.56 s at 10 ms. The SD standard permits 0.25 s. */
+/* Eight blocks of 512 bytes: 4 KiB of a Mega's 8 KiB of RAM. They hold the rows of 56 sample times,
+   0.56 s at 10 ms. The SD standard permits a card to be busy for 0.25 s. */
 typedef awmr::LogRing<8> Ring;
 
 #define AWMR_LOG_COLUMN(name, type, scale) \
@@ -71,9 +71,9 @@ inline void put(awmr::LogRing<kBlocks>& ring, const awmr_input& in, const awmr_o
   ring.end_row();
 }
 
-/* Writes a header. A file begins with two of them, so that one damaged byte does not make the file
-   unreadable: call it twice. A sink has size_t write(const uint8_t*, size_t), like Arduino's File
-   and Serial. False: the sink accepted fewer bytes. */
+/* Writes a header. Call it twice: with two headers, one damaged byte does not make the file
+   unreadable. A sink has size_t write(const uint8_t*, size_t), like Arduino's File and Serial.
+   False: the sink accepted fewer bytes. */
 template <class Sink>
 bool write_header(Sink& sink) {
   bool good = true;
@@ -100,9 +100,9 @@ bool write_header(Sink& sink) {
 
 enum Drained { kNothing, kWritten, kFailed };
 
-/* Writes the oldest block of the ring if it is complete. With `rest`, also writes an incomplete
-   block: for the end, before the file is closed. If the sink does not accept a block, its rows are
-   lost and the result is kFailed. */
+/* Writes the oldest block of the ring if it is complete. Before the file is closed, `rest` also
+   writes an incomplete block. If the sink does not accept a block, its rows are lost and the result
+   is kFailed. */
 template <uint8_t kBlocks, class Sink>
 Drained drain(awmr::LogRing<kBlocks>& ring, Sink& sink, bool rest = false) {
   const uint8_t rows = ring.ready(rest);

@@ -3,8 +3,8 @@
    without the card. Header-only, so that the library itself needs neither Wire nor SD; include it
    only in the sketch. Axes: x north, y west, z up; heading counter-clockwise from north.
 
-   All driving code runs in a timer interrupt (begin_steps): receive() and step(). loop() handles
-   only the card, which can block. */
+   The code that drives, receive() and step(), runs in a timer interrupt (begin_steps). loop()
+   handles only the card, which can block. */
 #ifndef AWMR_PAPER_BOARD_H
 #define AWMR_PAPER_BOARD_H
 
@@ -42,8 +42,7 @@ const float kServoUsPerRad = 573.0f; /* 10 us per degree of the wheels: measure 
 
 namespace awmr_board {
 
-/* Returns time_ms; before the first reading (is_taken false), a time that is older than
-   timeout_ms. */
+/* Returns time_ms; before the first reading (is_taken false), a time older than timeout_ms. */
 inline uint32_t time_or_old(bool is_taken, uint32_t time_ms, uint32_t now_ms, uint32_t timeout_ms) {
   return is_taken ? time_ms : now_ms - timeout_ms - 1;
 }
@@ -62,7 +61,7 @@ inline void begin(Imu& imu, Gps& gps, Log& card) {
 }
 
 /* Call in the step: writes sensor readings and time stamps into the input. A rejected sensor keeps
-   its old time stamp, and the autopilot reports a fault when this exceeds its time-out. */
+   its old time stamp. When this is older than its time-out, the autopilot reports a fault. */
 inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr_input& input) {
   input.now_ms = millis();
   input.psi_rad = imu.psi_rad;
@@ -80,8 +79,8 @@ inline void measure(const Imu& imu, const Gps& gps, const Command& command, awmr
       time_or_old(command.has_heard, command.heard_ms, input.now_ms, AWMR_COMMAND_TIMEOUT_MS);
 }
 
-/* Returns the reason why compass or gyroscope are rejected or, if they are accepted, why the GPS is
-   rejected; awmr::kSensorGood if none is. */
+/* Returns why compass or gyroscope are rejected or, if they are accepted, why the GPS is rejected;
+   awmr::kSensorGood if all sensors are accepted. */
 inline uint8_t sensor_fault(const Imu& imu, const Gps& gps) {
   const awmr::SensorFault heading = imu.fault();
   return heading != awmr::kSensorGood ? heading : gps.fault();

@@ -20,8 +20,8 @@ struct Settings {
   float measure_s; /* averaging time */
   float coast_s;   /* maximum duration of a coast-down */
   float rest_mps; /* a coast-down also ends below this speed, once it has enough rows for a curve */
-  /* a run is steady if the means of the two halves of the averaging time differ by at most this
-     fraction of the mean of both */
+  /* a run is steady if the means over the two halves of measure_s differ by at most this fraction
+     of the mean of both */
   float steady_share;
 };
 
@@ -34,7 +34,7 @@ enum Event {
   kRow,       /* a row of a surge or turning run, which is finished */
   kCurveRow,  /* a row of a coast-down */
   kCoasted,   /* a coast-down is finished */
-  kNotSteady, /* the means of the averaging time's halves differ, or a half has too few fixes */
+  kNotSteady, /* the means over the halves of measure_s differ, or a half has too few fixes */
   kLetGo,     /* the dead man's switch was released */
   kSensorLost /* a sensor was rejected. A coast-down ends with the rows so far, and the next run
                  waits */
@@ -134,8 +134,8 @@ class Recorder {
     state_ = kWaiting;
     return why;
   }
-  /* Ends a run after a sensor fault. A driven run waits to be repeated. A coast-down is over: its
-     rows are already in the table under its number, which no other curve may use. */
+  /* Ends a run after a sensor fault. A driven run waits to be repeated. A coast-down is not
+     repeated: its rows are already in the table under its number, which no other curve may use. */
   Event lose() {
     if (state_ != kCoasting) return give_up(kSensorLost);
     next();

@@ -40,8 +40,8 @@ class Log {
     awmr_log::put(ring_, in, out, step_number(), reset_cause(), sensor_fault);
   }
 
-  /* Call in loop(): writes a complete block, which can wait for the card. Every 16th block (1.3 s
-     at 10 ms) also flushes the file, so that the data so far survive a loss of power. */
+  /* Call in loop(): writes a complete block and waits for the card if necessary. Also flushes the
+     file after every 16th block (1.3 s at 10 ms), so that the data survive a loss of power. */
   void drain() {
     if (!file_ || awmr_log::drain(ring_, file_) != awmr_log::kWritten) return;
     if (++blocks_ % kBlocksPerFlush == 0) file_.flush();

@@ -1,6 +1,6 @@
 /* Commands over Serial, 115200 baud: the lines of awmr/control/command_line.h. The sketch's
-   receive() reads them in the timer interrupt; loop() prints the answers, because printing to a
-   full port waits and would delay the control step. */
+   receive() reads them in the timer interrupt. loop() prints the answers: printing waits when the
+   port is full, which would delay the control step. */
 #ifndef AWMR_BOARD_COMMAND_H
 #define AWMR_BOARD_COMMAND_H
 
@@ -30,7 +30,7 @@ class Command {
   bool has_heard = false;
 
   /* Reads the characters that have arrived; never waits. True: a command was received, see word and
-     value. An invalid line is answered with the reason and does not reset the time-out. */
+     value. An invalid line gets an answer with the reason, and does not reset the time-out. */
   bool read() {
     while (Serial.available() > 0) {
       const awmr::CommandVerdict verdict = reader_.take(static_cast<char>(Serial.read()));

@@ -12,8 +12,8 @@
 
 namespace awmr_board {
 
-/* Origin of x and y, in RAM that a reset does not clear. After power-on, RAM is random and the
-   check sum fails. */
+/* Origin of x and y, in RAM that a reset does not clear. After power-on, RAM is random: the wrong
+   check sum then shows that there is no origin. */
 struct Origin {
   int32_t lat_e7; /* 1e-7 deg */
   int32_t lon_e7;
@@ -30,12 +30,11 @@ struct GpsLimits {
   static constexpr bool spreads_work = AWMR_SPREADS_FIXES;
 };
 
-/* Members of the base class: x_m, y_m, m north and west of the origin, which is the first fix;
-   speed_mps, without a sign; time_ms of the last accepted fix. All are valid once has_fix(). */
+/* Members of the base class: x_m, y_m, m north and west of the origin (the first fix); speed_mps,
+   without a sign; time_ms of the last accepted fix. All are valid once has_fix() is true. */
 class Gps : public awmr::GpsReceiver<GpsLimits> {
  public:
-  /* Opens the port. After power-on, forgets the origin of x and y; after any other reset, keeps
-     it. */
+  /* Opens the port. Forgets the origin of x and y after power-on; keeps it after other resets. */
   void begin() {
     port_ = &begin_gps_port();
     if ((reset_cause() & kSwitchedOn) != 0 || !is_kept()) forget_origin();

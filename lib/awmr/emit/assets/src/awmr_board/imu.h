@@ -60,8 +60,8 @@ class Imu {
     check_.turn.begin(kRadpsPerWord, AWMR_SAMPLE_TIME_S);
   }
 
-  /* Call after awmr_step() with the yaw moment, m, that is commanded until the next step, divided
-     by F_max; 0 if the motors are off. read() checks the sign of the yaw rate with it. */
+  /* Call after awmr_step() with the yaw moment (divided by F_max, m) that is commanded until the
+     next step; 0 if the motors are off. read() compares the sign of the yaw rate with it. */
   void note_moment(float tau_turn_m) { moment_m_ = tau_turn_m; }
 
   /* Call in the step: integrates the gyroscope and corrects it by the magnetometer (time constant 2
@@ -109,8 +109,8 @@ class Imu {
   static int16_t word(uint8_t high, uint8_t low) {
     return static_cast<int16_t>(static_cast<uint16_t>(high) << 8 | low);
   }
-  /* Reads the magnetic field. True if the reading is new, within the sensor's range and not zero;
-     else the last field is kept. */
+  /* Reads the magnetic field. False, with the field unchanged, if the reading is not new, out of
+     the sensor's range, or zero. */
   bool read_field(uint32_t now_ms) {
     uint8_t bytes[7];
     if (!request(kMag, 0x02, bytes, 1) || (bytes[0] & 0x01) == 0) return false;

@@ -13,9 +13,9 @@ class Safety {
   bool is_armed() const { return arming_.is_armed(); }
   awmr::DisarmReason reason() const { return arming_.reason; }
 
-  /* Call in receive(). Handles ARM, STOP and KEEP, and refuses all other commands while disarmed.
-     True: the sketch has to act, either because the vehicle was just armed (`armed_now` is true) or
-     because command.word is a command for the sketch. Call again until the result is false. */
+  /* Call in receive() until the result is false. Handles ARM, STOP and KEEP, and refuses all other
+     commands while disarmed. True: the sketch must act, because the vehicle was just armed
+     (`armed_now` is true) or because command.word is a command for the sketch. */
   bool read(Command& command, bool& armed_now) {
     armed_now = false;
     while (command.read()) {
@@ -51,8 +51,8 @@ class Safety {
     command.answer(kDisarmed);
   }
 
-  /* Call before awmr_step(): while disarmed, makes the time of the last command older than the
-     command time-out, so that awmr_step() switches the motors off. */
+  /* Call before awmr_step(). Keeps the motors of a disarmed vehicle off: sets the time of the last
+     command so that awmr_step() finds a command time-out. */
   void guard(awmr_input& input) const {
     if (is_armed()) return;
     input.command_ms = input.now_ms - AWMR_COMMAND_TIMEOUT_MS - 1;

@@ -16,8 +16,8 @@ const uint8_t kSwitchedOn = 1, kResetButton = 2, kBrownOut = 4, kWatchdog = 8;
 
 static uint8_t kept_reset_cause __attribute__((section(".noinit")));
 
-/* Stores the reset cause and switches the watchdog off. Runs before main() and before RAM is
-   cleared: after a watchdog reset the watchdog is still active and would reset the chip again. */
+/* Stores the reset cause and switches the watchdog off, before main() and before RAM is cleared.
+   The watchdog is still active after a watchdog reset, and would reset the chip again. */
 static void keep_reset_cause() __attribute__((naked, used, section(".init3")));
 static void keep_reset_cause() {
   kept_reset_cause = MCUSR;
@@ -46,11 +46,10 @@ inline uint8_t watchdog_time() {
                                              : WDTO_4S;
 }
 
-/* Starts the timer interrupt. It calls `receive` every few ms, which has to read the serial lines
-   before their buffers overflow, and `step` every AWMR_SAMPLE_TIME_S, after `receive`. Other
-   interrupts stay enabled for the sensor bus, the serial lines and millis(). If a step is still
-   running when the next one is due, it continues and the next one is skipped. The watchdog resets a
-   chip on which no step ends. */
+/* Starts the timer interrupt. Every few ms, it calls `receive`, which must read the serial lines
+   before their buffers overflow. Every AWMR_SAMPLE_TIME_S, it then calls `step`. Other interrupts
+   stay enabled for the sensor bus, the serial lines and millis(). If a step is still running when
+   the next one is due, the next one is skipped. The watchdog resets a chip on which no step ends. */
 inline void begin_steps(Function receive, Function step) {
   the_receive = receive;
   the_step = step;

@@ -1,7 +1,7 @@
 /* The timer that calls the control step: its interrupt AWMR_BOARD_TICK (a tick), and its start. A
-   sample time is a whole number of ticks. Ticks are so short that the serial ports' buffers of 63
-   characters do not overflow between two of them: at 115200 baud a buffer is full after 5.4 ms, and
-   a step takes up to 1.25 ms. */
+   sample time is a whole number of ticks. Ticks must be so short that the serial ports' buffers of
+   63 characters do not overflow between them. At 115200 baud, a buffer is full after 5.4 ms, and a
+   step takes up to 1.25 ms. */
 #ifndef AWMR_BOARD_TICKS_H
 #define AWMR_BOARD_TICKS_H
 

@@ -14,8 +14,8 @@ const uint8_t kLeftPwmPin = 5, kLeftDirectionPin = 4;  /* OC0B, by timer 0, as m
 const uint8_t kRightPwmPin = 6, kRightDirectionPin = 7; /* OC0A */
 const uint8_t kGpsPin = 8, kUnusedPin = 12;
 
-/* The GPS is connected to pin 8. 9600 baud, because the software receiver disables interrupts for
-   the duration of a character (1 ms). */
+/* The GPS is connected to pin 8. The software receiver disables interrupts for the duration of a
+   character: 1 ms at 9600 baud. */
 static SoftwareSerial gps_serial(kGpsPin, kUnusedPin);
 inline Stream& begin_gps_port() {
   gps_serial.begin(9600);
