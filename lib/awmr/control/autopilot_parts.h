@@ -140,9 +140,9 @@ inline void make_up_dead_zone(const MotorCurve& part, SideForces<float>& force) 
   force = with_dead_zone(force, part.dead_zone);
 }
 
-/// Sets the friction width of the yaw resistance g3 to that of `mode`, if the mode has changed.
-/// Below this yaw rate, the feed-forward of Coulomb friction changes smoothly with the yaw rate
-/// instead of jumping (Gains::friction_width_at()). No-op if MotorCurve is not compiled in.
+/// Sets the friction width of the yaw resistance g3 to the width of `mode`, if the mode has
+/// changed. Below this yaw rate, the feed-forward of Coulomb friction changes smoothly with the yaw
+/// rate instead of jumping (Gains::friction_width_at()). No-op if MotorCurve is not compiled in.
 template <class G>
 AWMR_INLINE void use_friction_width(Disabled<MotorCurve>&, uint8_t, G&) {}
 template <class G>
@@ -165,8 +165,8 @@ inline void use_observer(const GainsBlock& own, float sample_time_s, Observer& p
          sample_time_s);
 }
 
-/// Replaces the gains in `constants` and the observer by those of `mode`, if the mode has changed.
-/// No-op if GainsByMode is not compiled in.
+/// If the mode has changed, replaces the gains in `constants` and the observer by the gains and
+/// observer of `mode`. No-op if GainsByMode is not compiled in.
 template <class Observation>
 AWMR_INLINE void use_gains(Disabled<GainsByMode>&, uint8_t, ControlConstants<float>&,
                            Observation&) {}

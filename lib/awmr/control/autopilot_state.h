@@ -57,10 +57,9 @@ inline void set_observer(const ObserverBlock* tuned, Observer& part) {
 }
 
 /// Reads the parameters. Returns true if their check sum equals `crc`, which the header of the
-/// emitted library defines. Otherwise, every step outputs the safe command. `rest` has the
-/// parameters of RestingTable and MotorCurve, `observer` those of Observer, `gains` those of
-/// GainsByMode; null: the firmware has no such parameters. On an AVR, all pointers are addresses in
-/// flash.
+/// emitted library defines. Otherwise, every step outputs the safe command. Parameters of optional
+/// parts: `rest` for RestingTable and MotorCurve, `observer` for Observer, `gains` for GainsByMode;
+/// null: none. On an AVR, all pointers are addresses in flash.
 template <class G, class P>
 bool start_autopilot(Autopilot<G, P>& a, const ParameterBlock* block,
                      const ResistanceLine* surge_lines, size_t surge_count,

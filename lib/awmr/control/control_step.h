@@ -44,7 +44,7 @@ ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measu
 }
 
 /// Surge force and yaw moment that the allocated wheel forces and steering angle make, equation
-/// (41). The constants `c` must be those of the vehicle.
+/// (41). `c`: constants of the vehicle.
 template <class T>
 GeneralisedForces<T> allocated_forces(const SteeringGeometry& geometry,
                                       const AllocationConstants<T>& c, const Allocation<T>& a) {

@@ -1,8 +1,8 @@
 /// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
 ///
 /// The speed law needs a signed speed: with |u| as its input, it can accelerate a vehicle that
-/// rolls backward (unsigned_push()). Here, the sign is that of a predicted speed u. The identified
-/// model (mass m', resistance g1) and the commanded force tau_speed predict this speed:
+/// rolls backward (unsigned_push()). Here, a predicted speed u gives the sign. The identified model
+/// (mass m', resistance g1) and the commanded force tau_speed predict this speed:
 ///   m' u_dot = tau_speed - g1(u)
 /// Readings of the sensor correct its magnitude. The displacement along the heading verifies its
 /// sign. Rules:

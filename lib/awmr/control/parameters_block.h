@@ -128,7 +128,7 @@ inline void set_rest(const float* rest_speed, const float* at_rest, RestingTable
   law.rest_speed = flash_float(rest_speed);
   law.at_rest = flash_float(at_rest);
 }
-/// Sets rest_speed and at_rest of the yaw resistance g3 to those of the yaw mode. No-op if the
+/// Sets rest_speed and at_rest of the yaw resistance g3 to the values of the yaw mode. No-op if the
 /// resistance is not a RestingTable.
 template <class G>
 void set_friction_width(const RestBlock* rest, uint8_t mode, G& yaw) {

@@ -5,8 +5,9 @@
 
 namespace awmr {
 
-/// Reasons for the safe command (motors off, wheels straight). Several can occur at once, so each
-/// is one bit. kFaultParameters lasts until the next start, the others as long as their cause.
+/// Reasons for the safe command (motors off, wheels straight). Several faults can occur at once, so
+/// each fault is one bit. kFaultParameters lasts until the next start, every other fault as long as
+/// its cause.
 enum SafetyFault : uint8_t {
   kFaultNone = 0x00,
   kFaultParameters = 0x01,  ///< the parameters in flash have a wrong check sum

@@ -18,8 +18,8 @@ struct CsvHeader {
   char delimiter = ',';
   int skipped_lines = 0;    ///< number of lines above the header, comments not counted
   bool is_comment = false;  ///< true: the header is a comment, after a '#'
-  /// True: the file has no header. The names are `column_1`, `column_2`, ...; `cells` are those of
-  /// the first row.
+  /// True: the file has no header. The names are `column_1`, `column_2`, ...; `cells` are the cells
+  /// of the first row.
   bool is_positional = false;
 };
 

@@ -42,8 +42,8 @@ std::string cause_of(const Fault& fault) {
   return cause;
 }
 
-/// If more than kMaxAlike faults have the same cause, keeps only the first of them and adds the
-/// number of the others to its message.
+/// If more than kMaxAlike faults have the same cause, keeps only the first fault and adds the
+/// number of the omitted faults to its message.
 std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
   std::map<std::string, std::size_t> counts;
   for (const Fault& fault : faults) ++counts[cause_of(fault)];

@@ -44,7 +44,7 @@ struct OutputFile {
 /// Writes a set of files: first all under temporary names, then renames them one after the other.
 /// If a temporary file cannot be written, or a path is a pipe or a device, no file is changed. If
 /// the program is killed between two renames (some microseconds), new and old files remain side by
-/// side. To make this detectable, let the last file contain the hashes of the others.
+/// side. To make this detectable, let the last file contain the hashes of all other files.
 Status write_files(std::span<const OutputFile> files);
 
 /// Checks that the output `path` can be written and is none of the inputs. Call it before a long

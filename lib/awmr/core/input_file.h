@@ -1,5 +1,5 @@
-/// Reads input files and records their hashes. Each file is read only once, so the hash in an
-/// output is that of the bytes used, even if the file changes later or is a pipe.
+/// Reads input files and records their hashes. Each file is read only once. So the hash in an
+/// output is the hash of the bytes used, even if the file changes later or is a pipe.
 #pragma once
 
 #include <cstddef>

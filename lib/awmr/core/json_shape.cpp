@@ -18,8 +18,8 @@ bool takes(const Way& way, const std::map<std::string, std::size_t>& picks) {
   });
 }
 
-/// JSON Schema that forbids those of `keys` that are not in `allowed`; an empty object if all are
-/// allowed.
+/// JSON Schema that forbids every key in `keys` that is not in `allowed`; an empty object if all
+/// are allowed.
 Json forbidding(const std::set<std::string>& keys, const std::set<std::string>& allowed) {
   Json rule = Json::object();
   for (const std::string& key : keys) {

@@ -29,8 +29,8 @@ Eigen::VectorXcd eigenvalues(const MatrixXd& a) {
   return Eigen::EigenSolver<MatrixXd>(a, false).eigenvalues();
 }
 
-// The singular values of A equal those of R in the pivoted decomposition A Pi = Q R. They are
-// computed from R, because Eigen's code for A itself takes 10 s longer to compile.
+// The singular values of A equal the singular values of R in the pivoted decomposition A Pi = Q R.
+// They are computed from R, because Eigen's code for A itself takes 10 s longer to compile.
 VectorXd singular_values(const MatrixXd& a) {
   if (a.rows() < a.cols()) return singular_values(a.transpose());
   return Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner>(PivotedQr(a).r()).singularValues();

@@ -27,9 +27,9 @@ std::string spell_options(std::string_view message, std::string_view prefix);
 std::string replace_options(std::string_view message,
                             const std::function<std::string(std::string_view option)>& spelling);
 
-/// The faults to show to a user. Of more than three faults in a file with the same cause, only the
-/// first is kept, and its message gives the number of the others. The first 20 of the result are
-/// returned, followed by a fault (`more-faults`) with the number of the rest.
+/// The faults to show to a user. If more than three faults in a file have the same cause, only the
+/// first fault is kept; its message gives the number of the omitted faults. The first 20 faults of
+/// the result are returned, followed by a fault (`more-faults`) with the number of the rest.
 std::vector<Fault> shown_faults(const std::vector<Fault>& faults);
 
 /// One printable line, `PLACE: MESSAGE [CODE]`. Option names are spelt as by spell_options().

@@ -96,7 +96,7 @@ std::vector<std::pair<std::string, std::string>> inputs_of(const Provenance& pro
 /// Describes, for a message, the first difference between the origins of two parts of a job:
 /// program version, options or inputs. Empty if there is none. `found`, `found_version`: origin and
 /// program version of one part. `expected`: origin of the other part, which the text calls `name`.
-/// The version is compared with that of this program.
+/// The part's version must equal the version of this program.
 std::string origin_difference(const Provenance& found, const std::string& found_version,
                               const Provenance& expected, const std::string& name) {
   if (found_version != version()) {

@@ -31,7 +31,8 @@ struct EmitInputs {
 };
 
 /// Returns the value of AWMR_PARAMS_SHA256, which identifies both input files: the SHA-256 of a
-/// text of 128 characters, the hexadecimal SHA-256 of the model file, then that of the gains file.
+/// text of 128 characters, the hexadecimal SHA-256 of the model file followed by the hexadecimal
+/// SHA-256 of the gains file.
 std::string params_sha256(const EmitInputs& inputs);
 
 /// Text of awmr_params.h in ASCII, valid in C89, C++98 and later. Each value is rounded to float32

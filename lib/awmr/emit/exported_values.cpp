@@ -99,9 +99,9 @@ void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode
             "w0 of the combined mode");
 }
 
-/// Adds the gains of one mode (`mode`, which becomes part of the names), or those of all modes
-/// without gains of their own. `has_observer`: also adds the observer, with zeros if these gains
-/// have none. `has_widths`: also adds the friction widths.
+/// Adds the gains of one mode (`mode`, which becomes part of the names). Without `mode`: the gains
+/// of all modes without gains of their own. `has_observer`: also adds the observer, with zeros if
+/// these gains have none. `has_widths`: also adds the friction widths.
 void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool has_observer,
                   bool has_widths, std::vector<ExportedValue>& values) {
   const auto add = [&](const char* name, double value, const char* unit, const char* meaning) {

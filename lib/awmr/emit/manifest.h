@@ -1,7 +1,7 @@
 /// Manifest of an emitted directory: lists each file that `awmr emit` wrote, with its hash, so that
-/// emit can tell its own files from those of the user. A listed file that was edited belongs to the
-/// user and is not replaced. A file that is not listed is replaced only if it begins like a file
-/// that emit writes.
+/// emit can tell its own files from the user's. A listed file that was edited belongs to the user
+/// and is not replaced. A file that is not listed is replaced only if it begins like a file that
+/// emit writes.
 #pragma once
 
 #include <filesystem>

@@ -47,7 +47,7 @@ inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";
 inline constexpr std::string_view kBiasPrefix = "bias.";  ///< followed by the channel's column name
 /// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). Without a surge trial, a coast-down determines
-/// only ratios of parameters: m'/a1 and, if the resistance family has the terms, those of
+/// only ratios of parameters: m'/a1 and, if the resistance family has the terms, the ratios of
 /// ratio_names.h. It also determines the exponent b1, if the family has one.
 inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";
 

@@ -22,8 +22,8 @@
 
 namespace awmr {
 
-/// Plausible range of Iz divided by that of a uniform box of the same mass and size. With all mass
-/// in the corners, the ratio is 3.
+/// Plausible range of Iz divided by the Iz of a uniform box of the same mass and size. With all
+/// mass in the corners, the ratio is 3.
 inline constexpr Interval kInertiaOverBox{0.05, 3.0};
 /// Largest plausible time constant of a steering servo, s; a larger number is probably in ms.
 inline constexpr double kSlowestServo_s = 2.0;

@@ -69,9 +69,9 @@ struct EstimatorParameter {
   double value = 0.0;
   std::optional<double> std_error;  ///< > 0; absent if there are too few data
   std::optional<Interval> ci95;     ///< 95 % interval from the curvature of the cost at its minimum
-  /// 95 % interval from the profile likelihood: the cost, minimised over the other parameters, as a
-  /// function of this one. It can be asymmetric. Where the data do not limit the parameter, the end
-  /// of the interval is the parameter's bound.
+  /// 95 % interval from the profile likelihood: the cost as a function of this parameter, minimised
+  /// over the other parameters. It can be asymmetric. Where the data do not limit the parameter,
+  /// the end of the interval is the parameter's bound.
   std::optional<Interval> profile95 = {};
 };
 

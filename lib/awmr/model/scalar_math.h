@@ -1,9 +1,9 @@
 /// Elementary functions for any scalar. Freestanding C++14.
 ///
-/// Templates call `using math::sin; sin(x)`. This finds the functions below for float and double.
-/// For ceres::Jet and other scalars, it finds those in the scalar's own namespace
-/// (argument-dependent lookup). float's sin, cos, atan and atan2 are those of float_math.h, with
-/// the same bits on every machine.
+/// Templates call `using math::sin; sin(x)`. For float and double, this finds the functions below.
+/// For ceres::Jet and other scalars, it finds the functions in the scalar's own namespace
+/// (argument-dependent lookup). float uses sin, cos, atan and atan2 of float_math.h, with the same
+/// bits on every machine.
 #pragma once
 
 #include <math.h>

@@ -24,8 +24,8 @@ struct SiQuantity {
 /// m/m'^2) of Q:
 ///   Var Q = (m/m')^2 (C_pp - 2 (p/m') C_pm' + (p/m')^2 C_m'm')
 /// For p = I'z = m' Iz/m, the terms cancel, so that Iz is exact again. The half width of the
-/// interval, in standard errors, is the larger of those of p and m'. Q has no standard error if p
-/// or m' was estimated and is not in the model's covariance.
+/// interval of Q, in standard errors, is the larger of the half widths for p and m'. Q has no
+/// standard error if p or m' was estimated and is not in the model's covariance.
 ///
 /// F_max is the largest force of one driven wheel: if one motor drives both wheels of a side, the
 /// largest force of this motor is twice F_max.

@@ -44,8 +44,8 @@ Plant<T> without_friction(Plant<T> plant) {
   return plant;
 }
 
-/// As resolved_at_rest(), for integration with exact Coulomb friction c: the chords are those of
-/// the resistances without c.
+/// As resolved_at_rest(), for integration with exact Coulomb friction c: has the chords that the
+/// resistances without c need.
 template <class T>
 Plant<T> resolved_beside_friction(Plant<T> plant, double step_s) {
   const Plant<T> resolved = resolved_at_rest(without_friction(plant), step_s);

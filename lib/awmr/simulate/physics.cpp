@@ -47,8 +47,8 @@ double steps_of_sample(const Plant<double>& plant, bool on_tyres, double sample_
 
 }  // namespace
 
-/// The step h is limited by each time constant T that does not depend on speed: those of the sway
-/// resistance (m'/a_s), the servo and the back-EMF.
+/// The step h is limited by the time constants T that do not depend on speed: sway resistance
+/// (m'/a_s), servo and back-EMF.
 ///   h <= T/6
 /// A chord may replace the resistance g (g1 or g3) only below kChordSpeed, which limits the step,
 /// too. This is the equation of rest_speed() solved for h; the inertia is m' or I'z:

@@ -15,10 +15,10 @@ namespace awmr {
 /// Chosen: a larger fraction trusts the grip of the tyres more than the identified m'.
 inline constexpr double kGripShare = 0.25;
 
-/// Draws random plants. The parameters in the model's covariance C are drawn, the others keep their
-/// values. Each parameter p is drawn by its coordinate z, which is p or ln p (model/transform.h). z
-/// is normally distributed about its estimate. The covariance of z follows by the delta method,
-/// with dp/dz = p for z = ln p, and 1 for z = p:
+/// Draws random plants. The parameters in the model's covariance C are drawn; all other parameters
+/// keep their values. Each parameter p is drawn by its coordinate z, which is p or ln p
+/// (model/transform.h). z is normally distributed about its estimate. The covariance of z follows
+/// by the delta method, with dp/dz = p for z = ln p, and 1 for z = p:
 ///   Cov(z_p, z_q) = C_pq / (dp/dz_p dq/dz_q)
 ///
 /// An estimate can have quantiles in model.json. Then z is a piecewise linear function of the
@@ -44,8 +44,7 @@ class PlantSampler {
   /// Draws the plant with the number `sample` (>= 1), which depends only on `seed` and `sample`.
   /// Errors (input): each of 1000 attempts gave a negative exponent or term of a resistance.
   Result<Plant<double>> draw(std::uint64_t seed, int sample) const;
-  /// Same as draw(), but returns the plant as a model. Its intervals are those of the identified
-  /// model.
+  /// Same as draw(), but returns the plant as a model, with the intervals of the identified model.
   Result<Model> draw_model(std::uint64_t seed, int sample) const;
 
   /// Draws `count` plants by a Latin hypercube, so that even a few draws cover the distribution
@@ -65,8 +64,7 @@ class PlantSampler {
   std::optional<Plant<double>> plant_at(std::span<const double> normals) const;
   /// Degrees of freedom k of the draws: number of independent directions of the normal numbers n
   /// that change a parameter. Derived parameters (m' from a1, b1) add none. Let n' be the part of n
-  /// in these directions. The probability P(|n'| <= r) is that of a chi-squared variable with k
-  /// degrees of freedom for r^2.
+  /// in these directions: |n'|^2 is a chi-squared variable with k degrees of freedom.
   int rank() const;
   /// Orthonormal directions in the space of the normal numbers n that change the parameters `ids`.
   /// Parameters that are not in the covariance are ignored.

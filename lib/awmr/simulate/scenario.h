@@ -77,8 +77,8 @@ struct LinePath {
 };
 
 /// A timed path: the vehicle follows a point that moves along a curve. If the scenario's speed_mps
-/// is 0, the commanded speed is that of the point. Another speed_mps is allowed only without
-/// position feedback.
+/// is 0, the speed of the point is commanded. Another speed_mps is allowed only without position
+/// feedback.
 struct LissajousPath {
   Lissajous<double> path{};
   bool closed_loop = false;          ///< with position feedback
@@ -180,9 +180,9 @@ std::string plant_text(const Scenario& scenario);
 /// Returns the model with each parameter in Scenario::corner set to the end of its 95 % interval
 /// that corner names. Errors (input): such a parameter has no interval.
 Result<Model> model_at_corner(Model model, const Scenario& scenario);
-/// Returns the plant of the scenario: that of model_at_corner(), with the parameters that `motion`
-/// (planar or straight) needs. Errors (input): those of model_at_corner(), check_scenario(),
-/// Model::plant() and check_work() (simulate.h).
+/// Returns the plant of model_at_corner(), with the parameters that `motion` (planar or straight)
+/// needs. Errors (input): those of model_at_corner(), check_scenario(), Model::plant() and
+/// check_work() (simulate.h).
 Result<Plant<double>> plant_for(const Scenario& scenario, const Model& model,
                                 Motion motion = Motion::kPlanar);
 

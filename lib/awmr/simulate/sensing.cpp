@@ -8,8 +8,8 @@
 namespace awmr {
 namespace {
 
-/// Numbers of the random streams of the sensors (RunSeed::random()), different from those of the
-/// disturbances.
+/// Numbers of the random streams of the sensors (RunSeed::random()). The disturbances use other
+/// numbers.
 enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 
 /// Tolerances for rounding errors of times that should be multiples of the sample time: in samples,

@@ -54,8 +54,8 @@ class Sensing {
     const std::vector<double>* normals;  ///< one w_k per sample; null: they are drawn from `random`
   };
   /// Returns the true value of a quantity at the time of sample k minus the latency of the sensor,
-  /// interpolated linearly between samples. Before the first sample, the value is that of the
-  /// first.
+  /// interpolated linearly between samples. Before the first sample, returns the value of the first
+  /// sample.
   double truth_at(std::size_t k, const Sensor& sensor, double Measurement<double>::*quantity) const;
 
   std::optional<Sensors> sensors_;

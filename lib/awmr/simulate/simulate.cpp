@@ -61,8 +61,8 @@ Controller<double> controller_in(const Scenario& scenario, Controller<double> co
 
 namespace {
 
-/// Returns the disturbance observer of the scenario, or else that of the gains. Bandwidth 0: none.
-/// The LQI does not use the observer of the gains, which was tuned for the sliding mode.
+/// Returns the disturbance observer of the scenario, or else the observer of the gains. Bandwidth
+/// 0: none. The LQI does not use the observer of the gains, which was tuned for the sliding mode.
 ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>& gains) {
   ObserverGains<double> observer = scenario.control.lqi ? ObserverGains<double>{} : gains.observer;
   if (const auto& own = scenario.control.observer) {
@@ -73,8 +73,8 @@ ObserverGains<double> observer_in(const Scenario& scenario, const Gains<double>&
   return observer;
 }
 
-/// True if nothing in this row turns the vehicle or moves it sideways, except rounding errors, such
-/// as those of sin(pi) or atan2. They are larger than usual: the unknown resistances in yaw and
+/// True if nothing in this row turns the vehicle or moves it sideways, except rounding errors, for
+/// example of sin(pi) or atan2. These are larger than usual: the unknown resistances in yaw and
 /// sway are simulated as 0, so nothing damps them.
 bool is_straight(const RunRow& row) {
   constexpr double kRounding = 1e-9;  // m/s, rad/s, rad, m

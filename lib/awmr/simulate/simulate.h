@@ -51,8 +51,8 @@ struct RunRow {
   /// Distance from the vehicle to the nearest obstacle, m; < 0 if they overlap; 0 without
   /// obstacles. With avoidance, the vehicle is a circle, else a point.
   double clearance_m = 0.0;
-  /// Power divided by F_max, m/s, that the lateral tyre forces dissipate. In the 3-DOF model, it is
-  /// the power of tyre scrub, without that of the yaw resistance g3.
+  /// Power divided by F_max, m/s, that the lateral tyre forces dissipate. In the 3-DOF model: the
+  /// power of tyre scrub, without the power of the yaw resistance g3.
   double tyre_power_mps = 0.0;
   /// Mean wheel forces divided by F_max, over the sample that ends at this row. Effects of motor
   /// lag, battery, faults and slippery ground are included, dead zone and back-EMF are not. 0 in
@@ -112,8 +112,8 @@ int substeps_for(const Plant<double>& plant, double sample_time_s);
 int substeps_for(const Plant<double>& plant, const Scenario& scenario, double sample_time_s);
 
 /// Makes a controller with these gains, whose model is the plant: it feeds forward the plant's
-/// resistances, and has the limits of the vehicle. Its friction width in yaw (HeadingGains in
-/// model/gains.h) is that of steering mode; each run replaces it by that of its own mode.
+/// resistances, and has the limits of the vehicle. It gets the friction width in yaw (HeadingGains
+/// in model/gains.h) of steering mode; each run replaces it by the width of its own mode.
 Controller<double> make_controller(const Plant<double>& plant, const Vehicle& vehicle,
                                    const Gains<double>& gains,
                                    CombinedSplit split = CombinedSplit::kRedistribute);
@@ -125,7 +125,7 @@ Controller<double> make_controller(const Plant<double>& plant, const Vehicle& ve
 Result<Controller<double>> controller_for(const Model& model, const Gains<double>& gains);
 
 /// Simulates the model with the controller of controller_for(), at the vehicle's sample time. A
-/// scenario without sensors or actuators gets those of the vehicle (equipped() in conditions.h).
+/// scenario without sensors or actuators gets the vehicle's (equipped() in conditions.h).
 /// Scenario::corner sets plant parameters to an end of their interval; the controller keeps the
 /// estimates. A model without turning parameters (Model::simulated_motion()) can only drive
 /// straight. Errors (input): those of plant_for(), Model::plant(), check_mode() and failure_of();
@@ -143,7 +143,7 @@ Status check_work(const Plant<double>& plant, const std::string& model_file,
 /// message has the time and the speeds of the last row.
 Status failure_of(const Run& run, const Scenario& scenario);
 
-/// Simulates a run with the given plant and controller. The plant must be that of plant_for(),
+/// Simulates a run with the given plant and controller. Pass the plant that plant_for() returns,
 /// because Scenario::corner is not applied here. The result has at least one row. Its end is
 /// RunEnd::kFailed if the run could not continue, or is too long for check_work().
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,

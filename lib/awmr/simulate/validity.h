@@ -98,7 +98,8 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
                                              const TurnCommands& commands);
 
 /// Adds extrapolation_finding() with the highest measured yaw rate of the model, if there is one.
-/// `where`: name of the run, such as "C3, combined". `commands`: those of the run's scenario.
+/// `where`: name of the run, such as "C3, combined". `commands`: turn commands of the run's
+/// scenario.
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         const TurnCommands& commands, std::vector<Finding>& findings);
 

@@ -132,7 +132,7 @@ AWMR_INLINE PathPoint<T> path_point(const PathFollower<T, Time>& part, const T& 
   return part.path.at(t_s);
 }
 
-/// Sets heading, heading rate and speed of the reference to those of the timed path, but keeps a
+/// Takes heading, heading rate and speed of the reference from the timed path, but keeps a
 /// reference speed above 0. No-op if no path is set.
 template <class Part, class T, class Time>
 AWMR_INLINE void guide_by_path(Disabled<Part>&, const VehiclePose<T, Time>&, Reference<T>&) {}

@@ -148,8 +148,8 @@ AWMR_INLINE T distance_off_m(const Polyline<T, Law>&, int /*segment*/,
 /// Computes the desired heading for the current segment, rad, in (-pi, pi]:
 ///   psi_d = psi_AB - beta - approach_rad()
 /// psi_AB: direction of the segment, beta: sideslip angle. Segments of zero length are skipped.
-/// Past the last segment, or if all segments have zero length, guidance is finished and the last
-/// psi_d is held.
+/// Past the last segment, or if all segments have zero length, guidance is finished and psi_d keeps
+/// its last value.
 template <class T, class Law>
 AWMR_CALLED PolylineGuidance<T> guide(const Polyline<T, Law>& line, const Position<T>& position_m,
                                       const LineMotion<T>& motion, PolylineProgress<T>& progress) {

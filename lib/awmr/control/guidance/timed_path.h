@@ -47,7 +47,7 @@ struct PathGuidance {
 };
 
 /// Smallest speed of the path's point, m/s, at which the path has a direction. At a lower speed, as
-/// at a cusp or a reversal, the heading is held.
+/// at a cusp or a reversal, the vehicle keeps its desired heading.
 template <class T>
 constexpr T path_speed_min_mps() {
   return T(1e-4);

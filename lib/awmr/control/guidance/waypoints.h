@@ -59,7 +59,7 @@ bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
 /// Corrected: the printed differences point from the waypoint to the vehicle.
 ///
 /// If the vehicle is within the acceptance radius of several waypoints in sequence, it reaches them
-/// in the same step. With no waypoints, guidance is finished at once and the heading is held.
+/// in the same step. With no waypoints, guidance is finished at once and psi_d keeps its value.
 /// `acceptance_m2` is the square of Waypoints::acceptance_m.
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& acceptance_m2,

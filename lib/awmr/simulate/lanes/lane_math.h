@@ -132,8 +132,8 @@ AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
   const Lanes c = fma(z * z, polynomial(kCos, z), fma(z, Lanes(-0.5), Lanes(1.0)));
   // In odd quadrants, sine and cosine are swapped. The test shifts the last bit of the quadrant to
   // the place where this bit alone is the number 2.0. The second bit of the quadrant is the sign of
-  // the sine; the second bit of quadrant + 1 is the sign of the cosine. Each is shifted to the sign
-  // bit of the result.
+  // the sine; the second bit of quadrant + 1 is the sign of the cosine. The code shifts both bits
+  // to the sign bit of their result.
   const Bits whole = to_bits(rounded.value);
   const LaneMask swapped = to_register((whole & Bits(std::uint64_t{1})) << 62) > Register(1.0);
   const auto with_sign = [&whole](const Lanes& value, std::uint64_t quadrants_on) -> Lanes {
