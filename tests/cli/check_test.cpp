@@ -160,7 +160,7 @@ TEST_F(Check, WrongUnitsOfTheVehicleAreNamedWithTheConvertedValue) {
       {"/half_track_m", 85, "looks like mm: 0.085"},
       {"/half_track_m", 0.17, "looks like the whole track: 0.085"},
       {"/front_axle_m", 0.2, "looks like the wheelbase: 0.1"},
-      {"/yaw_inertia_kgm2", 5.841, "omit the key: then that of the box is used"},
+      {"/yaw_inertia_kgm2", 5.841, "omit the key to use the inertia of the box"},
       {"/yaw_inertia_kgm2", 264, "looks like kg cm^2: 0.0264"},
       {"/steering/max_deg", 0.436, "looks like radians: 24.98"},
       {"/steering/max_rate_degps", 3.49, "looks like rad/s: 200"},

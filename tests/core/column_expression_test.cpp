@@ -75,7 +75,7 @@ TEST(ColumnExpression, RefusesInvalidFormulas) {
       {"rnd(a)", "no function"},
       {"a.b(c)", "no function"},
       {"(a", "bracket is not closed"},
-      {"a)", "no opening one"},
+      {"a)", "no opening bracket"},
       {"`a", "is not closed"},
       {"``", "name is empty"},
       {"1e999*a", "not a finite number"},

@@ -216,7 +216,7 @@ TEST_F(JsonObjectTest, AnotherSchemaIsNamed) {
   object.schema("awmr.model/1");
   EXPECT_THAT(faults(),
               ElementsAre("a.json:/schema: expected \"awmr.model/1\", found \"awmr.gains/1\": "
-                          "this is another kind of file"));
+                          "give a file of the expected kind"));
 }
 
 TEST_F(JsonObjectTest, ALongValueIsCutBetweenCharacters) {

@@ -90,7 +90,7 @@ TEST(Plausibility, TheInertiaOfAnotherVehicleIsNamedAndAMeasuredOneIsNot) {
   Vehicle v = vehicle(2.1, 0.32, 0.22, 0.1, 0.085);
   v.yaw_inertia_kgm2 = 5.841;
   EXPECT_THAT(words(v),
-              HasSubstr("measure it again, or omit the key: then that of the box is used"));
+              HasSubstr("measure it again, or omit the key to use the inertia of the box"));
   v.yaw_inertia_kgm2 = 0.03;
   EXPECT_THAT(words(v), IsEmpty());
 }

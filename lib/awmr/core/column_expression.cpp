@@ -123,7 +123,7 @@ Wrong take_sign(std::string_view& rest, Formula& formula) {
   }
   if (sign == '(') formula.open.push_back(false);
   if (sign == ')') {
-    if (formula.open.empty()) return "a closing bracket has no opening one";
+    if (formula.open.empty()) return "a closing bracket has no opening bracket";
     formula.open.pop_back();
   }
   if (sign == ',' && (formula.open.empty() || !formula.open.back())) {

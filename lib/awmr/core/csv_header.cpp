@@ -260,7 +260,7 @@ std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_comm
 
 std::string message_of(CsvScanner::Outcome outcome) {
   return outcome == Outcome::kOpenQuote
-             ? "the quotation mark that opens this cell is not closed; add the closing one"
+             ? "the quotation mark that opens this cell is not closed; add the closing mark"
              : "there is text between the closing quote of this cell and the delimiter; write a "
                "quote inside a quoted cell twice";
 }

@@ -74,7 +74,7 @@ void drop_rows(CsvTable::Parts& parts, const ColumnSources& sources) {
       {0, "joined-by-time",
        fmt::format(
            "signals of different rates were joined by time into {} rows; number of values by "
-           "column: {}. A command keeps its value until the next one. A measurement is used only "
+           "column: {}. A command keeps its value until its next value. A measurement is used only "
            "in the rows that have it, a formula only in the rows of its most frequent column. {} "
            "rows without a value, or before the first value of every command, are left out",
            parts.lines.size(), rates_of(parts), before - parts.lines.size())});

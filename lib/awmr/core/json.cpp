@@ -225,7 +225,7 @@ void JsonObject::schema(std::string_view expected) {
   const auto found = optional_string("schema");
   if (found && *found != expected) {
     fault(ErrorCode::kWrongFile, "schema",
-          fmt::format("expected \"{}\", found \"{}\": this is another kind of file", expected,
+          fmt::format("expected \"{}\", found \"{}\": give a file of the expected kind", expected,
                       *found));
     value_ = nullptr;  // a file of another kind has other keys: report no further faults
   }

@@ -101,8 +101,8 @@ std::string origin_difference(const Provenance& found, const std::string& found_
                               const Provenance& expected, const std::string& name) {
   if (found_version != version()) {
     return fmt::format(
-        "this part was written by version {} of the program, but this is {}; run "
-        "it again with this version",
+        "this part was written by version {} of the program, but this program has version {}; run "
+        "the part again with this program",
         found_version, version());
   }
   std::set<std::string> options;
@@ -111,7 +111,7 @@ std::string origin_difference(const Provenance& found, const std::string& found_
   }
   if (!options.empty()) {
     return fmt::format(
-        "this part was made with other options ({}) than {}; make both with the "
+        "this part was made with other options ({}) than {}; run both parts with the "
         "same options",
         fmt::join(options, ", "), name);
   }
@@ -120,11 +120,11 @@ std::string origin_difference(const Provenance& found, const std::string& found_
   const std::set<std::string> files = differing(inputs, expected_inputs);
   return files.empty() ? fmt::format(
                              "this part was made from the same inputs as {} in another order; run "
-                             "it again with the same order",
+                             "this part again with the same order",
                              name)
                        : fmt::format(
-                             "this part was made from other inputs ({}) than {}; make both from "
-                             "the same inputs",
+                             "this part was made from other inputs ({}) than {}; run both parts "
+                             "with the same inputs",
                              fmt::join(files, ", "), name);
 }
 
@@ -154,7 +154,7 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
   }
   if (shared_keys(kind, part.json) != shared_keys(kind, first.json)) {
     return fmt::format(
-        "this part was made with other options than {}; make both with the same "
+        "this part was made with other options than {}; run both parts with the same "
         "options",
         name);
   }

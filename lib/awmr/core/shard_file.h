@@ -82,10 +82,11 @@ Result<std::vector<Row>> in_order_of_items(const std::vector<std::vector<Row>>& 
       const std::vector<Row>& part = parts[item % parts.size()];
       std::size_t& row = next[item % parts.size()];
       if (row == part.size()) {
-        return input_error(ErrorCode::kStaleResult, "",
-                           fmt::format("part {} of {} has fewer rows than another: it has lost "
-                                       "rows, or the other repeats some; run both again",
-                                       item % parts.size() + 1, parts.size()));
+        return input_error(
+            ErrorCode::kStaleResult, "",
+            fmt::format("part {} of {} has fewer rows than another part: it has lost "
+                        "rows, or the other part repeats rows; run both again",
+                        item % parts.size() + 1, parts.size()));
       }
       all.push_back(part[row++]);
     }

@@ -131,8 +131,8 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
 void leave_out_observer(Autopilot& pilot) {
   if (!pilot.source.gains || !pilot.source.gains->in(pilot.mode()).observer.is_on()) return;
   pilot.leave_out("the disturbance observer",
-                  "the gains were tuned with this observer, which the autopilot does not have; its "
-                  "integrators replace it");
+                  "the gains were tuned with this observer, which the autopilot does not have; the "
+                  "autopilot's integrators replace the observer");
 }
 
 Status check_surge(const Model& model) {

@@ -50,9 +50,10 @@ Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
     quantiles[q] = json.number(kQuantiles[q].key, rule_of_quantile(parameter.id));
     if (q == 0 || quantiles[q] >= quantiles[q - 1]) continue;
-    json.fault(ErrorCode::kWrongOrder, kQuantiles[q].key,
-               fmt::format("the quantile {:g} is less than the one before it, {:g}; identify again",
-                           quantiles[q], quantiles[q - 1]));
+    json.fault(
+        ErrorCode::kWrongOrder, kQuantiles[q].key,
+        fmt::format("the quantile {:g} is below the quantile before it, {:g}; identify again",
+                    quantiles[q], quantiles[q - 1]));
   }
   json.reject_unknown_keys();
   return quantiles;
@@ -258,7 +259,7 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
         fmt::format("the moment {:g} is not the middle of ci95_m [{:g}, {:g}]; identify again",
                     scrub.moment_m, ci.lo, ci.hi));
   check(scrub.yaw_rate_radps.lo > 0.0 && scrub.yaw_rate_radps.hi < 1e3, "yaw_rate_radps",
-        "yaw rates must be above 0 and below 1000 rad/s");
+        "yaw rates must be above 0 and below 1000 rad/s; identify again");
   // The moment was measured, so the wheel forces overcame it: it cannot exceed their largest yaw
   // moment.
   const Interval force = model.vehicle.wheel_force;
@@ -289,7 +290,7 @@ void add_vehicle_contradictions(const Model& model, std::vector<Fault>& faults) 
   const double zone = model[ParameterId::kWheelDeadZone].value.value_or(0.0);
   if (zone < model.vehicle.wheel_force.hi) return;
   faults.push_back({ErrorCode::kContradiction, model.file + ":/wheel/dead_zone/value",
-                    fmt::format("a dead zone of {:g} leaves no force of a wheel, because "
+                    fmt::format("with a dead zone of {:g}, the wheels make no force, because "
                                 "/vehicle/wheel_force/max is {:g}; identify again",
                                 zone, model.vehicle.wheel_force.hi)});
 }

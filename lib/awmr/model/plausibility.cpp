@@ -154,11 +154,12 @@ void check_inertia(const Vehicle& vehicle, std::vector<Implausible>& found) {
   const auto guess = likely(ratio, kInertia, {0.3, 3.0}, 1.0);
   found.push_back(
       {"/yaw_inertia_kgm2",
-       fmt::format("yaw_inertia_kgm2 is {:.3g} times that of a box of this mass and size, {:.4g} "
-                   "kg m^2 (with all mass in the corners, it would be 3 times){}",
-                   ratio, box.inertia_kgm2(),
-                   guess ? remedy(*vehicle.yaw_inertia_kgm2, guess)
-                         : "; measure it again, or omit the key: then that of the box is used")});
+       fmt::format(
+           "yaw_inertia_kgm2 is {:.3g} times the inertia of a box of this mass and size, {:.4g} "
+           "kg m^2 (with all mass in the corners, it would be 3 times){}",
+           ratio, box.inertia_kgm2(),
+           guess ? remedy(*vehicle.yaw_inertia_kgm2, guess)
+                 : "; measure it again, or omit the key to use the inertia of the box")});
 }
 
 void check_steering(const Vehicle& vehicle, std::vector<Implausible>& found) {
