@@ -81,7 +81,7 @@ constexpr T steering_authority_min() {
   return T(1e-6);
 }
 /// Smallest surge force tau_speed (dimensionless) at which the allocation uses the full steering
-/// angle d_max: 1/64 of the thrust of four motors.
+/// angle d_max: 1/64 of the thrust of four motors. Below it, steering_limit() reduces the angle.
 template <class T>
 constexpr T steering_authority_full() {
   return T(0.0625);

@@ -14,8 +14,7 @@ namespace awmr {
 struct AutopilotInput {
   uint8_t mode;                 ///< a YawMode
   Measurement<float> measured;  ///< motion of the vehicle from the sensors
-  /// Position in the world frame. It is used only by guidance, and if one of the flags below is
-  /// set.
+  /// Position in the world frame. Used only by guidance, or if one of the flags below is set.
   Position<float> position_m;
   Reference<float> reference;  ///< desired motion; guidance, while active, replaces the heading
   InputTimes times;            ///< time stamps of all inputs

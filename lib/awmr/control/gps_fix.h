@@ -17,7 +17,7 @@ struct GpsFix {
 enum class GpsSentence : uint8_t {
   kOther,    ///< complete, but not RMC
   kDamaged,  ///< check sum missing or wrong, a field empty or malformed
-  /// complete, but the receiver has no fix, or one that is not measured (simulated or entered by
+  /// complete, but the receiver has no fix, or a fix that was not measured (simulated or entered by
   /// hand)
   kNoFix,
   kFix  ///< complete, with a usable fix

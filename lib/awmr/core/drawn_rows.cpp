@@ -25,8 +25,8 @@ struct Farthest {
   double distance = 0.0;  ///< distance of the row from the line, over the signal's range
 };
 
-/// Of the rows between `first` and `last`, finds the one that is farthest, in any signal, from the
-/// straight line between these two rows.
+/// Finds the row between `first` and `last` that is farthest, in any signal, from the straight line
+/// between these two rows.
 Farthest farthest_row(std::span<const double> t, std::span<const std::vector<double>> signals,
                       std::span<const double> ranges, std::size_t first, std::size_t last) {
   Farthest farthest;

@@ -51,9 +51,9 @@ std::vector<std::string_view> words_in(std::string_view line) {
   return words;
 }
 
-/// True if the scanner's next line is a header whose names are separated by spaces. Either one of
-/// its words is the name of a requested column, or the line below has as many words, all of them
-/// numbers.
+/// True if the scanner's next line is a header whose names are separated by spaces: one of its
+/// words is the name of a requested column, or the line below has as many words, and all of these
+/// are numbers.
 bool is_between_spaces(CsvScanner scanner, const std::set<std::string>& wanted) {
   const std::vector<std::string_view> words = words_in(scanner.peek_line());
   if (words.size() < 2) return false;

@@ -99,8 +99,8 @@ class JsonObject {
   void fault(ErrorCode code, std::string_view key, std::string message);
   /// Adds a fault at the key's place, with the code and the message of the first fault of `cause`.
   void fault(std::string_view key, const Error& cause);
-  /// Adds a fault for each key of the object that was not read. Only the first of them lists the
-  /// known keys.
+  /// Adds a fault for each key of the object that was not read. Only the first of these faults
+  /// lists the known keys.
   void reject_unknown_keys();
   const std::string& file() const { return file_; }
   /// JSON pointer of a key of this object.

@@ -108,7 +108,7 @@ std::size_t fastest(const RawTable& raw, const ColumnSource& source) {
 }
 
 /// Replaces missing values by the previous value of the column, and before the first value by the
-/// first one.
+/// first value.
 void hold(CsvTable::Column& column) {
   const auto first = std::find(column.present.begin(), column.present.end(), true);
   if (first == column.present.end()) return;

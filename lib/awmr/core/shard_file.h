@@ -56,7 +56,7 @@ auto payload_of(const Json& shard_json, const Read& read) {
 }
 
 /// Reads the table of a part. Errors: those of read_file(); (input) the hash of the table differs
-/// from the one in shard.json.
+/// from the hash in shard.json.
 Result<std::string> read_table(const ShardKind& kind, const Part& part);
 
 /// Checks that the rows of a part's table belong to this part: all items of the part in order, once

@@ -6,7 +6,7 @@ namespace awmr {
 
 /// mu, dimensionless: friction coefficient of rubber on a dry floor or road. J. Y. Wong, "Theory of
 /// Ground Vehicles", table 1.3, gives 0.75 to 0.9 for dry asphalt and concrete, 0.5 to 0.8 for wet
-/// ones, and 0.6 for gravel. Smooth or dusty floors may have less.
+/// asphalt and concrete, and 0.6 for gravel. Smooth or dusty floors may have less.
 inline constexpr double kTyreFriction = 0.8;
 
 /// c_a, cornering stiffness over load, 1/rad: the slope of the side force, divided by the load, at

@@ -1,5 +1,5 @@
 /// Converts a resistance law to a table that the chip interpolates (control/resistance_table.h):
-/// the smallest one that meets an error bound. Private to emit/.
+/// the smallest table that meets an error bound. Private to emit/.
 #pragma once
 
 #include <functional>

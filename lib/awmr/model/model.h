@@ -102,8 +102,8 @@ bool takes(Motion motion, ParameterId id);
 /// The identified vehicle: the data given before the trials (`vehicle`), the resistance families,
 /// and every identified quantity with its uncertainty.
 struct Model {
-  /// A model without any identified quantity. Optional terms (ParameterInfo::term) have the value
-  /// 0, all others none.
+  /// A model without any identified quantity: optional terms (ParameterInfo::term) are 0, all other
+  /// parameters have no value.
   Model();
 
   std::string file = "model.json";  ///< name in errors: the path that it was read from

@@ -16,7 +16,7 @@ namespace awmr {
 namespace {
 
 /// A probable unit error. The given value looks like another unit (`words`: "looks like mm"); the
-/// intended value is the given one times `factor`.
+/// intended value is the given value times `factor`.
 struct Guess {
   double factor;
   std::string_view words;
@@ -32,8 +32,8 @@ constexpr std::array<Guess, 5> kInertia{{{1e-4, "looks like kg cm^2"},
                                          {1e-7, "looks like g cm^2"},
                                          {1e-9, "looks like g mm^2"}}};
 
-/// Returns the guess whose factor brings `ratio` into the plausible `range`; of several, the one
-/// whose result is nearest to the `usual` ratio. None if no factor does.
+/// Returns the guess whose factor brings `ratio` into the plausible `range`; if there are several,
+/// the guess whose result is nearest to the `usual` ratio. None if no factor does.
 std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interval range,
                             double usual) {
   std::optional<Guess> best;
@@ -78,8 +78,8 @@ std::optional<Scale> likely_scale(double mass_per_area) {
   return best;
 }
 
-/// Checks the ratio of length to width. If it is implausible, converts the larger of the two from
-/// mm or cm to m.
+/// Checks the ratio of length to width. If it is implausible, converts the larger of length and
+/// width from mm or cm to m.
 void check_shape(Vehicle& vehicle, std::vector<Implausible>& found) {
   constexpr Interval kShape{0.2, 10.0};
   const double ratio = vehicle.length_m / vehicle.width_m;

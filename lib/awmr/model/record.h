@@ -115,8 +115,9 @@ struct EstimatorReport {
   /// Weight, in (0, 1], of this report in the average over noise models: the probability that
   /// `noise` is the quantity with the noise. Absent: the estimates were not averaged.
   std::optional<double> weight = {};
-  /// Akaike information criterion, lower is better: AICc of tables and coast-downs; AIC of logs,
-  /// with the noise model of the chosen fit. Compare only reports of the same subject and `noise`.
+  /// Akaike information criterion: misfit plus a penalty for each parameter, lower is better. AICc,
+  /// corrected for few data, for tables and coast-downs; AIC for logs, with the noise model of the
+  /// chosen fit. Compare only reports of the same subject and `noise`.
   std::optional<double> aicc = {};
   std::vector<Diagnostic> diagnostics = {};
   std::vector<LeaveOneOut> leave_one_out = {};

@@ -16,9 +16,9 @@ inline double fix_noise_m(const Gps& gps) {
   return std::sqrt(gps.x.noise * gps.x.noise + gps.x.quantum * gps.x.quantum / 12.0);
 }
 
-/// Computes the position for the guidance. If the scenario has a GPS and does not disable the
-/// estimate, it is the position estimate of the firmware. Otherwise it is the last GPS fix or,
-/// without a GPS, the true position.
+/// Computes the position for the guidance. With a GPS, this is the position estimate of the
+/// firmware, or the last fix if the scenario disables the estimate. Without a GPS, it is the true
+/// position.
 class Positioning {
  public:
   Positioning(const Scenario& scenario, double sample_time_s) {

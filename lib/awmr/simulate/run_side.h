@@ -18,7 +18,7 @@ std::filesystem::path run_side_path(const std::filesystem::path& csv);
 
 /// Returns the content of the side file: `provenance`, the SHA-256 of the CSV text `csv`, the keys
 /// of `figures`, and the findings. `figures` is the text of a JSON object, or empty. Precondition:
-/// none of its keys is another key of the file.
+/// the other parts of the file have none of its keys.
 std::string run_side_text(std::string_view csv, const Provenance& provenance,
                           const std::string& figures, const std::vector<Finding>& findings);
 

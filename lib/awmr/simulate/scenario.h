@@ -57,8 +57,8 @@ struct WaypointPath {
   std::optional<double> slow_down_m;
 };
 
-/// A line-following law with its parameters: the paper's line of sight, or another law to compare
-/// with it.
+/// A line-following law with its parameters: the paper's line of sight, or another law for
+/// comparison.
 using AnyLineLaw = LineLaws<std::variant, double>;
 /// Returns one object of each law, with all parameters 0, in the order of LineLaws.
 std::vector<AnyLineLaw> line_laws();

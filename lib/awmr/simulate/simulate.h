@@ -149,7 +149,7 @@ Status failure_of(const Run& run, const Scenario& scenario);
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 
-/// Returns the content of run.csv: first the columns that every run has, then those that this
+/// Returns the content of run.csv: first the columns that every run has, then the columns that this
 /// scenario adds.
 std::string run_csv(const Run& run, const Scenario& scenario);
 /// Returns the values of a row, each with the name of its column in run.csv.

@@ -17,7 +17,7 @@
 namespace awmr {
 
 /// Warning `tyres-differ`: the 3-DOF model and the vehicle on the scenario's tyres turn at yaw
-/// rates that differ by more than a factor of 1.5. Both are simulated with the yaw moment for the
+/// rates that differ by more than a factor of 1.5, in simulations with the yaw moment for the
 /// highest measured yaw rate. Absent without tyres or without a measured yaw rate.
 std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model);
 

@@ -39,8 +39,8 @@ struct Avoidance {
   /// Hysteresis of the side, rad, >= 0. The vehicle changes the side on which it passes only if the
   /// turn to the other side is smaller by more than this. With 0, it could swerve left and right.
   T side_hysteresis_rad;
-  /// brake, m, > 0: if the free distance ahead is smaller than this, the speed is reduced. It must
-  /// be at least the stopping distance.
+  /// brake, m, > 0: free distance ahead below which the avoidance reduces the speed. It must be at
+  /// least the stopping distance.
   T brake_m;
 };
 

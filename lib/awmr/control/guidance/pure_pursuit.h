@@ -29,8 +29,8 @@ struct PurePursuit {
 ///   s_g = max(0, s + sqrt(L^2 - e^2))
 /// s: position of the vehicle along the segment; e: its distance to the left of the segment; L:
 /// lookahead distance. Two points of the line are at the distance L from the vehicle; the goal is
-/// the one farther along the line. If the line is farther away than L, the goal is the point of the
-/// line nearest to the vehicle. The goal is never before the start of the segment.
+/// the point farther along the line. If the line is farther away than L, the goal is the point of
+/// the line nearest to the vehicle. The goal is never before the start of the segment.
 template <class T>
 T goal_along_m(const PurePursuit<T>& law, const AlongSegment<T>& s) {
   using math::sqrt;

@@ -113,7 +113,7 @@ struct SinCos {
 
 /// Largest |angle|, rad, for sin and cos. To reduce the angle to |r| <= pi/4, a multiple of pi/2 is
 /// subtracted; the integer factor is the quadrant. pi/2 is split into three parts. The first two
-/// have 33 bits, so that their products with a quadrant up to 2^20 are exact.
+/// parts have 33 bits, so that their products with a quadrant up to 2^20 are exact.
 constexpr double kLargestAngle = 0x1p20;
 
 AWMR_LANE_INLINE SinCos sin_cos_in_range(const Lanes& x) {
