@@ -1,5 +1,5 @@
 /// Allocation: computes the left and right wheel forces F'L, F'R and the steering angle d_r from
-/// the surge force tau_speed and the yaw moment tau_turn. Freestanding C++14.
+/// the surge force tau_speed and the yaw moment tau_turn.
 ///
 /// Limits, in this order: tau_speed is clipped to the motors' thrust, then d_r to |d_r| <= d_max.
 /// The forces F' are computed with the clipped d_r and clipped to [F'min, F'max]. In combined mode

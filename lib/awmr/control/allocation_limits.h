@@ -1,5 +1,4 @@
-/// Actuator limits that the allocation respects, and the commands that it returns. Freestanding
-/// C++14.
+/// Actuator limits that the allocation respects, and the commands that it returns.
 #pragma once
 
 #include "awmr/control/flash.h"

@@ -1,5 +1,4 @@
 /// Arming: the motors can turn only after the command ARM and until the first reason to stop.
-/// Freestanding C++14.
 ///
 /// After a reset, the vehicle is disarmed. ARM is refused while any fault other than the command
 /// time-out is present. STOP, a command time-out, any fault and the end of a route disarm the

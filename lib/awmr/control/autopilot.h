@@ -1,6 +1,6 @@
 /// One complete step of the firmware: measurement -> checks -> guidance -> laws -> observer ->
-/// allocation -> limits -> command. Freestanding C++14. A simulation in float on the host compiles
-/// the same source, with bit-identical results.
+/// allocation -> limits -> command. A simulation in float on the host compiles the same source,
+/// with bit-identical results.
 #pragma once
 
 #include <stdint.h>

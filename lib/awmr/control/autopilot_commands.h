@@ -1,5 +1,5 @@
 /// Functions that give the autopilot a route, obstacles, a filter or an observer. They take effect
-/// in the next step. Freestanding C++14.
+/// in the next step.
 #pragma once
 
 #include "awmr/control/autopilot_state.h"

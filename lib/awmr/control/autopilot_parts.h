@@ -1,6 +1,6 @@
 /// Optional parts of a firmware: disturbance observer, compensation of the motors' dead zone and
 /// back-EMF, gains by mode, and position estimate. The optional parts of the guidance are in
-/// guidance/parts.h. Freestanding C++14.
+/// guidance/parts.h.
 #pragma once
 
 #include <stdint.h>

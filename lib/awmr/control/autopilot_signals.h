@@ -1,4 +1,4 @@
-/// Input and output of one autopilot step. Freestanding C++14.
+/// Input and output of one autopilot step.
 #pragma once
 
 #include <stdint.h>

@@ -1,5 +1,5 @@
 /// State of the autopilot between two steps, and the function that initialises it from the
-/// parameters. Freestanding C++14.
+/// parameters.
 #pragma once
 
 #include <stdint.h>

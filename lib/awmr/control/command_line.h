@@ -1,5 +1,5 @@
 /// Reads commands from a serial line: one command per line, as text for a terminal or as frames for
-/// a program. Freestanding C++14.
+/// a program.
 ///
 ///     text   = WORD [" " NUMBER], for example "H 90"; command_word.h explains the words:
 ///              ARM  STOP  KEEP  G  N  Y  H <deg>  S <m/s>  M <mode>  T <force>

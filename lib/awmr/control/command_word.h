@@ -1,4 +1,4 @@
-/// Words of the commands that command_line.h reads. Freestanding C++14.
+/// Words of the commands that command_line.h reads.
 #pragma once
 
 #include <stdint.h>

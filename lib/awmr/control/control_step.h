@@ -1,5 +1,5 @@
 /// One sample of the controller for a given reference: control laws, compensation of the estimated
-/// disturbance, allocation. Freestanding C++14.
+/// disturbance, allocation.
 #pragma once
 
 #include "awmr/control/allocation.h"

@@ -1,5 +1,5 @@
-/// Model, gains and limits of the controller. Freestanding C++14: the same source runs in the
-/// simulator (double), on the host in float, and on the AVR.
+/// Model, gains and limits of the controller. The same source runs in the simulator (double), on
+/// the host in float, and on the AVR.
 #pragma once
 
 #include "awmr/control/allocation_limits.h"

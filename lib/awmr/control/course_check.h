@@ -1,4 +1,4 @@
-/// Check that the vehicle turns to the commanded heading. Freestanding C++14.
+/// Check that the vehicle turns to the commanded heading.
 #pragma once
 
 #include "awmr/control/motion_limits.h"

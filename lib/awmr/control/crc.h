@@ -1,4 +1,4 @@
-/// Cyclic redundancy checks, computed without a table. Freestanding C++14.
+/// Cyclic redundancy checks, computed without a table.
 #pragma once
 
 #include <stddef.h>

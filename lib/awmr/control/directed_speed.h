@@ -1,4 +1,4 @@
-/// Direction of travel for a speed sensor without a sign, such as a GPS. Freestanding C++14.
+/// Direction of travel for a speed sensor without a sign, such as a GPS.
 ///
 /// The speed law needs a signed speed: with |u| as its input, it can accelerate a vehicle that
 /// rolls backward (unsigned_push()). Here, a predicted speed u gives the sign. The identified model

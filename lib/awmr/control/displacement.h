@@ -1,4 +1,4 @@
-/// Displacement along a heading. Freestanding C++14, without names that Arduino defines as macros.
+/// Displacement along a heading. Avoids names that Arduino defines as macros.
 #pragma once
 
 #include "awmr/model/quick_sin.h"

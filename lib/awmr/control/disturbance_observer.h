@@ -1,6 +1,5 @@
 /// Disturbance observer for surge and yaw: estimates external forces that the control laws do not
-/// know, such as a slope. The estimate is subtracted from the outputs of the laws. Freestanding
-/// C++14.
+/// know, such as a slope. The estimate is subtracted from the outputs of the laws.
 #pragma once
 
 #include "awmr/model/dynamics.h"

@@ -1,4 +1,4 @@
-/// Resistance that the heading and speed laws feed forward. Freestanding C++14.
+/// Resistance that the heading and speed laws feed forward.
 #pragma once
 
 #include "awmr/control/resistance_table.h"

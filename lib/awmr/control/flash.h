@@ -1,5 +1,5 @@
 /// Reads constants from the flash of an AVR, where flash is a separate address space. On other
-/// processors, these constants are ordinary ones. Freestanding C++14.
+/// processors, these constants are ordinary ones.
 #pragma once
 
 #include <stdint.h>

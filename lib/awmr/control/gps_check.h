@@ -1,5 +1,5 @@
 /// Plausibility checks of GPS fixes. All time stamps are readings of one clock, in ms, that can
-/// wrap to 0. Freestanding C++14.
+/// wrap to 0.
 #pragma once
 
 #include "awmr/control/motion_check.h"

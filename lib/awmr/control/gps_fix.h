@@ -1,5 +1,5 @@
 /// Position fix of a GPS receiver, and its conversion from the numbers of an RMC sentence (NMEA
-/// 0183). Freestanding C++14.
+/// 0183).
 #pragma once
 
 #include <stdint.h>

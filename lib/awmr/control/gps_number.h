@@ -1,4 +1,4 @@
-/// Reader for one number of a GPS sentence, digit by digit. Freestanding C++14.
+/// Reader for one number of a GPS sentence, digit by digit.
 #pragma once
 
 #include "awmr/control/gps_fix.h"

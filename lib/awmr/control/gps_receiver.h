@@ -1,4 +1,4 @@
-/// Converts the characters of a GPS port to a checked position and speed. Freestanding C++14.
+/// Converts the characters of a GPS port to a checked position and speed.
 ///
 /// Characters are received between the control steps. The work on one sentence is spread over
 /// several steps, so that each step takes about the same time:

@@ -1,7 +1,7 @@
 /// Strict reader for the RMC sentence of a GPS receiver (NMEA 0183). A sentence with an empty or
 /// malformed field, or with a missing or wrong check sum, is unusable. The reader processes each
 /// character when it arrives, with integers only, so that the computing time is spread over several
-/// control steps. Freestanding C++14.
+/// control steps.
 #pragma once
 
 #include "awmr/control/gps_fix.h"

@@ -1,4 +1,4 @@
-/// Measures the zero-rate offset of a gyroscope before the vehicle moves. Freestanding C++14.
+/// Measures the zero-rate offset of a gyroscope before the vehicle moves.
 #pragma once
 
 #include "awmr/control/sensor_fault.h"

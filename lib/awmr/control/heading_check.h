@@ -1,5 +1,5 @@
 /// Plausibility checks of the raw readings of compass and gyroscope. All time stamps are readings
-/// of one clock, in ms, that can wrap to 0. Freestanding C++14.
+/// of one clock, in ms, that can wrap to 0.
 #pragma once
 
 #include "awmr/control/gyro_calibration.h"

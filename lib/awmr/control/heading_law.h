@@ -1,4 +1,4 @@
-/// The heading law: sliding mode with a boundary layer. Freestanding C++14.
+/// The heading law: sliding mode with a boundary layer.
 #pragma once
 
 #include "awmr/control/controller.h"

@@ -1,5 +1,5 @@
 /// LQI (linear-quadratic with integral) heading law, a baseline for comparison with the sliding
-/// mode of heading_law.h. Freestanding C++14.
+/// mode of heading_law.h.
 #pragma once
 
 #include "awmr/control/allocation_limits.h"

@@ -1,4 +1,4 @@
-/// Inputs of the controller: measurements and references. Freestanding C++14.
+/// Inputs of the controller: measurements and references.
 #pragma once
 
 namespace awmr {

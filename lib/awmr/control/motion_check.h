@@ -1,5 +1,5 @@
 /// Plausibility checks of the motion from one GPS fix to the next: they compare the displacement
-/// with the measured speed, the commanded direction and the heading. Freestanding C++14.
+/// with the measured speed, the commanded direction and the heading.
 #pragma once
 
 #include "awmr/control/course_check.h"

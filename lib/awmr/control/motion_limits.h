@@ -1,5 +1,4 @@
-/// Inputs and limits of the checks of the motion between GPS fixes (motion_check.h). Freestanding
-/// C++14.
+/// Inputs and limits of the checks of the motion between GPS fixes (motion_check.h).
 #pragma once
 
 #include "awmr/control/gps_sentence.h"

@@ -1,5 +1,4 @@
 /// Motor commands that make the allocated forces, for motors with back-EMF and a dead zone.
-/// Freestanding C++14.
 #pragma once
 
 #include "awmr/control/allocation_limits.h"

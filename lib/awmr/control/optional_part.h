@@ -1,4 +1,4 @@
-/// Parts: features of a firmware that can be compiled in or left out. Freestanding C++14.
+/// Parts: features of a firmware that can be compiled in or left out.
 #pragma once
 
 namespace awmr {

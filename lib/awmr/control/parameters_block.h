@@ -1,5 +1,5 @@
 /// Parameters of the vehicle and the controller for the firmware, as blocks with a common check
-/// sum. Freestanding C++14.
+/// sum.
 #pragma once
 
 #include <stddef.h>

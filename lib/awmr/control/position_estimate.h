@@ -1,5 +1,5 @@
 /// Estimate of the vehicle's position from GPS fixes, which have noise and latency, and from the
-/// measured motion. Freestanding C++14.
+/// measured motion.
 ///
 /// Between fixes, the position p follows the dead-reckoned displacement D (heading psi, surge speed
 /// u, sway speed v, sample time T_s). c is the correction applied so far:

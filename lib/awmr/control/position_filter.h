@@ -1,4 +1,4 @@
-/// Input and constants of the position estimate (position_estimate.h). Freestanding C++14.
+/// Input and constants of the position estimate (position_estimate.h).
 #pragma once
 
 #include <stdint.h>

@@ -1,5 +1,5 @@
 /// Table of a resistance g(w) as a function of the speed w. The table replaces powf, which is slow
-/// on the chip. Freestanding C++14.
+/// on the chip.
 ///
 /// The table has 2^m cells (ranges of speed) per octave, evenly spaced in the octave, so the
 /// relative error is similar at all speeds. All speeds of a cell have the same float exponent and

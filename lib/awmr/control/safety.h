@@ -1,4 +1,4 @@
-/// Input checks of the autopilot and the safe command. Freestanding C++14.
+/// Input checks of the autopilot and the safe command.
 #pragma once
 
 #include <stdint.h>

@@ -1,4 +1,4 @@
-/// Faults of a control step. Freestanding C++14, and free of names that Arduino defines as macros.
+/// Faults of a control step. Avoids names that Arduino defines as macros.
 #pragma once
 
 #include <stdint.h>

@@ -1,4 +1,4 @@
-/// Fault codes of compass, gyroscope and GPS. Freestanding C++14.
+/// Fault codes of compass, gyroscope and GPS.
 ///
 /// While a sensor has a fault, its readings are not used. Their time stamp becomes too old, and the
 /// autopilot outputs the safe command (safety.h). A fault usually ends with its cause. The

@@ -1,5 +1,4 @@
 /// Speed law: computes the surge force from the speed error, with the resistance fed forward.
-/// Freestanding C++14.
 #pragma once
 
 #include "awmr/control/controller.h"

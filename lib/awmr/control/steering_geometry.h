@@ -1,4 +1,4 @@
-/// Steering angle and wheel forces as functions of q. Freestanding C++14.
+/// Steering angle and wheel forces as functions of q.
 ///
 /// q is a measure of the steering angle d_r. k is the force share: the forces of a left and a right
 /// wheel add up to 2 k tau_speed. The left column defines q and k (l_f: centre of gravity to front

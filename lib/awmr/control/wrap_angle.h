@@ -1,4 +1,4 @@
-/// Wraps an angle to the equivalent angle in (-pi, pi]. Freestanding C++14.
+/// Wraps an angle to the equivalent angle in (-pi, pi].
 #pragma once
 
 #include "awmr/core/units.h"

@@ -1,5 +1,5 @@
-/// How each mode of yaw control (model/yaw_mode.h) distributes the yaw moment to steering and
-/// wheel forces. Freestanding C++14.
+/// How each mode of yaw control (model/yaw_mode.h) distributes the yaw moment to steering and wheel
+/// forces.
 #pragma once
 
 #include "awmr/model/scalar_math.h"

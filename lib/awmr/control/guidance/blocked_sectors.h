@@ -1,5 +1,5 @@
 /// Geometry of the obstacle avoidance: the headings that circular obstacles block, and the speed
-/// that the obstacles permit. obstacles.h explains the symbols. Freestanding C++14.
+/// that the obstacles permit. obstacles.h explains the symbols.
 #pragma once
 
 #include "awmr/control/guidance/position.h"

@@ -1,7 +1,6 @@
 /// Guidance of one step: computes the reference heading and speed from waypoints, a line or a timed
 /// path, turns the heading away from obstacles, and smooths it. Optional parts that a firmware
-/// leaves out have the type Disabled<Part>; the overloads for this type do nothing. Freestanding
-/// C++14.
+/// leaves out have the type Disabled<Part>; the overloads for this type do nothing.
 #pragma once
 
 #include "awmr/control/flash.h"

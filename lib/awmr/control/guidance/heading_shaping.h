@@ -1,5 +1,4 @@
-/// Filter that smooths the heading reference and also gives its rate and acceleration. Freestanding
-/// C++14.
+/// Filter that smooths the heading reference and also gives its rate and acceleration.
 #pragma once
 
 #include "awmr/control/wrap_angle.h"

@@ -1,4 +1,4 @@
-/// Integral line of sight (ILOS), a guidance law that follows a line. Freestanding C++14.
+/// Integral line of sight (ILOS), a guidance law that follows a line.
 ///
 /// With plain line of sight, a side slope, an unmeasured sideslip or a steady heading error keeps
 /// the vehicle at a constant distance from the line, parallel to it. ILOS integrates this distance

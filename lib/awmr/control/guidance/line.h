@@ -1,5 +1,4 @@
-/// Guidance along a line or polyline, by one of the guidance laws of line_laws.h. Freestanding
-/// C++14.
+/// Guidance along a line or polyline, by one of the guidance laws of line_laws.h.
 #pragma once
 
 #include "awmr/control/guidance/position.h"

@@ -1,4 +1,4 @@
-/// List of the guidance laws that follow a line. Freestanding C++14.
+/// List of the guidance laws that follow a line.
 ///
 /// To add a law, write its header (Polyline in line.h lists the members that a law needs), include
 /// the header here and add the law to LineLaws. Scenario files, the simulator, `awmr emit

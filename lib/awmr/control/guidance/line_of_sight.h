@@ -1,4 +1,4 @@
-/// Line of sight, the paper's guidance law that follows a line. Freestanding C++14.
+/// Line of sight, the paper's guidance law that follows a line.
 #pragma once
 
 #include "awmr/control/guidance/line.h"

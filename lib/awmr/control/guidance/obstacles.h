@@ -1,5 +1,5 @@
 /// Obstacle avoidance: turns the heading commanded by the guidance out of the sectors that circular
-/// obstacles block. Freestanding C++14.
+/// obstacles block.
 ///
 /// The paper names MMD, D_obs and sigma, but its figure of the algorithm is lost.     [paper 5.2.2]
 /// The rule here is the project's own. The vehicle is at the position p with the speed u. For

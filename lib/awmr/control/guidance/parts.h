@@ -1,5 +1,5 @@
 /// Optional parts of the guidance, which a firmware can leave out (optional_part.h): parameters and
-/// state of each. Freestanding C++14.
+/// state of each.
 #pragma once
 
 #include <stdint.h>

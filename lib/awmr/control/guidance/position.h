@@ -1,4 +1,4 @@
-/// Points in the world frame, and distances and directions between points. Freestanding C++14.
+/// Points in the world frame, and distances and directions between points.
 #pragma once
 
 #include "awmr/control/flash.h"

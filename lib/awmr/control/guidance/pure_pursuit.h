@@ -1,4 +1,4 @@
-/// Pure pursuit, a guidance law that follows a line. Freestanding C++14.
+/// Pure pursuit, a guidance law that follows a line.
 ///
 /// The vehicle drives towards a goal, a point on the line at the lookahead distance from the
 /// vehicle. The goal passes a corner before the vehicle does, so the vehicle rounds the corner on

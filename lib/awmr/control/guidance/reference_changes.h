@@ -1,6 +1,5 @@
 /// Changes of the reference that the guidance has computed: turns the heading away from obstacles,
 /// and smooths it. The overloads for Disabled<Part>, a part that is not compiled in, do nothing.
-/// Freestanding C++14.
 #pragma once
 
 #include "awmr/control/flash.h"

@@ -1,4 +1,4 @@
-/// Stanley, a guidance law that follows a line. Freestanding C++14.
+/// Stanley, a guidance law that follows a line.
 ///
 /// The approach angle grows with the ratio of the distance from the line to the speed. So the
 /// distance decreases with nearly the same time constant at every speed well above `softening_mps`.

@@ -1,4 +1,4 @@
-/// Guidance along a timed path, with and without position feedback. Freestanding C++14.
+/// Guidance along a timed path, with and without position feedback.
 #pragma once
 
 #include "awmr/control/guidance/position.h"

@@ -1,4 +1,4 @@
-/// Guidance to waypoints by line of sight. Freestanding C++14.
+/// Guidance to waypoints by line of sight.
 #pragma once
 
 #include "awmr/control/flash.h"
