@@ -43,7 +43,6 @@ struct PreparedController {
   ControlConstants<T> constants;
 };
 
-/// Computes the constants of a controller.
 template <class T, class G>
 PreparedController<T, G> prepared(const Controller<T, G>& c) {
   return {

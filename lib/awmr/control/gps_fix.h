@@ -6,7 +6,6 @@
 
 namespace awmr {
 
-/// One position fix.
 struct GpsFix {
   uint32_t utc_ms;  ///< time of day, ms since midnight UTC
   int32_t lat_e7;   ///< 1e-7 deg, north positive

@@ -21,7 +21,6 @@ struct GpsMotion {
   float speed_mps;  ///< measured speed at the second fix, without a sign
 };
 
-/// Limits of the checks.
 struct MotionLimits {
   /// Maximum time between two fixes, s, whose motion is checked. After a longer gap, restart() is
   /// called, which also clears the fault.

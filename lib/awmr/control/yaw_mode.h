@@ -27,7 +27,6 @@ struct YawSplit {
   Mask<T> redistributes;  ///< true: combined mode with CombinedSplit::kRedistribute
 };
 
-/// Returns the split of a mode.
 template <class T>
 YawSplit<T> yaw_split(YawMode mode, CombinedSplit split) {
   const bool combined = mode == YawMode::kCombined;

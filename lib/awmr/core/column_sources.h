@@ -27,7 +27,6 @@ struct ColumnSource {
   std::optional<TimeColumn> time = {};  ///< only for t_s: how its cells give the time
 };
 
-/// A fault of the header.
 struct HeaderFault {
   ErrorCode code;
   std::optional<std::size_t> cell;  ///< index of the faulty cell; none: the whole header

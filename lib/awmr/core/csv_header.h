@@ -36,7 +36,6 @@ Result<CsvHeader> find_header(CsvScanner& scanner, const std::string& file,
 /// the first line, cells between commas, semicolons or tabs, decimal points.
 std::vector<CsvNote> format_notes(const CsvHeader& header, bool has_decimal_commas);
 
-/// Message for a fault of the CSV scanner.
 std::string message_of(CsvScanner::Outcome outcome);
 
 }  // namespace awmr

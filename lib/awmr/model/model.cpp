@@ -41,7 +41,6 @@ Result<Plant<double>> plant_with(const Model& model, IsNeeded is_needed) {
   return model.plant_as_known();
 }
 
-/// The motion that a trial of this kind measures.
 Motion motion_of(TrialKind kind) {
   switch (kind) {
     case TrialKind::kSurge:

@@ -63,7 +63,6 @@ std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
                                             const Scenario& scenario, double sample_time_s,
                                             const BatchArithmetic& arithmetic);
 
-/// A run with its metrics.
 struct DrivenRun {
   Run run;
   Metrics metrics;

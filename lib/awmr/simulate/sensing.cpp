@@ -17,7 +17,6 @@ enum Use : std::uint64_t { kHeading = 1, kYawRate, kSpeed, kGps };
 constexpr double kTimeRounding = 1e-9;
 constexpr double kTimeRounding_s = 1e-9;
 
-/// Number of whole samples in a latency.
 std::size_t whole_samples(double latency_s, double sample_time_s) {
   return static_cast<std::size_t>(latency_s / sample_time_s + kTimeRounding);
 }

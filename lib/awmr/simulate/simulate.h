@@ -60,7 +60,6 @@ struct RunRow {
   WheelForces<double> acting = {0.0, 0.0, 0.0, 0.0};
 };
 
-/// End of a run.
 enum class RunEnd {
   kDuration,   ///< the scenario's duration is over
   kFinished,   ///< the vehicle reached the last waypoint or the end of the line

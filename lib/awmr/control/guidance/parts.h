@@ -23,7 +23,6 @@ struct VehiclePose {
   Time now;
 };
 
-/// Time from `start` to `now`, s.
 inline float elapsed_s(uint32_t start_ms, uint32_t now_ms) {
   return 0.001F * static_cast<float>(now_ms - start_ms);
 }
