@@ -14,8 +14,8 @@
 
 namespace awmr {
 
-/// Returns the commanded heading at the time `t_s`, rad, not wrapped. The last heading step that has
-/// begun commands it.
+/// Returns the commanded heading at the time `t_s`, rad, not wrapped: the heading of the last step
+/// that has begun.
 double heading_at(const HeadingSteps& guidance, double t_s);
 
 /// Output of the guidance at one sample.
