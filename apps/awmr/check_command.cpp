@@ -45,8 +45,8 @@ bool is_null_at(const Json& document, const std::string& file, const std::string
   return document.contains(pointer) && document.at(pointer).is_null();
 }
 
-/// Reads a JSON file of the project. A null value marks what the user still has to fill in. So it
-/// is reported as missing, not as an error of the file.
+/// Reads a JSON file of the project. Reports a null value as missing, not as an error of the file:
+/// it marks what the user still has to fill in.
 template <class T>
 std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::path&),
                              Check& check) {
@@ -77,8 +77,8 @@ bool has_rows(const fs::path& path, Check& check) {
          std::any_of(sample->texts.begin(), sample->texts.end(), is_filled);
 }
 
-/// Returns one of the parameters that this kind of trial identifies. By this parameter, trial_of()
-/// finds the description of the trial for messages.
+/// Returns one of the parameters that this kind of trial identifies. trial_of() uses it to find the
+/// description of the trial for messages.
 ParameterId shown_by(TrialKind kind) {
   switch (kind) {
     case TrialKind::kTurning:
@@ -127,9 +127,8 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
   const auto nothing_shows = [&](ParameterId id) {
     check.missing.push_back(
         {"", 0, Severity::kError, "missing-trial",
-         fmt::format("no trial for {} ({}), without which no gains can be tuned; record {}",
-                     info(id).name, info(id).meaning,
-                     vehicle ? trial_of(*vehicle, id) : info(id).trial)});
+         fmt::format("no trial determines {} ({}), which awmr tune needs; record {}", info(id).name,
+                     info(id).meaning, vehicle ? trial_of(*vehicle, id) : info(id).trial)});
   };
   if (!project.surge) nothing_shows(ParameterId::kSurgeAlpha);
   if (!project.turning) nothing_shows(ParameterId::kYawAlpha);
@@ -144,8 +143,8 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
            info(ParameterId::kSwayAlpha).meaning, assumed_sway_factor())});
 }
 
-/// If the list has a fault of the file `path`, adds another fault that suggests column mappings.
-/// They are guessed from the file's column names.
+/// If the list has a fault of the file `path`, adds a fault that suggests column mappings, guessed
+/// from the file's column names.
 void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& options,
                       std::vector<Fault>& faults) {
   const std::string place = path.string() + ":";
@@ -185,8 +184,8 @@ void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
 void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const bool nothing = !files.surge && !files.turning && files.coastdowns.empty();
   if (nothing && files.logs.empty()) return;
-  // A column mapping that no file uses is usually a fault. But as long as some files have no rows,
-  // it may be for one of these files, which are not read. It is then accepted.
+  // A column mapping that no file uses is usually an error. But it is accepted as long as some
+  // files have no rows: it may be for one of these, which are not read.
   for (ColumnMapping& mapping : files.options.columns) mapping.standing |= !all_recorded;
   files.steady_from_logs = files.steady_from_logs && !files.logs.empty();
   const bool as_is = files.options.as_is;

@@ -52,7 +52,7 @@ struct IdentifyCommand {
   IdentifyOptions identify;
   TrialOptions trials;
   fs::path output;
-  /// Names under which the output file lists its inputs. Only `run` sets them. Empty: the file
+  /// Names under which the output file lists its inputs. Empty: the file names. Only `run` sets
   /// names.
   InputNames names = {};
 };
@@ -128,10 +128,10 @@ struct ValidateCommand {
   AllocationChoice allocation = {};
   std::vector<fs::path> logs = {};
   TrialOptions trials = {};  ///< column mappings and used time spans of the logs
-  /// Column mappings for files that are not in `logs`: true: they are ignored; false: they are
-  /// errors.
+  /// true: ignore column mappings for files that are not in `logs`; false: such a mapping is an
+  /// error.
   bool other_columns = false;
-  double horizon_s = 10.0;  ///< length of the windows over which logs are predicted
+  double horizon_s = 10.0;  ///< length of the windows in which logs are predicted, s
   /// Largest accepted NRMSE of the prediction of a channel over a window (RMS error divided by the
   /// standard deviation of the measurements).
   double log_tolerance = 0.3;
@@ -139,7 +139,7 @@ struct ValidateCommand {
   bool tyres = false;
   bool claims = false;  ///< print the paper's fourteen claims, each with its criterion and reason
   std::optional<fs::path> claims_table = {};  ///< Markdown file for the claims
-  /// If given: the logs are drives of this scenario under the controller.
+  /// If given: the vehicle drove this scenario under the controller while it recorded the logs.
   std::optional<fs::path> scenario = {};
   AcceptanceOptions acceptance = {};
   InputNames names = {};

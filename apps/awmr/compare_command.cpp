@@ -134,10 +134,11 @@ Status read_texts(const Texts& texts, CompareCommand& command) {
 
 void add_samples(CLI::App& command, CompareOptions& options) {
   command
-      .add_option("--samples", options.samples,
-                  "Number of repetitions, each with randomly drawn parameters (from the model's "
-                  "covariance), noise and disturbances (default 0: one run with the model's own "
-                  "values)")
+      .add_option(
+          "--samples", options.samples,
+          "Number of simulated vehicles, each with randomly drawn parameters (from the model's "
+          "covariance), noise and disturbances (default 0: one run with the model's own "
+          "values)")
       ->check(within(0, 1000000));
   command.add_option("--seed", options.seed, "Seed of the draws (default 1)")
       ->check(within<std::uint64_t>(0, kAnySeed));
@@ -277,9 +278,9 @@ void add_compare(CLI::App& app, Session& session) {
   add_samples(*sub, command->compare);
   add_preferences(*sub, *texts);
   sub->add_flag("--break-even", command->compare.break_even,
-                "Also compute the break-even tyre scrub, at which a better mode is no longer ahead "
-                "of a mode with smaller differences between left and right force; scrub is a "
-                "constant yaw moment against differential turns");
+                "Also compute the break-even tyre scrub: the constant yaw moment against "
+                "differential turns at which a better mode is no longer better than a mode with "
+                "smaller differences between left and right force");
   add_shard(*sub, texts->shard);
   add_allocation(*sub, command->allocation);
   add_heading_rate_limit(*sub, command->heading_rate_limit, "measured, if the model has that rate");

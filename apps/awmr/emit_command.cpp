@@ -86,9 +86,9 @@ void add_coarse(const char* name, const EmittedTable& table, const EmitCommand& 
            name, 100.0 * table.largest_relative_error(), 100.0 * kTableError)});
 }
 
-/// Warns of gains that are too weak to hold a heading. They are, if the steady heading error of a
-/// vehicle whose left and right motors differ by 16 % exceeds kMaxOnCourse_rad/2. This is half of
-/// the largest error that the sketches accept without fault 17.
+/// Warns of gains that are too weak to hold a heading: if left and right motors differ by 16 %, the
+/// steady heading error exceeds kMaxOnCourse_rad/2, half of the largest error that the sketches
+/// accept without fault 17.
 void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& command,
                       Outcome& outcome) {
   if (2.0 * parameters.steady_error_rad <= kMaxOnCourse_rad) return;
@@ -101,9 +101,9 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
            degrees(parameters.steady_error_rad))});
 }
 
-/// Warns of a sample time that the firmware cannot use. It may not be shorter than the chip's
-/// longest step with the compiled parts. Nor may it be longer than the permitted time between two
-/// steps, or than half of the heading timeout.
+/// Warns of a sample time that the firmware cannot use: shorter than the chip's longest step with
+/// the compiled parts, or longer than the permitted time between two steps or than half of the
+/// heading timeout.
 std::vector<Finding> sample_time(double sample_time_s, const ModeGains& gains,
                                  const EmitCommand& command) {
   const double longest_step_s =

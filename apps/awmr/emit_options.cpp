@@ -22,8 +22,8 @@ void add_resistance_options(CLI::App& command, EmitOptions& options) {
   command
       .add_option("--table-error", options.table_error,
                   "Largest permitted error of a resistance table, as a fraction of the resistance. "
-                  "For a resistance below a tenth of the largest force (yaw: moment), it is a "
-                  "fraction of that tenth. It is an error if no table is that accurate [5e-4, or "
+                  "Where the resistance is below a tenth of the largest force (yaw: moment): as a "
+                  "fraction of this tenth. If no table is accurate enough, emit fails [5e-4, or "
                   "the error of the most accurate table]")
       ->check(within(1e-7, 0.1));
 }

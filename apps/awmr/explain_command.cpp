@@ -52,11 +52,8 @@ std::vector<std::string> parts_of(const std::string& list) {
   return parts;
 }
 
-/// Reads the rows of FINDINGS.md, `| codes
-/// severity
-/// meaning
-/// remedy |`. A row has one severity for all its codes, or one for each (tests/cli/findings.py
-/// checks that).
+/// Reads the rows of FINDINGS.md, which have the columns codes, severity, meaning and remedy. A row
+/// has one severity for all its codes, or one for each code (tests/cli/findings.py checks this).
 std::vector<Explanation> explanations() {
   std::vector<Explanation> all;
   std::string group;

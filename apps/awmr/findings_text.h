@@ -12,9 +12,9 @@ namespace awmr::cli {
 /// Formats a finding as `warning: FILE:LINE: MESSAGE [CODE]`, like a compiler.
 std::string to_text(const Finding& finding, const Style& style);
 
-/// Returns the text of the findings, those with the largest effect on the results first. The first
-/// three findings have a line each, and all errors do, even if there are more than three. If two or
-/// more findings remain, a last line counts them by code.
+/// Formats the findings, those with the largest effect on the results first. The first three
+/// findings and all errors have a line each. If two or more other findings remain, a last line
+/// counts them by code.
 std::string findings_text(const std::vector<Finding>& findings, const Style& style);
 
 }  // namespace awmr::cli

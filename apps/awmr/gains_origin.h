@@ -14,9 +14,9 @@ namespace awmr::cli {
 /// Adds a warning if the gains were tuned for another model or another mode.
 /// `gains-of-another-model`: the gains file lists inputs, but the SHA-256 of the model is not among
 /// them. `gains-of-another-mode`: the gains were tuned for one mode only, and are used in another.
-/// `mode`: the mode in which the gains are used; absent: all modes. There is no warning for gains
-/// that were written by hand, which list no inputs. Nor is there one for gains from a pipe, which
-/// can be read only once. Errors: those of read_json_file().
+/// `mode`: the mode in which the gains are used; absent: all modes. No warning for gains that were
+/// written by hand (they list no inputs), or that come from a pipe (it can be read only once).
+/// Errors: those of read_json_file().
 Status note_other_model(const std::filesystem::path& gains, const std::filesystem::path& model,
                         std::vector<Finding>& findings, std::optional<YawMode> mode = {});
 

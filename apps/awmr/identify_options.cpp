@@ -35,7 +35,7 @@ Status add_family(std::string_view text, IdentifyOptions& options) {
   if (again) {
     return input_error(ErrorCode::kGivenTwice, "--family",
                        fmt::format("'{}' selects a second family for the same resistance; give "
-                                   "one for surge and one for yaw",
+                                   "one family for surge and one for yaw",
                                    text));
   }
   if (subject.empty()) {

@@ -40,8 +40,8 @@ std::string error_schema();
 /// key; pairs with an empty text are left out.
 std::string joined(const std::vector<std::pair<std::string, std::string>>& documents);
 
-/// True if `--json` is among the arguments. The search does not need valid arguments: if others are
-/// invalid, their errors must be printed as JSON.
+/// True if `--json` is among the arguments. The other arguments may be invalid: their errors must
+/// then be printed as JSON.
 bool requests_json(int argc, char** argv);
 
 }  // namespace awmr::cli

@@ -57,8 +57,8 @@ int end_of_parsing(const CLI::App& app, const CLI::ParseError& error, int argc, 
     app.exit(error);
     return std::cout.flush() ? 0 : 2;
   }
-  // Without arguments, the commands are shown, but the exit code is that of a usage error. So a
-  // script fails if its variable is empty by mistake.
+  // Without arguments, the program prints the help, but returns 2 (usage error): a script whose
+  // variable is empty by mistake must fail.
   const std::string what = awmr::printable(awmr::cli::usage_error_text(app, error, argc, argv));
   if (awmr::cli::requests_json(argc, argv)) {
     std::fputs(
@@ -98,8 +98,8 @@ int fail(const awmr::Error& error, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file that exceeds the limit of the file size raises SIGXFSZ, which would end the program. If
-  // this signal is ignored, the write fails instead, and the error is reported.
+  // A file beyond the system's size limit raises SIGXFSZ, which would end the program. If the
+  // signal is ignored, the write fails instead, and awmr reports the error.
   std::signal(SIGXFSZ, SIG_IGN);
   awmr::remove_temporaries_on_signals();
   try {

@@ -46,9 +46,9 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, Value& val
 /// Largest random seed.
 inline constexpr std::uint64_t kAnySeed = std::numeric_limits<std::uint64_t>::max();
 
-/// Accepts a finite number from `min` to `max` that no text follows. For an integer option, it must
-/// be a whole number; for an unsigned one, also without minus sign. CLI11 alone would convert -1
-/// and 10^23 to 2^64 - 1, and accept nan in every range.
+/// Accepts a finite number from `min` to `max` without further text: for an integer type a whole
+/// number, for an unsigned type without minus sign. CLI11's own check would convert -1 and 10^23 to
+/// 2^64 - 1, and accept nan in every range.
 template <class Number>
 CLI::Validator within(Number min, Number max) {
   static_assert(std::is_arithmetic_v<Number>);
@@ -77,8 +77,8 @@ inline CLI::Validator not_empty() {
       [](const std::string& path) { return path.empty() ? "is empty: give a path" : ""; }, "");
 }
 
-/// Refuses the output path "-". Many programs understand it as standard output, which awmr does not
-/// support.
+/// Refuses the output path "-", which means standard output in many programs. awmr does not support
+/// it.
 inline CLI::Validator not_standard_output() {
   return CLI::Validator(
       [](const std::string& path) {

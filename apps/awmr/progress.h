@@ -15,8 +15,8 @@ namespace awmr::cli {
 /// The kinds of progress display that are enabled.
 struct ProgressManner {
   bool on_terminal = true;  ///< a redrawn line on a terminal; false with `--quiet`
-  /// Progress as printed lines, if stderr is no terminal. Only `live` prints such lines. False with
-  /// `--quiet` or `--json`.
+  /// Printed lines, if stderr is no terminal; only `live` prints them. False with `--quiet` or
+  /// `--json`.
   bool in_lines = true;
 };
 void show_progress(ProgressManner manner);
@@ -37,8 +37,8 @@ std::size_t terminal_columns();
 /// Shows a progress line at the bottom of the terminal as long as the object exists: the current
 /// work and the elapsed time. If the work reports its parts, the line also shows the fraction done
 /// and the time left. Otherwise it shows the longest expected duration, if that is known. If stderr
-/// is not a terminal, nothing is shown. Of several objects, the latest is shown; destroy them in
-/// reverse order.
+/// is not a terminal, nothing is shown. If several objects exist, only the line of the newest is
+/// shown. Destroy them in reverse order: the line of the older one then appears again.
 class Working {
  public:
   /// `most_s`: approximate longest duration, s; 0 if unknown.

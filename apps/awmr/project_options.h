@@ -1,6 +1,6 @@
 /// Adapts messages of other commands for users of `run` and `check`. These messages name
-/// command-line options, which `run` and `check` do not have. So each such option is replaced by
-/// the key of project.json or tune.json that has the same effect.
+/// command-line options, which `run` and `check` do not have. for_project() replaces each such
+/// option by the key of project.json or tune.json with the same effect.
 #pragma once
 
 #include <string_view>

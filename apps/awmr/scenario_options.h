@@ -53,13 +53,13 @@ inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std
   command
       .add_option_function<std::string>(
           kPlantOption, set,
-          "Simulated vehicle in every scenario. model: the 3-DOF equations of the model; "
-          "four-wheel: the body on four tyres with a friction circle, whose parameters are in the "
-          "scenario or default ones (default: " +
+          "Vehicle to simulate in every scenario. model: the 3-DOF equations of model.json; "
+          "four-wheel: a body on four tyres with a friction circle, and with the tyre values of "
+          "the scenario or default values (default: " +
               by_default + ")")
       ->check(one_of(std::move(names)));
   add_file(command, kTyresOption, choice.tyres_file,
-           "validation.json of validate --tyres: the tyres of the four-wheel plant");
+           "validation.json of validate --tyres: the tyre values of the four-wheel plant");
 }
 
 inline void add_plant(CLI::App& command, PlantChoice& choice) {
@@ -85,8 +85,8 @@ inline Result<Tyres<double>> tyres_of(const PlantChoice& choice, std::vector<Fin
   findings.push_back(
       {choice.tyres_file->string(), 0, Severity::kNote, "tyres-simulated",
        fmt::format("the four-wheel plant has fitted tyres (friction coefficient {:.3g}, cornering "
-                   "stiffness {:.3g} per rad); on the parts of the logs that were held out from "
-                   "the fit, {}",
+                   "stiffness {:.3g} per rad); on the parts of the logs that were not used in the "
+                   "fit, {}",
                    fit.tyres.friction, fit.tyres.cornering_per_rad,
                    fit.better ? fmt::format("the {} plant predicts better: rely on its results",
                                             name_in(kPlantKindNames, *fit.better))
@@ -116,7 +116,7 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
       std::ranges::any_of(scenarios, [](const Scenario& s) { return s.tyres.has_value(); });
   if (choice.tyres_file && !has_tyres && !choice.runs_other()) {
     return input_error(ErrorCode::kConflict, kTyresOption,
-                       fmt::format("no run uses the four-wheel plant, which these tyres are for: "
+                       fmt::format("these tyres are for the four-wheel plant, which no run uses: "
                                    "remove this option, or give {} {}",
                                    kPlantOption, name_in(kPlantKindNames, PlantKind::kFourWheel)));
   }
@@ -148,9 +148,8 @@ inline std::vector<std::pair<std::string, std::string>> options_of(
   return {{kPlantName, plants_text(scenarios)}};
 }
 
-/// Form of the allocation, the equations that compute wheel forces and steering angle: exact, or
-/// for small angles. A form on the command line replaces those of the vehicle and the scenarios.
-/// Empty: none is given.
+/// Form of the allocation, that is, of the equations that compute wheel forces and steering angle:
+/// exact, or for small angles. A given form replaces the forms of vehicle and scenarios.
 using AllocationChoice = std::optional<AllocationForm>;
 
 inline void add_allocation(CLI::App& command, AllocationChoice& choice) {
@@ -188,9 +187,9 @@ inline void add_heading_rate_limit(CLI::App& command, HeadingRateChoice& choice,
       .add_option(
           "--heading-rate-limit", choice,
           fmt::format("Limit of the rate of heading commands in closed-loop scenarios, deg/s. "
-                      "'measured': the highest yaw rate in vehicle.json (yaw_rate_max_degps) or, "
-                      "without it, in the turning trials and fitted logs. 'none': no limit except "
-                      "those in the scenarios (default: {})",
+                      "'measured': yaw_rate_max_degps of vehicle.json or, if it is not given, the "
+                      "highest yaw rate of the turning trials and fitted logs. 'none': only the "
+                      "limits in the scenarios (default: {})",
                       by_default))
       ->check(CLI::Validator(fault_of_rate, "measured, none or deg/s", ""));
 }

@@ -6,15 +6,16 @@
 
 namespace awmr::cli {
 
-/// Handles SIGINT as long as the object exists. The first signal requests a stop. A second one ends
-/// the program at once, as the first one would without this object.
+/// Handles SIGINT as long as the object exists. The first signal requests a stop; a second signal
+/// ends the program at once.
 class StopOnInterrupt {
  public:
   StopOnInterrupt();
   ~StopOnInterrupt();
   StopOnInterrupt(const StopOnInterrupt&) = delete;
   StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
-  /// True after the first signal. Runs in progress are then finished, but no new run is started.
+  /// True after the first signal. The computation then finishes its runs in progress and starts no
+  /// new run.
   static std::atomic<bool>& requested();
 };
 

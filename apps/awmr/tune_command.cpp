@@ -50,8 +50,8 @@ Status check_against(const TuneConfig& config, const TuneCommand& command) {
   return {};
 }
 
-/// Returns the note `option-overrides` for each option that overrides a value in tune.json. Adds
-/// one for each key about drawn vehicles if `--nominal` makes the key ineffective.
+/// Returns the note `option-overrides` for each option that overrides a value in tune.json. With
+/// `--nominal`, also for each key about drawn vehicles, which then has no effect.
 std::vector<Finding> overridden_keys(const TuneConfig& config, const TuneCommand& command) {
   std::vector<Finding> findings;
   const auto note = [&](const char* key, const std::string& before, const std::string& now) {
@@ -150,14 +150,14 @@ CLI::Option* add_search(CLI::App& sub, TuneCommand& command) {
   auto* observer = sub.add_flag_callback(
       "--observer", [&command] { command.observer = true; },
       "Also tune a disturbance observer, for constant disturbances such as a slope or unequal "
-      "motors (default: only if runs do not settle without it)");
+      "motors (default: only if fewer than 95 % of the runs settle without it)");
   sub.add_flag_callback(
          "--no-observer", [&command] { command.observer = false; },
-         "Tune no disturbance observer, even if runs do not settle without it")
+         "Tune no disturbance observer, even if runs do not settle without one")
       ->excludes(observer);
   sub.add_option("--baseline", command.baseline,
-                 "Baseline gains, whose objective is 1 by definition: pole-placement (default), "
-                 "paper or a gains.json")
+                 "Gains for comparison, whose objective is 1 by definition: pole-placement "
+                 "(default), paper or a gains.json")
       ->type_name("NAME|FILE");
   auto* one_set =
       sub.add_flag("--one-set", command.one_set,
@@ -210,8 +210,8 @@ Result<Outcome> execute(const TuneCommand& command) {
 void add_tune(CLI::App& app, Session& session) {
   auto command = std::make_shared<TuneCommand>();
   CLI::App* sub = add_command(app, session, "tune",
-                              "Tune the gains of the heading and speed laws; they reach the "
-                              "sliding surface faster (T2) than errors decay on it (T1)",
+                              "Tune the gains of the heading and speed controllers, so that the "
+                              "sliding variable decays faster (T2) than the errors (T1)",
                               "awmr tune --model model.json -o gains.json",
                               [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();

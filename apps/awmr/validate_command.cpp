@@ -151,8 +151,8 @@ void note_fitted_logs(const Model& model, const Provenance& provenance,
                             [&](const InputFile& fitted) { return fitted.sha256 == input.sha256; });
     if (!is_fitted) continue;
     findings.push_back({input.name, 0, Severity::kWarning, "log-of-the-fit",
-                        "the model was fitted to this log, so the result shows the fit, not the "
-                        "prediction. Validate on a log that was not fitted"});
+                        "the model was fitted to this log, so the result shows how well it fits, "
+                        "not how well it predicts. Validate on a log that was not fitted"});
   }
 }
 
@@ -170,7 +170,8 @@ std::string summary_of(const ValidateCommand& command, const Validation& validat
 
 void add_model_options(CLI::App& sub, ValidateCommand& command) {
   add_file(sub, "--model", command.model, "model.json from identify")->required();
-  add_file(sub, "--gains", command.gains, "gains.json: also check the claims on the closed loop");
+  add_file(sub, "--gains", command.gains,
+           "gains.json: also check the paper's claims about the closed loop");
   sub.add_option("--tolerance", command.validate.tolerance,
                  "Largest accepted relative error (RMS) of the predictions for one kind of trial "
                  "(default 0.15)")
@@ -182,7 +183,8 @@ void add_log_options(CLI::App& sub, ValidateCommand& command, ColumnWords& colum
   add_file(sub, "--log", command.logs,
            "CSV of a driving log, preferably not used in the fit; may be repeated");
   sub.add_option("--horizon", command.horizon_s,
-                 "Length of the windows over which logs are predicted, s (default 10)")
+                 "Length of the windows in which logs are predicted, s; each prediction starts "
+                 "from the measured state (default 10)")
       ->check(within(0.01, 1e6));
   sub.add_option("--log-tolerance", command.log_tolerance,
                  "Largest accepted normalised RMS prediction error (NRMSE) of a channel over a "
@@ -221,10 +223,11 @@ void add_drive_options(CLI::App& sub, ValidateCommand& command) {
 }
 
 void add_claims_options(CLI::App& sub, ValidateCommand& command) {
-  auto* claims = sub.add_flag("--claims", command.claims,
-                              "Check the paper's fourteen claims. For each, print the result, the "
-                              "criterion, and the settings that decide the result but are not "
-                              "given in the paper (without --gains: the paper's gains)");
+  auto* claims =
+      sub.add_flag("--claims", command.claims,
+                   "Check the paper's fourteen claims, with the paper's gains if --gains "
+                   "is absent. For each claim, print the result, the criterion, and the "
+                   "settings that decide the result but are not given in the paper");
   add_file(sub, "--claims-table", command.claims_table, "Also write the claims as a Markdown table")
       ->needs(claims);
   add_allocation(sub, command.allocation);
