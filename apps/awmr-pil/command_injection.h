@@ -13,9 +13,9 @@
 
 namespace awmr::pil {
 
-/// Simulated operator of one run, who sends the command KEEP every 0.3 s. From the beginning of the
-/// failure on, other characters or none arrive instead of KEEP. If the injection is STOP, it
-/// arrives once, and the KEEP commands continue.
+/// Simulated operator of one run, who sends the command KEEP every 0.3 s. When the failure begins,
+/// other characters or none replace KEEP. With the injection STOP, one STOP arrives and the KEEP
+/// commands continue.
 class CheckedCommands {
  public:
   explicit CheckedCommands(cli::Injection injection) : injection_(injection) {}

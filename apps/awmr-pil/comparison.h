@@ -32,8 +32,8 @@ Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>&
 Difference difference(const std::vector<LoopRow>& a, const Run& b);
 
 /// Returns the largest heading difference between the runs, deg, >= 0; infinite if a heading is not
-/// finite. At each sample of `a`, it is the distance from the range of the headings of `b` at the
-/// previous, the same and the next sample. Reason: by rounding alone, one run can begin to turn one
+/// finite. At each sample, the heading of `a` is compared with the range of the headings of `b` at
+/// the previous, the same and the next sample, because rounding alone can make one run turn one
 /// sample before the other.
 double heading_apart_deg(const std::vector<LoopRow>& a, const Run& b);
 

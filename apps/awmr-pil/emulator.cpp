@@ -21,9 +21,9 @@ namespace {
 constexpr std::uint32_t kRamOffset = 0x800000;  ///< offset of RAM addresses in an ELF file
 /// Pattern of paint_stack(). A byte that no longer has it was used by the stack.
 constexpr std::uint8_t kPaint = 0xC5;
-/// Maximum number of cycles that simavr executes per call. Without it, simavr would return after
-/// every instruction, which is slower. Timers and interrupts stay exact: simavr returns earlier if
-/// one is due.
+/// Maximum number of cycles that simavr executes per call. By default simavr returns after every
+/// instruction, which is slower. Timers and interrupts stay exact: simavr returns earlier if a
+/// timer or an interrupt is due.
 constexpr avr_cycle_count_t kRunCycles = 1000;
 
 /// Pointer to the only Emulator object. simavr 1.6 passes no user data to the callback sleep(), so
@@ -94,7 +94,8 @@ void Emulator::sleep(avr_t* avr, std::uint64_t) {
 
 /// Corrects a deviation of simavr 1.6 from the chip. If an interrupt is raised between `sei` and
 /// `sleep`, the chip serves it before the instruction after `sleep` [ATmega2560 data sheet, 7.7].
-/// simavr executes that instruction first. If this is `cli`, simavr never serves the interrupt.
+/// simavr executes the instruction after `sleep` first and, if this instruction is `cli`, never
+/// serves the interrupt.
 void Emulator::serve_interrupt_after_sleep() {
   constexpr unsigned kSleep = 0x9588;  // opcode of sleep
   if (avr_->state != cpu_Running || avr_->sreg[S_I] == 0 || avr_->pc < 2) return;

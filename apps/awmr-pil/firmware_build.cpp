@@ -45,12 +45,11 @@ std::span<const char* const> flags_for(cli::Optimize optimize) {
   return kForSpeed;
 }
 
-/// Time limit of the compiler, s. It is a hundred times the usual duration, because the machine may
-/// be busy.
+/// Time limit of the compiler, s: a hundred times the usual duration, because the machine may be
+/// busy.
 constexpr double kTimeLimit_s = 200.0;
 
-/// Writes a file of the temporary folder. It is needed only during this run, so it is not flushed
-/// to the disk.
+/// Writes a file of the temporary folder, without flushing it to the disk: only this run needs it.
 Status put_temporary(const fs::path& path, std::string_view bytes) {
   AWMR_RETURN_IF_ERROR(make_directory(path.parent_path()));
   std::ofstream file(path, std::ios::binary);

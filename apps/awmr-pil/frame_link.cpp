@@ -12,8 +12,8 @@ namespace {
 /// an attempt succeeds with a probability of 0.4, and all 40 attempts fail with a probability of
 /// 1e-9.
 constexpr int kAttempts = 40;
-/// Maximum number of times that the start request is sent. It is short and thus rarely damaged, so
-/// 10 attempts suffice. More would delay the report that a board is missing.
+/// Maximum number of times that the start request is sent. This request is short and thus rarely
+/// damaged, so 10 attempts suffice; more would delay the report that a board is missing.
 constexpr int kStartAttempts = 10;
 
 /// Encodes a request as a frame.
@@ -54,9 +54,9 @@ class FrameLink : public Chip {
     return ask(::pil::kFollow, writer.bytes(), 0);
   }
 
-  /// Executes one step. A chip that does not answer may have been reset; it then answers nothing
-  /// but a start request. Therefore the chip is started again, its points are sent again, and the
-  /// step is requested again.
+  /// Executes one step. A chip that does not answer may have been reset; it then answers only a
+  /// start request. step() therefore starts the chip again, sends its points again, and repeats the
+  /// request.
   Result<Step> step(const AutopilotInput& input) override {
     const std::vector<std::uint8_t> request = pack(input);
     AWMR_ASSIGN_OR_RETURN(const bool answered, exchange(::pil::kStep, request, kStepBytes));

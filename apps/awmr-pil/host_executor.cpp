@@ -11,9 +11,9 @@ struct HostParts : AllParts<split> {
   typedef AnyLineFollower<float> Line;
 };
 
-/// Executes the control step on this machine. Here, all optional parts are compiled in, and those
-/// that the mission does not need are disabled. In the firmware, such parts are not compiled in.
-/// The results must be equal nevertheless.
+/// Executes the control step on this machine. Here, all optional parts are compiled in, and the
+/// parts that the mission does not need are disabled. The firmware does not contain such parts, but
+/// its results must be equal.
 template <class G, CombinedSplit split>
 class HostExecutor : public Executor {
  public:

@@ -24,8 +24,7 @@ struct InjectionEffect {
   cli::Injection injection;
   Duration duration;
   std::uint8_t fault;  ///< expected fault bits of the autopilot; at least one must be raised
-  /// Check of the sketches that must detect the failure. kSensorGood: the failure is not one that a
-  /// sensor check detects.
+  /// Check of the sketches that must detect the failure. kSensorGood: no sensor check detects it.
   SensorFault cause = kSensorGood;
   SensorFault other_cause = kSensorGood;  ///< another check that may detect the failure first
   /// Longest permitted time to the safe command, s. 0 for failures that do not disarm the vehicle.

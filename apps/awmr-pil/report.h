@@ -39,7 +39,7 @@ struct Check {
   std::string unit;
 };
 
-/// Results of a run with an injected failure. They are evaluated in a window of steps: that of
+/// Results of a run with an injected failure, evaluated in the window of steps of
 /// injection_window(). If the failure disarms the vehicle, the window is from the autopilot's first
 /// fault to the end of the run.
 struct Injected {

@@ -56,8 +56,8 @@ Status check_sample_time(const Model& model) {
           65536.0 * 8.0 / kChipClock_Hz * 1000.0, model.vehicle.sample_time_s * 1000.0));
 }
 
-/// Adds options for the firmware to `given`: those that the scenario's guidance and its split of
-/// the yaw moment need.
+/// Adds to `given` the firmware options that the scenario's guidance and its split of the yaw
+/// moment need.
 EmitOptions emit_options_for(EmitOptions given, const Scenario& scenario, const Mission& mission) {
   given.parts.merge(parts_of(mission));
   if (mission.line) given.line_law = mission.line->place;

@@ -1,7 +1,6 @@
 // Injects sensor failures. Derives raw readings from the simulated motion, and applies the checks
-// of the sketches to them (control/heading_check.h, gps_check.h). As on the board, the time stamp
-// of a sensor is not renewed if a check rejects the sensor. So the autopilot finds the sensor's
-// reading too old.
+// of the sketches to them (control/heading_check.h, gps_check.h). As on the board, a sensor that a
+// check rejects keeps its old time stamp, so the autopilot soon finds its reading too old.
 #pragma once
 
 #include <deque>

@@ -13,8 +13,8 @@ namespace {
 /// of this time.
 constexpr std::uint64_t kLineStartCycles = 16'000'000;
 /// Timeout of an answer, in clock cycles: 30 ms. A request, its control step and its answer take 3
-/// ms. But the timeout must also exceed 20 ms: after such a pause, the chip discards an incomplete
-/// frame.
+/// ms. But the timeout must also exceed the pause of 20 ms after which the chip discards an
+/// incomplete frame; otherwise the repeated request would be read as a part of that frame.
 constexpr std::uint64_t kLineAnswerCycles = 480'000;
 
 /// Simulates a noisy line. A fraction `share` of the bytes is lost, and the same fraction of the

@@ -104,13 +104,13 @@ sigset_t handled_signals() {
   return signals;
 }
 
-/// Signal by which the main thread asks the signal thread whether the program is about to end. The
-/// lowest of several pending signals is delivered first. So the thread answers only if no signal
-/// that ends the program is pending.
+/// Signal by which the main thread asks the signal thread whether the program is about to end. Of
+/// several pending signals, the one with the lowest number is delivered first, so the thread
+/// receives this signal only if no signal that ends the program is pending.
 int question() { return SIGRTMIN; }
 
 /// Discards all further output on stderr, also that of the emulator's library. From here on, errors
-/// such as a killed compiler or a missing file are consequences of the shutdown.
+/// such as a killed compiler or a missing file only result from the shutdown.
 void silence_errors() {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;

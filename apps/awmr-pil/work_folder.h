@@ -32,8 +32,8 @@ class WorkFolder {
 /// thread exists. Signals that were ignored (nohup) stay ignored.
 void clean_up_at_signals();
 
-/// Returns at once if no signal is about to end the program. Otherwise never returns. So errors
-/// caused by that signal are not reported.
+/// Returns at once if no signal is about to end the program. Otherwise never returns, so that the
+/// program does not report errors which the signal caused.
 void exit_if_interrupted();
 
 }  // namespace awmr::pil

@@ -119,9 +119,8 @@ py::list logs_of(const TrialsOfFiles& trials) {
 /// which has no file.
 using AnyVehicle = std::variant<VehicleOfFile, Vehicle>;
 
-/// Returns the input files with their hashes: the vehicle's file, if there is one, and the trial
-/// files. Their order is the one in which the command line records them. Errors (input): a file
-/// cannot be read.
+/// Returns the input files with their hashes, in the order in which the command line records them:
+/// the vehicle's file, if there is one, and the trial files. Errors (input): a file cannot be read.
 Result<std::vector<InputFile>> inputs_of(const AnyVehicle& vehicle, const TrialFiles& files) {
   std::vector<InputFile> inputs;
   if (const auto* read = std::get_if<VehicleOfFile>(&vehicle)) inputs.push_back(read->file);

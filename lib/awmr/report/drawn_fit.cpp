@@ -23,8 +23,8 @@ constexpr double kWithin99 = 2.576;
 /// Half width of a 95 % interval in standard errors, for a normal distribution.
 constexpr double kNormalQuantile95 = 1.96;
 
-/// Returns half of the 95 % interval of the exponent divided by its standard error. The fit took
-/// this number from Student's t. kNormalQuantile95 if the exponent has no interval.
+/// Returns the number of standard errors in half of the exponent's 95 % interval, which the fit
+/// took from Student's t; kNormalQuantile95 if the exponent has no interval.
 double quantile_of_exponent(const Estimate& beta) {
   if (!beta.std_error || !(*beta.std_error > 0.0) || !beta.ci95) return kNormalQuantile95;
   return (beta.ci95->hi - beta.ci95->lo) / (2.0 * *beta.std_error);
@@ -78,7 +78,7 @@ std::vector<std::pair<double, double>> coasts_of(const Model& model) {
       coasts.emplace_back(trial.input, std::max(trial.measured, trial.predicted.value_or(0.0)));
     }
   }
-  // Of coast-downs with equal speed, the longest comes first, because unique() keeps the first.
+  // Of coast-downs with equal speed, the longest comes first, because unique() keeps the first one.
   std::sort(coasts.begin(), coasts.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second > b.second;
   });

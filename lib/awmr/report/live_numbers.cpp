@@ -16,9 +16,9 @@
 namespace awmr {
 namespace {
 
-/// Reads which form of the constraint T2 < T1 = 1/lambda was required. It is the paper's form, or
-/// the strict form T2 < margin/lambda. gains.json has the limit of the strict form in both cases,
-/// and the margin is computed from this limit.
+/// Reads the form of the constraint on T2: the paper's form T2 < T1 = 1/lambda, or the strict form
+/// T2 < margin/lambda. gains.json has the limit of the strict form in both cases, from which the
+/// margin is computed.
 void take_reaching(JsonObject& gains, double lambda, ConstraintContext& context) {
   for (JsonObject& constraint : gains.optional_objects("constraints")) {
     const bool strict = constraint.string("name") == "T2 < T1 (strict)";
@@ -37,8 +37,8 @@ struct Draws {
   UnmodelledVariation open = {};
 };
 
-/// Reads into `context` the noise, latency and motor lag for which robust gains were tuned. Returns
-/// how the vehicles for the tuning were drawn.
+/// Reads into `context` the noise, latency and motor lag for which gains were tuned on drawn
+/// vehicles. Returns how these vehicles were drawn.
 Draws take_conditions(JsonObject robust, ConstraintContext& context) {
   JsonObject latency = robust.object("latency");
   const double latest_s = std::max(latency.number("heading_s", kNonNegative),

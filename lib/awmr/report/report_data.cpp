@@ -32,7 +32,7 @@ struct Origin {
 };
 
 /// Returns a finding if a result was made from another model or other gains than those in the
-/// directory. Returns empty if they are the same, or if the result does not name its inputs.
+/// directory; empty otherwise, or if the result does not name its inputs.
 std::optional<Finding> foreign_result(const std::string& result, const Json& json,
                                       const Origin& origin) {
   const std::optional<bool> is_of_model = is_made_from(json, origin.model_sha256);
@@ -166,8 +166,8 @@ Result<ReportData> read_report_data(const std::filesystem::path& directory) {
                        "there is no such file; a report needs a directory with the results of awmr "
                        "run, or at least with the model.json of awmr identify");
   }
-  // read_model() is called before read_json_file(), because its errors name the position of the
-  // fault in the file.
+  // Calls read_model() before read_json_file(), because the errors of read_model() name the
+  // position of the fault in the file.
   AWMR_ASSIGN_OR_RETURN(data.model, read_model(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(data.json["model"], read_json_file(directory / "model.json"));
   AWMR_ASSIGN_OR_RETURN(const std::string bytes, read_file(directory / "model.json"));

@@ -22,9 +22,9 @@ struct ReportData {
   /// - "findings": those of all files, with those first that have the largest effect on the
   ///   results.
   Json json;
-  /// A warning for each result that is not in `json`. Either it was made from another model or
-  /// other gains than those in the directory (`result-of-another-model`). Or the file that names
-  /// its inputs is missing or belongs to another result (`result-without-origin`).
+  /// A warning for each result that is not in `json`: it was made from another model or other gains
+  /// than those in the directory (`result-of-another-model`), or the file that names its inputs is
+  /// missing or belongs to another result (`result-without-origin`).
   std::vector<Finding> left_out = {};
 };
 

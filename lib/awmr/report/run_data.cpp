@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Maximum number of rows in the page, of all runs together and of one run. A row takes about 100
-/// bytes, and the page must be smaller than 3 MB.
+/// bytes; more rows would make the page larger than its limit of 3 MB.
 constexpr std::size_t kMaxRows = 20000;
 constexpr std::size_t kMaxRowsOfRun = 1500;
 constexpr std::size_t kMinRowsOfRun = 100;

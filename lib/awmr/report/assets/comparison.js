@@ -42,7 +42,7 @@ function differences(parent, scenario) {
       digits(d.p_holm, 2), `± ${digits(d.margin, 2)}`, d.conclusion]));
   const meanOf = (mode, metric) =>
     Math.abs(((scenario.modes[mode] || {metrics: {}}).metrics[metric] || {}).mean || 0);
-  small(box, "Grey differences are smaller than the margin, or can be due to chance.");
+  small(box, "Grey differences are smaller than the relevance margin, or can be due to chance.");
   const grid = add(box, "div", undefined, {class: "grid"});
   for (const [pair, of] of groupBy(list, (d) => `${d.first} − ${d.second}`)) {
     const rows = of.map((d) => [d,
@@ -73,9 +73,9 @@ function breakEven(parent, entries) {
   if (!entries || !entries.length) return;
   const {sliding_m: sliding, measured_m: measured, lead} = entries[0];
   add(parent, "h3", "Scrub at which a mode is no longer ahead");
-  add(parent, "p", "In differential turns the tyres scrub: a yaw moment resists the turn, the same at every " +
-    "yaw rate. If this moment is at least that of the table, the mode is no longer ahead. Tyres that slide "
-    + `sideways with a friction of 0.8 cause ${digits(sliding)} m. `
+  add(parent, "p", "In differential turns the tyres are dragged sideways (scrub). This causes a yaw moment against " +
+    "the turn, the same at every yaw rate. If the moment is at least the value in the table, the mode is no longer "
+    + `ahead. Tyres that slide sideways with a friction of 0.8 cause ${digits(sliding)} m. `
     + (measured ? `Measured in differential turns of this vehicle: ` +
       `${measured.map((m) => digits(m)).join(" to ")} m.`
       : "To measure the scrub of this vehicle, record differential turns (awmr suggest)."));

@@ -24,7 +24,7 @@ function firstFindings(parent, findings) {
 function findingsSection({findings}) {
   if (findings.length <= 3) return;
   const box = section("Findings",
-    "Those with the largest effect on the numbers come first. awmr explain CODE describes each.",
+    "Findings with the largest effect on the results come first. awmr explain CODE prints meaning and remedy.",
       "Findings");
   const rows = (list) => list.map((f) => {
     const severity = document.createElement("span");

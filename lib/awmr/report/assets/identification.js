@@ -154,14 +154,14 @@ function validationWords(data) {
   if (!validation || !validation.verdict) return;
   return `${validation.verdict}.` + (unseenLogs(data).length || (validation.drives || []).length
     ? "" :
-    " The model was fitted to these data. Only a log that was not fitted shows how well another " +
-    "drive is predicted.");
+    " The model was fitted to these data. Only a log that was not used in the fit shows how well " +
+    "the model predicts another drive.");
 }
 
 function identificationSection(data) {
   const {model, fits} = data;
   const box = section("Identification", model.trials.length
-    ? "Each point is a row of the trials. Diamonds mark rows with a warning; point at one to read it." : "",
+    ? "Each point is a row of the trials. Diamonds mark rows with a warning; point at a diamond to read its warning." : "",
       "Model");
   const words = validationWords(data);
   if (words) add(box, "p", words[0].toUpperCase() + words.slice(1));

@@ -47,8 +47,8 @@ function nextSteps(data) {
   const first = ((suggest || {}).trials || [])[0];
   steps.push(first ? `Record this trial next, as it reduces the uncertainty most: ${first.words}.`
     : "Find out which trial to record next: awmr suggest.");
-  if (model.findings.some(isWarning)) steps.push("Compare the rows that have a warning with your " +
-    "notes.");
+  if (model.findings.some(isWarning)) steps.push("Compare the trial rows that have a warning with " +
+    "your notes.");
   if (!(validation && (validation.logs || []).length)) {
     steps.push("Record a drive that was not fitted, and compare the model with it: awmr validate " +
       "--log.");

@@ -1,11 +1,11 @@
 // Symbols of the control laws: their letters, and the meaning that the page shows on hover and
 // focus.
 const symbols = new Map(Object.entries({
-  lambda: ["λ", "lambda, 1/s: slope of the sliding surface. On it, the heading error decays with " +
-    "T1 = 1/λ"],
+  lambda: ["λ", "lambda, 1/s: slope of the sliding surface, on which the heading error decays with the time " +
+    "constant T1 = 1/λ"],
   mu: ["μ", "mu, rad/s²: largest corrective yaw acceleration, with which the heading law drives " +
     "towards the sliding surface"],
-  epsilon: ["ε", "epsilon, rad/s: half width of the boundary layer. In it, the heading law is " +
+  epsilon: ["ε", "epsilon, rad/s: half width of the boundary layer, in which the heading law is " +
     "linear and does not chatter"],
   mu_s: ["μₛ", "mu_s, m/s²: largest corrective acceleration of the speed law"],
   epsilon_s: ["εₛ", "epsilon_s, m/s: half width of the speed law's boundary layer"],

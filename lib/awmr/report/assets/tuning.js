@@ -83,8 +83,8 @@ function tradeOffChart(parent, gains) {
       ({name: words[name] || name, kind: "points", size: 80,
       points: [at(point)], colour: "var(--ink)", shape: (gainsStyle[name] || {}).shape}))];
   add(parent, "h3", "Settling time and control variation");
-  small(parent, "Means over the modes, manoeuvres and plants of the search. Of all gains of the " +
-    "search that meet every constraint, none have both shorter settling and less variation than those on the line.");
+  small(parent, "Means over the modes, manoeuvres and vehicles of the search. The line shows the best compromises: " +
+    "no gains that meet every constraint have both shorter settling and less variation than gains on the line.");
   plot(add(parent, "div", undefined, {class: "grid"}),
     {title: "trade-off", x: "settling time, s", y: "control variation, 1/s", series, height: 260,
       zero: "xy", byPoint: true});

@@ -32,7 +32,7 @@ std::vector<ScenarioRuns> runs_by_scenario(const Json& data) {
   std::vector<ScenarioRuns> all;
   for (auto& [stem, sets] : by_gains) {
     std::vector<const Json*>& runs = sets[sets.count("tuned") > 0 ? "tuned" : "paper"];
-    // The mode with the widest line is drawn first. So all lines are visible where they coincide.
+    // Draws the mode with the widest line first, so that all lines are visible where they coincide.
     std::sort(runs.begin(), runs.end(),
               [](const Json* a, const Json* b) { return role_of_mode(*a) < role_of_mode(*b); });
     all.push_back({stem, std::move(runs),
@@ -61,8 +61,8 @@ Series reference_of(const Json& run, const char* y) {
           .y = column(run, y)};
 }
 
-/// The heading reference, shifted by whole turns to be nearest to the heading of the run. Reason:
-/// the heading is continuous, but the reference can jump by a full turn.
+/// The heading reference, shifted by whole turns to be nearest to the heading of the run: the
+/// heading is continuous, but the reference can jump by a full turn.
 Series heading_reference_of(const Json& run) {
   Series reference = reference_of(run, "psi_ref_deg");
   const std::vector<double> psi_deg = column(run, "psi_deg");
@@ -88,8 +88,8 @@ Figure figure_over_time(const ScenarioRuns& one, const char* kind, const std::st
 }
 
 /// Figure of the heading. If the scenario commands headings, all runs have the same reference and
-/// share one panel. Otherwise the guidance gives each run its own reference, so each has its own
-/// panel.
+/// share one panel. Otherwise the guidance gives each run a reference of its own, so each run has
+/// its own panel.
 Figure heading_figure(const ScenarioRuns& one) {
   const Axis psi{"ψ", "deg"};
   std::vector<Panel> panels;

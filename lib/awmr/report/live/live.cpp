@@ -1,6 +1,6 @@
 /// Interactive part of the report page, compiled to WebAssembly. It simulates one run and computes
-/// the constraints for the gains of the sliders, with the same simulation and tuning sources as the
-/// command line.
+/// the tuning constraints for the gains of the sliders. It is built from the same sources of
+/// simulation and tuning as the command line.
 ///
 /// The page writes the numbers of the setup to the array of live_setup() and calls live_begin().
 /// For each position of the sliders, it calls live_run(). Then it reads live_rows() rows of
@@ -116,10 +116,10 @@ AWMR_EXPORT(live_begin) void live_begin() {
 }
 
 /// Simulates one run and computes constraints and metrics. The arguments are the positions of the
-/// sliders. They are the gains; observer_radps, the bandwidth of the observer, rad/s, 0: no
-/// observer; mode, a YawMode as a number; mass, a factor on m' and I'z of the simulated vehicle;
-/// friction, a factor on its resistance coefficients a1 and a3. The controller keeps the model's
-/// values. Returns false if the run diverges.
+/// sliders: the gains; observer_radps: bandwidth of the observer, rad/s, 0: no observer; mode: a
+/// YawMode as a number; mass: factor on m' and I'z of the simulated vehicle; friction: factor on
+/// its resistance coefficients a1 and a3. The controller keeps the model's values of m', I'z, a1
+/// and a3. Returns false if the run diverges.
 AWMR_EXPORT(live_run)
 bool live_run(double lambda, double mu, double epsilon, double speed_mu, double speed_epsilon,
               double observer_radps, int mode, double sample_time_s, double mass, double friction,

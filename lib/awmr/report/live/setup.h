@@ -1,6 +1,6 @@
 /// Input of the page's interactive part (live.cpp, WebAssembly) as a list of numbers. `awmr report`
-/// writes the list from model.json and gains.json, and the interactive part reads it. Both use
-/// visit_numbers(), so that the numbers have the same order. Private to report/.
+/// writes the list from model.json and gains.json, and the interactive part reads the list. Both
+/// use visit_numbers(), so that the numbers have the same order. Private to report/.
 #pragma once
 
 #include <vector>
