@@ -115,7 +115,7 @@ Status Emulator::run_once() {
     return program_fault(fmt::format("the emulated chip stopped at address {:#x}", avr_->pc));
   }
   // If an interrupt woke the chip, the program counter is at the interrupt's vector. There are 57
-  // vectors of 4 bytes; the one at 0 is the reset.
+  // vectors of 4 bytes; vector 0 is the reset.
   const bool at_vector = avr_->pc > 0 && avr_->pc < 57 * 4 && avr_->pc % 4 == 0;
   if (was_asleep && at_vector && state == cpu_Running && !asleep_) entered_at_ = avr_->cycle;
   if (asleep_ && at_vector && avr_->state == cpu_Running) entered_at_ = avr_->cycle;

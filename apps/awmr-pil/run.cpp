@@ -215,8 +215,8 @@ Result<ChipRun> run_chip(const PilOptions& options, const Inputs& in, const Watc
   return run;
 }
 
-/// Returns the options with default values for those that were not given. These defaults depend on
-/// the scenario and the firmware.
+/// Fills in default values for options that were not given. These defaults depend on the scenario
+/// and the firmware.
 PilOptions resolved(PilOptions options, const Inputs& in) {
   const std::set<FirmwarePart>& parts = in.emit.parts;
   const bool avoids = parts.contains(FirmwarePart::kAvoidance);

@@ -90,7 +90,7 @@ ParameterId shown_by(TrialKind kind) {
   }
 }
 
-/// Returns those trial files of the project that have at least one row. Reports the others as
+/// Returns the trial files of the project that have at least one row. Reports files without rows as
 /// missing.
 TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check) {
   TrialFiles files{

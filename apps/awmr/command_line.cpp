@@ -17,8 +17,8 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// Returns `--NAME` of each option of the command, in order to search the one closest to a misspelt
-/// name. One-letter options are left out, because they are close to every short word.
+/// Returns `--NAME` of each option of the command, as candidates for a misspelt name. One-letter
+/// options are left out, because they are close to every short word.
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {

@@ -151,7 +151,7 @@ void add_preferences(CLI::App& command, Texts& texts) {
       "--weight", texts.weights,
       "NAME=WEIGHT: weight of a metric in the ranking, 0 to 1000, such as finish_time_s=3; may be "
       "repeated (default 1 for heading_iae_degs, cross_track_rms_m, settling_time_s, "
-      "finish_time_s, speed_drop_mps, energy_mech and tyre_work, 0 for the others)");
+      "finish_time_s, speed_drop_mps, energy_mech and tyre_work, 0 for other metrics)");
   command
       .add_option("--relevance", texts.relevance,
                   "Relative difference of a metric or score below which modes are equivalent, at "

@@ -97,7 +97,7 @@ void add_weak_heading(const AutopilotParameters& parameters, const EmitCommand& 
        fmt::format(
            "the heading loop is so weak (small lambda mu/epsilon) that motors whose forces differ "
            "by 16 % turn the vehicle {:.0f} deg off its heading; above 45 deg the sketches report "
-           "fault 17 and disarm. Use faster gains, or those of awmr tune --observer",
+           "fault 17 and disarm. Use faster gains, or the gains of awmr tune --observer",
            degrees(parameters.steady_error_rad))});
 }
 

@@ -24,7 +24,7 @@ struct JsonResult {
 };
 
 /// Returns the text of the object `{"schema", "command", "version", "exit_code", "written",
-/// "findings", "result"}`. The value of `findings` is as in model.json; that of `result` is
+/// "findings", "result"}`. `findings` has the same form as in model.json. `result` is
 /// JsonResult::document, or null if the document is empty.
 std::string result_text(const JsonResult& result);
 

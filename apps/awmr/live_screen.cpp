@@ -71,7 +71,7 @@ void print_to_stderr(const std::string& text) {
 }  // namespace
 
 std::string widths_text(const LiveUpdate& update) {
-  if (!update.model) return "nothing is known yet";
+  if (!update.model) return "no parameter is estimated yet";
   std::string text;
   for (const Precision& precision : precision_of(*update.model, update.requested)) {
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", info(precision.id).name,

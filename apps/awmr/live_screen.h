@@ -22,7 +22,7 @@ struct LiveUpdate {
   std::optional<Model> model = {};  ///< result of the last completed fit
   /// true: the last fit exceeded its time limit, so `model` is the result of an earlier fit
   bool out_of_time = false;
-  /// The manoeuvre that would improve the model most; empty if the model is accurate enough.
+  /// Manoeuvre that would improve the model most; empty if the model is accurate enough.
   std::string next = {};
   /// Target precision: largest half width of a 95 % interval with which a parameter is known well
   /// enough.
@@ -32,8 +32,8 @@ struct LiveUpdate {
 };
 
 /// Returns the half widths of the 95 % intervals as text: "surge.alpha +-0.12 %, yaw.beta +-0.012".
-/// For exponents they are absolute, for other parameters relative to the value. An unknown half
-/// width is "-".
+/// The half width of an exponent is absolute, that of another parameter is relative to its value.
+/// An unknown half width is "-".
 std::string widths_text(const LiveUpdate& update);
 /// Returns "enough: ..." if every interval is narrow enough, else the next manoeuvre to drive.
 std::string verdict_text(const LiveUpdate& update);

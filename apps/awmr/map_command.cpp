@@ -97,7 +97,7 @@ std::string text_of(const MapCommand& command, const std::vector<ColumnGuess>& g
 
 std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>& guesses,
                        const FileSample& sample) {
-  std::string text = fmt::format("{}: guessed columns, to be confirmed\n", command.file.string());
+  std::string text = fmt::format("{}: guessed columns; please check\n", command.file.string());
   for (const ColumnGuess& guess : guesses) {
     text += fmt::format("  {:<6} {:<17} {}  ({})\n", name_in(kConfidenceNames, guess.confidence),
                         guess.column, guess.expression, guess.why);
@@ -112,7 +112,7 @@ std::string summary_of(const MapCommand& command, const std::vector<ColumnGuess>
     text += fmt::format("  unused {}\n", shortened(fmt::format("{}", fmt::join(unused, ", "))));
   }
   if (command.output) {
-    text += fmt::format("wrote {}: correct it, then give it to identify as --columns-file\n",
+    text += fmt::format("wrote {}: correct this file, then give it to identify as --columns-file\n",
                         command.output->string());
   }
   return text;

@@ -24,8 +24,8 @@ void add_inputs(CLI::App& command, PilOptions& options) {
 
 void add_link(CLI::App& command, PilOptions& options) {
   add_choice(command, "--link", options.link, kPilLinkNames,
-             "How data are exchanged with the chip: memory: through its RAM (fast); uart: in "
-             "frames over its serial line")
+             "How this computer and the chip exchange data: memory: through the chip's RAM (fast); "
+             "uart: in frames over its serial line, as with a real board")
       ->default_str("memory");
   add_file(command, "--port", options.port,
            "Serial port of a real board, flashed with DIR/pil_uart.elf of --build-dir; "

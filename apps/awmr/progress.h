@@ -67,7 +67,7 @@ class Working {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::thread drawer_;
-  /// Object whose line is hidden by the line of this one; shown again when this one ends.
+  /// Older object whose line this object hides; shown again when this object ends.
   const Working* covered_ = nullptr;
 };
 

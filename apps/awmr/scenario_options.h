@@ -27,8 +27,7 @@ namespace awmr::cli {
 struct PlantChoice {
   /// Simulated vehicle model for all scenarios; empty: as each scenario selects.
   std::optional<PlantKind> kind = {};
-  /// A validation.json. Its fitted tyres are used instead of those of the scenarios and the default
-  /// ones.
+  /// A validation.json. Its fitted tyres replace the tyres of the scenarios and the default tyres.
   std::optional<std::filesystem::path> tyres_file = {};
   /// True (only for `compare`): the ranking is also computed with the other vehicle model, unless
   /// `kind` is given.

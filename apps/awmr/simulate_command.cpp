@@ -225,7 +225,8 @@ void add_simulate(CLI::App& app, Session& session) {
                   "configs/paper/scenarios/c3_heading_steps.json --mode combined -o run.csv",
                   [command] { return execute(*command); });
   add_file(*sub, "--model", command->model, "model.json from identify")->required();
-  add_file(*sub, "--gains", command->gains, "gains.json; not needed in open loop");
+  add_file(*sub, "--gains", command->gains,
+           "gains.json from tune; not needed for an open-loop scenario");
   add_file(*sub, "--scenario", command->scenario, "scenario.json")->required();
   add_choice(*sub, "--mode", command->mode, kYawModeNames,
              "Yaw control by wheel forces, by steering or by both")

@@ -120,11 +120,13 @@ void add_suggest(CLI::App& app, Session& session) {
   SuggestCommand& command = *held;
   add_file(*sub, "--model", command.model, "model.json from identify")->required();
   sub->add_option("--parameter", command.parameter,
-                  "Parameter whose uncertainty the trials are to reduce (default: all parameters "
-                  "together). With --gains and --scenario it may be a metric: heading_iae_degs, "
-                  "overshoot_deg or speed_drop_mps");
-  add_file(*sub, "--gains", command.gains, "gains.json of the closed loop");
-  add_file(*sub, "--scenario", command.scenario, "scenario.json of the closed loop");
+                  "Parameter whose uncertainty the trials should reduce (default: all parameters "
+                  "together). With --gains and --scenario, also a metric of the closed loop: "
+                  "heading_iae_degs, overshoot_deg or speed_drop_mps");
+  add_file(*sub, "--gains", command.gains,
+           "gains.json of the controller, for a metric of --parameter");
+  add_file(*sub, "--scenario", command.scenario,
+           "scenario.json in which a metric of --parameter is computed");
   add_choice(*sub, "--mode", command.mode, kYawModeNames,
              "Yaw-control mode of the scenario "
              "(default combined)");

@@ -79,8 +79,8 @@ std::string open_text(const UnmodelledVariation& open) {
 }
 
 /// Describes the worst case of the heading loop in each mode: the smallest damping ratio and delay
-/// margin. The worst case is over the 95 % region of the model's parameters; without a covariance,
-/// it is that of the model itself.
+/// margin. The worst case is over the 95 % region of the model's parameters or, without a
+/// covariance, over the model's own values.
 std::string certificate_text(const Certificate& certificate) {
   std::string by_mode;
   for (const ModeCertificate& one : certificate.modes) {

@@ -32,8 +32,8 @@ Result<Validation> validate_with_progress(const Model& model, const std::optiona
   return validate(model, gains, options);
 }
 
-/// Returns a short text with the verdict, the paper's claims that are reproduced, and those that
-/// are not.
+/// Returns a short text with the verdict, and with the paper's claims that are and are not
+/// reproduced.
 std::string brief_of(const Validation& validation) {
   std::vector<std::string> reproduced;
   std::vector<std::string> others;
@@ -140,9 +140,8 @@ Result<Provenance> provenance_of(const ValidateCommand& command) {
   return Provenance{"validate", std::move(options), std::move(inputs)};
 }
 
-/// Adds the warning `log-of-the-fit` for each log that the model was fitted to. The SHA-256 of such
-/// a log is among those of the model's inputs. The first input of the validation is the model
-/// itself, so it is skipped.
+/// Adds the warning `log-of-the-fit` for each log that the model was fitted to: its SHA-256 is the
+/// SHA-256 of an input of the model.
 void note_fitted_logs(const Model& model, const Provenance& provenance,
                       std::vector<Finding>& findings) {
   for (const InputFile& input : provenance.inputs) {

@@ -257,8 +257,8 @@ void bind_gains(py::module_& module) {
   bind_gain_values(bound);
   bind_read(
       module, "read_gains", [](const auto& path) { return read_gains(path); },
-      "Reads the gains of a gains.json for the modes that have none of their own (the others: "
-      "read_mode_gains). Raises InputError.");
+      "Reads the common gains of a gains.json. Modes can have gains of their own, which only "
+      "read_mode_gains reads. Raises InputError.");
   module.def(
       "write_gains",
       [](const G& gains, const std::filesystem::path& path) {

@@ -43,8 +43,8 @@ std::string script_safe(const Json& json) {
   return text;
 }
 
-/// True if mass, length, width, l_f and d are those of the paper's Table 1. The page shows the
-/// paper's claims only for this vehicle.
+/// True if mass, length, width, l_f and d have the values of the paper's vehicle. The page shows
+/// the paper's claims only for this vehicle.
 bool is_vehicle_of_paper(const Vehicle& vehicle) {
   const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * b; };
   return near(vehicle.mass_kg, 37.0) && near(vehicle.length_m, 1.32) &&

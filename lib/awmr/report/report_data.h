@@ -19,8 +19,7 @@ struct ReportData {
   ///   drawn_fit.h;
   /// - "metric_words": names and units of the metrics; "header": true if awmr_params.h exists;
   /// - "yaw_rate_measured_degps": highest yaw rate with a measured resistance;
-  /// - "findings": those of all files, with those first that have the largest effect on the
-  ///   results.
+  /// - "findings": the findings of all files, those with the largest effect on the results first.
   Json json;
   /// A warning for each result that is not in `json`: it was made from another model or other gains
   /// than those in the directory (`result-of-another-model`), or the file that names its inputs is

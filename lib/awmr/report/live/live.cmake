@@ -23,8 +23,8 @@ if(NOT works EQUAL 0)
   return()
 endif()
 
-# Flags of both objects. -ffp-contract=off as in the whole project; -fno-exceptions because these sources
-# throw none.
+# Flags of both objects. -ffp-contract=off as in the whole project; -fno-exceptions because these
+# sources throw no exceptions.
 set(flags --target=wasm32-wasi -std=c++20 -Oz -ffp-contract=off -ffunction-sections -fno-exceptions -fno-rtti -DNDEBUG
   -DFMT_HEADER_ONLY -isystem /usr/include/eigen3 -I${PROJECT_SOURCE_DIR}/lib)
 set(text "")
