@@ -17,8 +17,8 @@ std::string frame(unsigned sequence, const std::string& text) {
   return fmt::format("#{}*{:04X}\n", body, crc16_of(bytes, body.size()));
 }
 
-/// Returns the characters that arrive every kPeriod_ms on a line with this failure, instead of the
-/// operator's KEEP. Empty if none arrive.
+/// Returns the characters that replace the operator's KEEP on a line with this failure; may be
+/// empty.
 std::string failed_line(Injection injection) {
   switch (injection) {
     case Injection::kCommandNoise:

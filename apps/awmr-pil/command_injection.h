@@ -1,6 +1,5 @@
-// Injects failures of the line on which the operator sends commands. Generates the characters that
-// arrive at the vehicle, and reads them with the code of the emitted sketches
-// (control/command_line.h).
+// Injects failures of the operator's line: generates the characters that arrive at the vehicle, and
+// reads them with the code of the emitted sketches (control/command_line.h).
 #pragma once
 
 #include <cstdint>

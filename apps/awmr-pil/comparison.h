@@ -17,15 +17,14 @@ struct Difference {
   std::vector<std::pair<std::string, double>> signals;
   bool same_length = true;  ///< both runs have the same number of rows
 
-  /// Returns the largest difference of all signals in SI units, that is, without heading_deg, which
-  /// is in degrees.
+  /// Returns the largest difference of all signals except heading_deg, which is not in SI units.
   double largest() const;
   double of(const std::string& signal) const;  ///< difference of one signal; infinite for an
                                                ///< unknown signal
 };
 
-/// Compares two runs of run_loop(): the states of the vehicle, and the outputs of the control step
-/// before the actuators round them.
+/// Compares two runs of run_loop(): vehicle states, and control outputs before the actuators round
+/// them.
 Difference difference(const std::vector<LoopRow>& a, const std::vector<LoopRow>& b);
 /// Compares a run of run_loop() with a run of simulate(), which computes in double. Forces and
 /// steering angles are compared after the rounding by the actuators.
@@ -43,8 +42,7 @@ struct Cycles {
   double mean = 0.0;
   unsigned max = 0;
 };
-/// Returns the smallest, mean and largest number of cycles in the rows. Rows without cycles (steps
-/// on the host) are ignored.
+/// Ignores rows without cycles (steps on the host).
 Cycles cycles_of(const std::vector<LoopRow>& rows);
 
 }  // namespace awmr::pil

@@ -29,8 +29,7 @@ class Emulator {
   Emulator(const Emulator&) = delete;
   Emulator& operator=(const Emulator&) = delete;
 
-  /// Sizes of the program in flash (.text and .data) and of its variables in RAM (.data and .bss,
-  /// without the stack).
+  /// Use of flash (.text and .data) and of RAM (.data and .bss, without the stack).
   unsigned flash_bytes() const { return flash_bytes_; }
   unsigned ram_bytes() const { return ram_bytes_; }
 
@@ -49,8 +48,8 @@ class Emulator {
   /// 1000 cycles long. Errors (fault): the program crashed or ended, or `done` is still false after
   /// `cycle_limit` cycles.
   Status run_until(const std::function<bool()>& done, std::uint64_t cycle_limit);
-  /// Returns the clock cycles from the entry of the last interrupt that woke the chip to the next
-  /// sleep. The entry itself is included.
+  /// Returns the clock cycles from the entry (included) of the last interrupt that woke the chip to
+  /// the next sleep.
   unsigned last_interrupt_cycles() const { return last_interrupt_cycles_; }
   std::uint64_t cycles() const;
 

@@ -45,8 +45,7 @@ std::span<const char* const> flags_for(cli::Optimize optimize) {
   return kForSpeed;
 }
 
-/// Time limit of the compiler, s: a hundred times the usual duration, because the machine may be
-/// busy.
+/// Time limit of the compiler, s: a hundred times the usual duration, for busy machines.
 constexpr double kTimeLimit_s = 200.0;
 
 /// Writes a file of the temporary folder, without flushing it to the disk: only this run needs it.

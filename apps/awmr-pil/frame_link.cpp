@@ -134,8 +134,8 @@ class FrameLink : public Chip {
       AWMR_ASSIGN_OR_RETURN(const std::optional<std::uint8_t> byte, line_->receive(patience));
       if (!byte) return false;
       if (!reader_.take(*byte)) continue;
-      // Ignores a late answer to an earlier request. The chip answers every copy of a repeated
-      // request, so a second answer may arrive.
+      // Ignores late answers to earlier requests: the chip answers every copy of a repeated
+      // request.
       if (reader_.type() != type || reader_.sequence() != sequence_) continue;
       if (reader_.length() == length) return true;
       return program_fault(

@@ -1,5 +1,4 @@
-// Executes the control step on a chip that is connected by a serial line, with the frames of
-// firmware/frame.h.
+// Executes the control step on a chip at a serial line, with the frames of firmware/frame.h.
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,7 @@ namespace {
 constexpr int kFields = 11;  ///< floats in an AutopilotInput
 constexpr float kAcceptance_m = 1.0F;
 
-/// A candidate of the search: the input of one step, and the points that the vehicle follows from
-/// this step on.
+/// Candidate of the search: the input of one step, and the points to follow from this step on.
 struct Attack {
   AutopilotInput input{};
   Points points;
@@ -46,8 +45,7 @@ float largest_of(const SafetyLimits& limits, int field) {
   return largest[field];
 }
 
-/// Random value of any magnitude up to `largest`; sometimes `largest` itself, a subnormal or random
-/// bits.
+/// Random value up to the magnitude `largest`; sometimes `largest`, a subnormal or random bits.
 float hostile_value(Random& random, float largest) {
   const float sign = (random.bits() & 1U) != 0 ? -1.0F : 1.0F;
   switch (random.bits() % 32) {
@@ -118,8 +116,7 @@ bool same(const AutopilotOutput& a, const AutopilotOutput& b) {
          a.command.steering_powerless == b.command.steering_powerless;
 }
 
-/// Executes one step on chip and host. Adds to `found` its cycles and whether the outputs differ.
-/// Returns the chip's cycles.
+/// Executes one step on chip and host; adds the result to `found`. Returns the chip's cycles.
 Result<unsigned> tried(Executor& chip, Executor& host, const Attack& attack, Hostile& found) {
   if (!attack.points.points_m.empty()) {
     AWMR_RETURN_IF_ERROR(chip.follow(attack.points));

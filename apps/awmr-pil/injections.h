@@ -43,8 +43,7 @@ bool is_command_failure(cli::Injection injection);
 /// operator's line have the cause kSensorGood, because no sensor fails.
 bool is_expected_cause(cli::Injection injection, SensorFault cause);
 
-/// Steps in which an injection acts: from `first` to before `last`. Both are equal if it never
-/// acts.
+/// Steps in which an injection acts: from `first` to before `last`; equal if it never acts.
 struct Window {
   std::size_t first = 0;
   std::size_t last = 0;

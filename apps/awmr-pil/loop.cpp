@@ -88,8 +88,7 @@ void delay(std::uint32_t by_ms, InputTimes& times) {
   times.command_ms += by_ms;
 }
 
-/// Sets the forces and the steering angle that the actuators receive: the chip's command, rounded
-/// to the resolution of the actuators.
+/// Sets the actuators' forces and steering angle: the chip's command, rounded to their resolution.
 void command(const LoopSetup& setup, LoopRow& row) {
   const Allocation<float>& requested = row.step.output.command;
   row.force = {static_cast<double>(requested.force.left),

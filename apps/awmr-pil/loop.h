@@ -42,8 +42,7 @@ struct LoopRow {
 /// filter is computed from these numbers, so that it equals the simulator's filter.
 void know_receiver(const Gps& gps, Model& model);
 
-/// True if the simulated speed sensor gives the magnitude of the speed only. The firmware then has
-/// to find the direction of travel.
+/// True if the speed sensor gives no sign, so that the firmware must find the direction of travel.
 bool has_unsigned_speed(const Scenario& scenario);
 
 /// Checks that the firmware can run the scenario. Errors (input): the scenario uses a feature that

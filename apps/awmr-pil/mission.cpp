@@ -72,8 +72,7 @@ Avoidance<float> in_float(const Avoidance<double>& a) {
           in_float(a.side_hysteresis_rad), in_float(a.brake_m)};
 }
 
-/// Formats numbers as a C initialiser in braces, with enough digits that the compiler reads the
-/// same floats.
+/// Formats numbers as a C initialiser, with so many digits that the compiler reads the same floats.
 std::string braced(const std::vector<float>& values) {
   std::vector<std::string> literals;
   for (const float value : values) literals.push_back(fmt::format("{:.8e}f", value));

@@ -1,5 +1,4 @@
-// Mission of the firmware: the guidance features that a scenario needs, with their parameters in
-// float, as on the chip.
+// Mission of the firmware: the guidance features of a scenario, with their parameters in float.
 #pragma once
 
 #include <cstddef>

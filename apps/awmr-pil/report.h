@@ -63,20 +63,16 @@ struct Report {
   Cycles cycles;
   /// Numbers of the steps before which the chip was restarted.
   std::vector<std::size_t> restarts;
-  /// Difference between the run with the chip and the host's run in float, which should be equal in
-  /// every bit.
+  /// Difference between the runs of the chip and of the host in float; should be 0 in every bit.
   Difference from_float;
-  /// Difference between the run with the chip and the host's run in double; absent with an
-  /// injection.
+  /// Difference between the runs of the chip and of the host in double; absent with an injection.
   std::optional<Difference> from_double;
-  /// Largest heading difference between the run with the chip and the host's run in double, by
-  /// heading_apart_deg().
+  /// heading_apart_deg() of the run with the chip and the host's run in double.
   double heading_apart_deg = 0.0;
-  /// Difference between two runs on the host: in float with powf, and in double. It shows the
-  /// effect of float arithmetic.
+  /// Effect of float arithmetic: difference between the host's runs in float with powf and in
+  /// double.
   std::optional<Difference> by_float32;
-  /// Difference between two runs on the host in float: with resistance tables, and with powf. It
-  /// shows the effect of the tables.
+  /// Effect of the tables: difference between the host's float runs with tables and with powf.
   std::optional<Difference> by_table;
   std::optional<Injected> injected;
   std::vector<Check> checks;

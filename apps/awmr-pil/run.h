@@ -1,5 +1,4 @@
-// Executes `awmr pil`: builds the firmware, runs it on the chip and on the host, compares the runs,
-// and checks the bounds.
+// Executes `awmr pil`: builds the firmware, runs it on chip and host, compares, checks the bounds.
 #pragma once
 
 #include "awmr/model/record.h"

@@ -118,8 +118,7 @@ void silence_errors() {
   ::close(nowhere);
 }
 
-/// Body of the signal thread: waits for a signal, cleans up, and then ends the program by that
-/// signal.
+/// Body of the signal thread: waits for a signal, cleans up, ends the program by that signal.
 void* end_at_signal(void*) {
   sigset_t signals = handled_signals();
   ::sigaddset(&signals, question());

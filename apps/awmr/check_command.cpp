@@ -37,8 +37,7 @@ void take(const Error& error, std::vector<Fault>& faults) {
   faults.insert(faults.end(), error.faults.begin(), error.faults.end());
 }
 
-/// True if the value that a fault refers to is null. `place`: the fault's place,
-/// `FILE:/json/pointer`.
+/// True if the value at `place` (a fault's place, `FILE:/json/pointer`) is null.
 bool is_null_at(const Json& document, const std::string& file, const std::string& place) {
   if (!place.starts_with(file + ":/")) return false;
   const Json::json_pointer pointer(place.substr(file.size() + 1));
@@ -90,8 +89,7 @@ ParameterId shown_by(TrialKind kind) {
   }
 }
 
-/// Returns the trial files of the project that have at least one row. Reports files without rows as
-/// missing.
+/// Returns the trial files that have at least one row. Reports the files without rows as missing.
 TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check) {
   TrialFiles files{
       .vehicle = vehicle, .steady_from_logs = project.steady_from_logs, .options = project.trials};
@@ -201,8 +199,7 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const std::vector<Finding>& found = trials->findings;
   check.notes.insert(check.notes.end(), found.begin(), found.end());
   if (as_is || std::none_of(found.begin(), found.end(), contradicts)) return;
-  // Reads the trials again without `as_is`. Then each contradiction is a fault, whose message has
-  // the column mapping that corrects it.
+  // Without `as_is`, each contradiction is a fault whose message has the correcting mapping.
   std::erase_if(check.notes, contradicts);
   files.options.as_is = false;
   if (const auto refused = load_trials(files); !refused) {

@@ -8,8 +8,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Returns the names a and b of a type text "TEXT:{a,b}", which one_of() writes; empty if the text
-/// has no braces.
+/// Returns the names a and b of a type text "TEXT:{a,b}" of one_of(); empty without braces.
 std::vector<std::string> choices_in(const std::string& type) {
   std::vector<std::string> names;
   const std::size_t open = type.find('{');

@@ -55,8 +55,7 @@ inline constexpr NameTable<Shell, 3> kShellNames{
 /// Returns the completion script for a shell. `commands`: result of commands_of().
 std::string completion_text(Shell shell, const std::vector<CommandInfo>& commands);
 
-/// Returns the name of the command's manual page, without the section: "awmr" for the program,
-/// "awmr-identify" for a command.
+/// Returns the name of the manual page: "awmr" for the program, "awmr-identify" for a command.
 std::string page_name(const CommandInfo& command);
 
 /// Returns the manual page of a command in man(7) format. For the program itself, the page lists

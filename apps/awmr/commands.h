@@ -59,8 +59,8 @@ struct IdentifyCommand {
 Result<Outcome> execute(const IdentifyCommand& command);
 void add_identify(CLI::App& app, Session& session);
 
-/// Records a drive. Meanwhile checks the data and fits the model repeatedly, and at the end
-/// identifies the final model.
+/// Records a drive, meanwhile checks and fits the data repeatedly, and at the end identifies the
+/// model.
 struct LiveCommand {
   IdentifyCommand identify;  ///< options of the identification; execute() sets `logs`
   StreamSource source = {};

@@ -159,8 +159,7 @@ void add_preferences(CLI::App& command, Texts& texts) {
       ->check(within(kRelevance.min, kRelevance.max));
 }
 
-/// Describes the heading-rate limit. For 'measured', the text has the number, which is in the
-/// model.
+/// Describes the heading-rate limit; for 'measured', with the number from the model.
 std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
   if (rate != kMeasuredRate) return words_of_rate(rate);
   return fmt::format(
@@ -169,8 +168,7 @@ std::string rate_in_words(const HeadingRateChoice& rate, const Model& model) {
       *measured_yaw_rate_degps(model), kNoRate);
 }
 
-/// Returns the findings about the inputs, followed by those about the comparison. The comparison
-/// may also be a part (--shard).
+/// Returns the findings about the inputs and the comparison, which may be a part (--shard).
 Result<std::vector<Finding>> findings_of(const CompareCommand& command,
                                          const ComparedInputs& inputs,
                                          const Comparison& comparison) {

@@ -22,8 +22,7 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// Shortens the description of an option for a list: returns the text before its first colon,
-/// semicolon or bracket.
+/// Shortens an option's description: returns the text before the first colon, semicolon or bracket.
 std::string brief(const std::string& meaning) {
   const std::size_t end = meaning.find_first_of(":;(");
   std::string text = meaning.substr(0, end);
@@ -108,8 +107,7 @@ std::string bash_text(const std::vector<CommandInfo>& commands) {
 
 // ---- zsh: one specification for each option, which the zsh function _arguments reads
 
-/// Escapes colons and brackets in a text, which would otherwise separate the parts of a zsh
-/// specification.
+/// Escapes colons and brackets, which separate the parts of a zsh specification.
 std::string zsh_part(const std::string& text) {
   std::string result;
   for (const char c : text) {

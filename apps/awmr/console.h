@@ -65,11 +65,9 @@ Status write_document(const std::optional<std::filesystem::path>& path, Outcome&
 Status check_outputs(const std::filesystem::path& directory, const std::vector<std::string>& names,
                      std::span<const std::filesystem::path> inputs);
 
-/// Returns a table of the identified parameters: value, standard error, 95 % interval, unit and
-/// origin, one line each.
+/// Returns a table of the parameters: value, standard error, 95 % interval, unit and origin.
 std::string parameter_table_text(const Model& model);
-/// Returns a table of the identified parameters in N, N m, kg and kg m^2, one line each; empty if
-/// m' is unknown.
+/// Returns the same table in N, N m, kg and kg m^2; empty if m' is unknown.
 std::string si_table_text(const Model& model);
 
 }  // namespace awmr::cli

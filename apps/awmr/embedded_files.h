@@ -18,8 +18,7 @@ const std::vector<EmbeddedFile>& project_templates();
 /// "configs/paper/project.json".
 const std::vector<EmbeddedFile>& example_files();
 
-/// Returns a list whose only file is FINDINGS.md, the page with the meaning and the remedy of each
-/// finding code.
+/// Returns a list whose only file is FINDINGS.md.
 const std::vector<EmbeddedFile>& findings_file();
 
 }  // namespace awmr

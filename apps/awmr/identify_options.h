@@ -32,8 +32,7 @@ Status add_excluded(std::string_view text, TrialOptions& trials);
 /// Checks the limits --from and --until of the part of the logs that is used. Errors (input):
 /// `--until` is not after `--from`.
 Status check_used(const TrialOptions& trials);
-/// Calls check_used(), and then add_excluded() for each text of `excluded`. Errors: those of both
-/// functions.
+/// Calls check_used(), then add_excluded() for each text of `excluded`; returns their errors.
 Status use_parts(const std::vector<std::string>& excluded, TrialOptions& trials);
 
 /// Returns the options as pairs of name and value, for the record of the model's origin.

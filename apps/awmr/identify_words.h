@@ -1,5 +1,4 @@
-/// Command-line options of a fit, shared by `identify` and `live`. `validate` uses only
-/// add_end_options().
+/// Options of a fit, shared by `identify` and `live`; `validate` uses only add_end_options().
 #pragma once
 
 #include <string>

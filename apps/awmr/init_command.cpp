@@ -15,9 +15,8 @@
 namespace awmr::cli {
 namespace {
 
-/// True if a line of a template belongs into a project with this drive. A line with the mark
-/// "@four_wheel " at its beginning is for that drive only, one with "@steered " for drives with
-/// steering.
+/// True if a template line belongs into a project with this drive. A line that begins with
+/// "@four_wheel " is for that drive only, a line with "@steered " for drives with steering.
 bool is_for(std::string_view mark, Drive drive) {
   if (mark == "steered") return drive != Drive::kDifferential;
   return mark == name_in(kDriveNames, drive);
@@ -78,8 +77,7 @@ Result<std::vector<fs::path>> new_directories(const std::vector<OutputFile>& fil
   return std::vector<fs::path>(found.begin(), found.end());
 }
 
-/// Writes all files or none. If writing fails, removes those directories that this function
-/// created.
+/// Writes all files or none. If writing fails, removes the directories that it created.
 Status write_all(const std::vector<OutputFile>& files) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> made, new_directories(files));
   Status written;

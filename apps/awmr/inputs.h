@@ -23,8 +23,7 @@ inline constexpr const char* kColumnHelp =
 /// Names under which output files list their input files. The key is the path of an input file.
 using InputNames = std::map<std::filesystem::path, std::string>;
 
-/// Returns the names for these paths: each path as it is written in the project file, relative to
-/// the directory of that file.
+/// Returns the names of these paths: relative to the project file's directory, as written in it.
 InputNames names_in_project(const std::vector<std::filesystem::path>& paths,
                             const std::filesystem::path& project);
 

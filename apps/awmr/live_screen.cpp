@@ -128,8 +128,7 @@ void LiveScreen::draw(const LiveUpdate& update) {
   drawn_ = lines.size();
 }
 
-/// Prints one line for an update. If the faults have changed since the last update, prints them
-/// first.
+/// Prints one line for an update; before it the faults, if they have changed.
 void LiveScreen::print_lines(const LiveUpdate& update) {
   std::string faults;
   for (const Fault& fault : shown_faults(update.faults)) faults += text_of(fault) + "\n";

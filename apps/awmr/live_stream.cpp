@@ -18,8 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Interval, ms, at which the reading thread checks whether it must stop and whether the file has
-/// grown.
+/// Interval, ms, at which the thread checks whether it must stop or the file has grown.
 constexpr int kPause_ms = 50;
 /// Largest number of bytes that may wait for take(). When it is reached, the thread stops reading,
 /// and the program that writes into a pipe has to wait.
@@ -61,8 +60,7 @@ Result<OpenStream> open_stream(const StreamSource& source) {
     }
     return OpenStream{std::move(input)};
   }
-  // With O_NONBLOCK, opening a pipe does not wait for its writer, so the program can be
-  // interrupted.
+  // O_NONBLOCK: opening a pipe must not wait for its writer, to stay interruptible.
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) {
     return input_error(ErrorCode::kCannotRead, name,

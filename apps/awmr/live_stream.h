@@ -1,5 +1,4 @@
-/// Reads the data of a recorder in a thread of its own, so that no data are lost while the model is
-/// fitted.
+/// Reads a recorder's data in a thread of its own, so that none are lost during a fit.
 #pragma once
 
 #include <array>
@@ -31,8 +30,7 @@ struct OpenStream {
   bool may_grow = false;  ///< another program may append to the file
 };
 
-/// Opens the source. Errors (input): the source cannot be opened, is a directory, or is not a
-/// serial port.
+/// Errors (input): the source cannot be opened, is a directory, or is not a serial port.
 Result<OpenStream> open_stream(const StreamSource& source);
 
 /// Reads a source in a thread of its own, as long as the object exists.
@@ -43,8 +41,7 @@ class RecorderStream {
   RecorderStream(const RecorderStream&) = delete;
   RecorderStream& operator=(const RecorderStream&) = delete;
 
-  /// Returns the bytes that arrived since the last call. If there are none, waits for them, at most
-  /// for the time `longest`.
+  /// Returns the bytes that arrived since the last call; if there are none, waits up to `longest`.
   std::string take(std::chrono::milliseconds longest);
   /// True if no more data will come.
   bool is_over();

@@ -14,8 +14,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Returns the outcome of a command that only prints a text on stdout. With `--json`, the result is
-/// this text as a JSON string.
+/// Outcome of a command that only prints a text; with `--json`, a JSON string.
 Outcome text_outcome(std::string text) {
   std::string document = awmr::to_text(Json(text));
   return Outcome{.summary = std::move(text), .document = std::move(document)};

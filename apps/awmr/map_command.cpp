@@ -21,8 +21,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Alternative sets of columns that give the same quantity of a trial. One complete set is
-/// sufficient.
+/// Alternative sets of columns for the same quantity of a trial; one complete set suffices.
 using Ways = std::vector<std::vector<const char*>>;
 std::vector<Ways> needs_of(TrialKind kind) {
   const Ways speed{{"speed_mps"}, {"distance_m", "elapsed_s"}};

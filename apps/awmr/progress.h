@@ -1,5 +1,4 @@
-/// Progress display of long computations: a line on the terminal, which appears after the first
-/// second.
+/// Progress line on the terminal for computations of more than a second.
 #pragma once
 
 #include <chrono>
@@ -23,15 +22,12 @@ void show_progress(ProgressManner manner);
 
 /// True if progress is drawn on a terminal: this is enabled, and stderr is a terminal.
 bool draws_progress();
-/// True if progress is printed as lines (only by `live`): this is enabled, and stderr is not a
-/// terminal.
+/// True if `live` prints lines: this is enabled, and stderr is not a terminal.
 bool prints_progress_lines();
-/// Prints a line on stderr, for example why the next step takes long. Prints nothing with `--quiet`
-/// or `--json`.
+/// Prints a line on stderr, such as why the next step takes long; not with `--quiet` or `--json`.
 void print_notice(std::string_view text);
 
-/// Returns the width of the terminal. A longer progress line would wrap, and could then not be
-/// redrawn.
+/// Width of the terminal. A longer progress line would wrap and could not be redrawn.
 std::size_t terminal_columns();
 
 /// Shows a progress line at the bottom of the terminal as long as the object exists: the current

@@ -14,8 +14,7 @@
 
 namespace awmr::cli {
 
-/// Content of a project file. In the file, paths are relative to the file's directory. Here, they
-/// are resolved.
+/// Content of a project file, with resolved paths (in the file: relative to its directory).
 struct Project {
   std::filesystem::path vehicle;
   std::optional<std::filesystem::path> surge;

@@ -122,8 +122,7 @@ inline Status choose(const PlantChoice& choice, const Tyres<double>& tyres,
   return {};
 }
 
-/// Describes the simulated vehicle model: once if all scenarios have the same, else for each
-/// scenario.
+/// Describes the simulated vehicle model, for each scenario if the scenarios differ.
 inline std::string plants_text(std::span<const Scenario> scenarios) {
   std::vector<std::string> plants;
   for (const Scenario& scenario : scenarios) plants.push_back(plant_text(scenario));

@@ -29,8 +29,7 @@ namespace {
 
 constexpr long kAnyCount = std::numeric_limits<int>::max();
 
-/// Describes an object that has for each signal the difference of two runs; null if the difference
-/// is not finite.
+/// Describes an object with the difference of two runs for each signal; null if not finite.
 void describe_difference(JsonObject json) {
   for (const std::string& signal : json.keys()) json.nullable_number(signal);
 }

@@ -27,8 +27,7 @@
 namespace awmr::cli {
 namespace {
 
-/// Returns a text that says whether the run reached the end of its path; empty if the scenario's
-/// guidance has no end.
+/// Describes whether the run reached the end of its path; empty for guidance without end.
 std::string end_of(const Run& run, const Scenario& scenario) {
   if (run.end == RunEnd::kNoPassage) {
     return "  no passage: obstacles block the way to the guidance target; stopped\n";
@@ -42,8 +41,7 @@ std::string end_of(const Run& run, const Scenario& scenario) {
                      run.missed_waypoints);
 }
 
-/// Returns a text with the number of times that the position estimate was reset to a GPS fix; empty
-/// if it was never reset.
+/// Describes how often the position estimate was reset to a GPS fix; empty if never.
 std::string resets_of(const Run& run) {
   if (run.position_resets == 0) return "";
   return fmt::format(

@@ -32,8 +32,7 @@ constexpr LoopMetric kLoopMetrics[] = {{"heading_iae_degs", &Metrics::heading_ia
                                        {"overshoot_deg", &Metrics::overshoot_deg},
                                        {"speed_drop_mps", &Metrics::speed_drop_mps}};
 
-/// Adds the metrics of the closed loop that `--gains` and `--scenario` define. Adds none if both
-/// are absent.
+/// Adds the metrics of the closed loop of `--gains` and `--scenario`; none if both are absent.
 Status add_metrics(const SuggestCommand& command, const Model& model, SuggestOptions& options) {
   if (!command.gains && !command.scenario) return {};
   if (!command.gains || !command.scenario) {

@@ -14,8 +14,7 @@ std::string gains_table(const Tuning& tuning);
 /// All tables of a tuning.
 std::string tuning_summary(const Tuning& tuning, const TuneOptions& options);
 
-/// Returns the text for `--verbose`: the objective by scenario and mode, the constraints, and why
-/// the search ended.
+/// Text for `--verbose`: objective by scenario and mode, constraints, end of the search.
 std::string tuning_details(const Tuning& tuning);
 
 }  // namespace awmr::cli

@@ -32,8 +32,7 @@ Result<Validation> validate_with_progress(const Model& model, const std::optiona
   return validate(model, gains, options);
 }
 
-/// Returns a short text with the verdict, and with the paper's claims that are and are not
-/// reproduced.
+/// Returns the verdict, and the paper's claims that are and are not reproduced.
 std::string brief_of(const Validation& validation) {
   std::vector<std::string> reproduced;
   std::vector<std::string> others;
@@ -155,8 +154,7 @@ void note_fitted_logs(const Model& model, const Provenance& provenance,
   }
 }
 
-/// Returns the list of the claims if it was requested. Otherwise returns the verdict and the
-/// prediction errors of each log.
+/// Returns the claims if requested, else the verdict and the prediction errors of each log.
 std::string summary_of(const ValidateCommand& command, const Validation& validation) {
   if (command.claims) return claims_table(validation.claims) + validation.verdict + '\n';
   const char* const title = validation.trials.empty()

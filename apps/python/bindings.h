@@ -21,8 +21,7 @@ namespace awmr::python {
 
 namespace py = pybind11;
 
-/// C++ exception that carries an Error of the library. errors.cpp converts it to a Python
-/// exception.
+/// C++ exception with an Error of the library; errors.cpp converts it to a Python exception.
 class Raised : public std::exception {
  public:
   explicit Raised(Error error) : error_(std::move(error)) {}

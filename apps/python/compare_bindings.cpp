@@ -24,8 +24,7 @@ NamedComparison compared(const Model& model, const ModeGains& gains,
   return {std::move(comparison), std::move(options)};
 }
 
-/// Returns the columns of comparison.csv as a dict of arrays. A value is NaN where a metric does
-/// not apply.
+/// Columns of comparison.csv as a dict of arrays; NaN where a metric does not apply.
 py::dict comparison_columns(const NamedComparison& named) {
   const std::vector<ComparisonRow>& rows = named.comparison.rows;
   py::dict columns;

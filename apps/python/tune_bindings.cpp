@@ -56,8 +56,7 @@ py::list scores_of(const Tuning& tuning) {
   return all;
 }
 
-/// Returns the results of each set of gains on newly drawn vehicles, as a list of dicts; empty if
-/// `nominal`.
+/// Results of each set of gains on newly drawn vehicles, as a list of dicts; empty if `nominal`.
 py::list evaluated_gains_of(const Tuning& tuning) {
   py::list all;
   if (!tuning.robust) return all;

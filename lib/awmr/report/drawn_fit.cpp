@@ -13,8 +13,7 @@
 namespace awmr {
 namespace {
 
-/// Number of points of a curve, number of steps of a coast-down, and largest number of coast-downs
-/// in a chart.
+/// Points of a curve, steps of a coast-down, and largest number of coast-downs in a chart.
 constexpr int kCurvePoints = 120;
 constexpr int kCoastSteps = 400;
 constexpr std::size_t kMaxCoastdowns = 8;
@@ -62,8 +61,7 @@ void add_left_over(const Model& model, DrawnFit& fit) {
     squares += fit.left_over.back().percent * fit.left_over.back().percent;
   }
   if (fit.left_over.size() < 3) return fit.left_over.clear();
-  // The variance has n - 2 degrees of freedom, because the law's alpha and beta were fitted to the
-  // n runs.
+  // n - 2 degrees of freedom, because alpha and beta were fitted to the n runs.
   fit.bound_percent =
       kWithin99 * std::sqrt(squares / static_cast<double>(fit.left_over.size() - 2));
 }

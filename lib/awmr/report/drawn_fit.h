@@ -39,8 +39,7 @@ struct DrawnFit {
   double bound_percent = 0.0;  ///< 99 % of normally distributed residuals are within +- this, %
 };
 
-/// Returns the runs of `kind` (kSurge or kTurning) with curve and residuals; empty if the model has
-/// no such run.
+/// Runs of `kind` (kSurge or kTurning) with curve and residuals; empty without such runs.
 std::optional<DrawnFit> drawn_fit(const Model& model, TrialKind kind);
 
 /// A modelled coast-down, m' du/dt = -g1(u) (u: speed, g1: surge resistance, m': normalised mass).

@@ -1,5 +1,4 @@
-/// Makes report.html, one self-contained page, and the data of print figures from a directory of
-/// results.
+/// Makes report.html (one page) and the data of print figures from a directory of results.
 #pragma once
 
 #include <filesystem>

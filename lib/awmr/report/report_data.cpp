@@ -100,8 +100,7 @@ Json shown_findings(const std::vector<Finding>& findings) {
   return findings_to_json(order);
 }
 
-/// Reads gains.json and the other results. Results that were made from another model or other gains
-/// are omitted.
+/// Reads gains.json and the other results; omits results of another model or other gains.
 Status read_results(const std::filesystem::path& directory, Origin& origin, ReportData& data,
                     std::vector<Finding>& of_results) {
   for (const char* name : {"gains", "validation", "comparison", "pil", "suggest"}) {
@@ -142,8 +141,7 @@ Status read_own_samples(const std::filesystem::path& directory, ReportData& data
   return {};
 }
 
-/// Adds the findings in awmr_emit.json, which `awmr emit` wrote next to the results or into
-/// `firmware`.
+/// Adds the findings of awmr_emit.json, next to the results or in `firmware`.
 Status add_emitted(const std::filesystem::path& directory, const Origin& origin,
                    std::vector<Finding>& findings) {
   for (const auto& folder : {directory, directory / "firmware"}) {

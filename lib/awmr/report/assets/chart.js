@@ -3,8 +3,7 @@
 
 const allCharts = [];
 
-/// Margins around every plot, pixels. All charts have the same margins, so that the axes of charts
-/// one below the other are aligned.
+/// Margins around every plot, pixels; equal, so that the axes of stacked charts are aligned.
 const margin = {left: 62, right: 14, top: 8, bottom: 40};
 
 const font = "system-ui, sans-serif";
@@ -15,8 +14,7 @@ const style = {
   legend: {labelColor: "var(--ink)", labelFont: font, labelFontSize: 11, labelLimit: 260},
 };
 
-/// Shapes of points, in the form that Vega needs. The legend of the page draws the first two as
-/// well.
+/// Shapes of points for Vega. The legend of the page draws the first two as well.
 const shapePaths = {
   cross: "M11.5 0h3v3.5H18v3h-3.5V10h-3V6.5H8v-3h3.5z", diamond: "M13 0l5 5-5 5-5-5z",
   square: "M9 1h8v8h-8z", "triangle-up": "M13 0l5 9h-10z",
@@ -42,8 +40,7 @@ const markOfKind = {
     y2: {signal: "scale('y', max(datum[0], domain_y[0]))"}, fill: colour}}),
 };
 
-/// Vega mark of one series. The mark is invisible while the signal `hidden` contains the index of
-/// the series.
+/// Vega mark of one series, invisible while the signal `hidden` contains the series' index.
 function markOf(series, index) {
   const at = {x: {scale: "x", field: "0"}, y: {scale: "y", field: "1"}};
   const {update, ...mark} = {aria: true, ...markOfKind[series.kind](series, at,
@@ -153,8 +150,7 @@ function described(chart) {
   return `${chart.title}, ${chart.y} over ${chart.x}. ${shown.map(of).join("; ")}.`;
 }
 
-/// Adds the frame of a chart to the page: a caption with buttons, and the box in which the chart is
-/// drawn.
+/// Adds the frame of a chart to the page: a caption with buttons, and the box of the chart.
 function framed(parent, chart) {
   chart.figure = add(parent, "figure");
   const caption = add(chart.figure, "figcaption");

@@ -4,8 +4,7 @@ const onScreen = new IntersectionObserver((entries) => {
   for (const entry of entries) if (entry.isIntersecting) draw(entry.target.chart);
 }, {rootMargin: "300px"});
 const resized = new ResizeObserver((entries) => {
-  // Resizes the charts in the next frame. Changing a height in the callback of the ResizeObserver
-  // would call it again.
+  // Resizes in the next frame: a change in this callback would call the callback again.
   requestAnimationFrame(() => entries.forEach(({target}) => fit(target.chart, target.clientWidth)));
 });
 

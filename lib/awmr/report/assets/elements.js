@@ -37,8 +37,7 @@ const plural = (n, word) => `${n} ${word}${n === 1 ? "" : "s"}`;
 /// Number of decimals with which a standard error has two significant digits, at most 8.
 const decimalsOf = (error) => Math.max(0, Math.min(8, 1 - Math.floor(Math.log10(error))));
 
-/// Texts for metrics that a run lacks because it did not settle or did not reach the end of its
-/// route.
+/// Texts for metrics that a run lacks: it did not settle, or did not reach the end of its route.
 const absentWords = {settling_time_s: "never settled", finish_time_s: "not finished"};
 /// Text of a metric's value, with at most three decimals.
 function metricValue(name, x) {

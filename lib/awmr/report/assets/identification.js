@@ -64,8 +64,7 @@ function residualChart(parent, model, fit, kind) {
     {name: "residual", ...measuredLook, points}]});
 }
 
-/// Chart of the coast-downs: the model m' du/dt = -g1(u) from each initial speed, and the measured
-/// stop times.
+/// Coast-downs: the model m' du/dt = -g1(u) from each initial speed, and the measured stop times.
 function coastdownChart(parent, model, coasts) {
   if (!coasts.length) return;
   const rows = model.trials.filter((t) => t.kind === "coastdown");

@@ -48,8 +48,7 @@ function scenarioPart(parent, stem, runs, scenario, open) {
   const box = folded(parent, scenarioWords(stem), open);
   const group = [];
   const first = runs[0];
-  // With guidance, each run computes its own heading reference; without guidance, all runs have the
-  // same.
+  // With guidance, each run has its own heading reference; otherwise all runs share one.
   const sameHeading = !(scenario && scenario.guidance) || scenario.guidance.type === "heading";
   const entries = runs.map((run) => lineOf(run, "t_s", "psi_deg"));
   const points = waypointsOf(scenario).filter((p) => Array.isArray(p));

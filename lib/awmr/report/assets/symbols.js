@@ -27,12 +27,10 @@ const symbolParts = (text) => text.replaceAll("<=", "≤").replaceAll(">=", "≥
 const plainSymbols = (text) => symbolParts(text).map((part) =>
   (symbols.get(part) || [part])[0]).join("");
 
-/// Symbols that occurred on the page so far. Only the first occurrence of a symbol can get the
-/// keyboard focus.
+/// Symbols that occurred on the page so far. Only the first occurrence can get the focus.
 const metSymbols = new Set();
 
-/// Appends text to a node. Replaces names of known symbols by their letter, with the meaning as a
-/// tooltip.
+/// Appends text to a node; known symbols become letters with their meaning as a tooltip.
 function write(node, text) {
   for (const part of symbolParts(text)) {
     const symbol = symbols.get(part);

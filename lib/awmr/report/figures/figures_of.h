@@ -20,8 +20,7 @@ struct FiguresOfResults {
 /// format.
 Result<FiguresOfResults> figures_of(const ReportData& data);
 
-// Each function below adds the figures of one kind to `all`. If there are no data for them, it adds
-// the reason to all.lacking.
+// Each function adds the figures of one kind to `all` or, without data, the reason to all.lacking.
 void add_identification_figures(const Model& model, FiguresOfResults& all);
 /// Throws Json::exception if validation.json does not have awmr's format.
 void add_log_figures(const Json& data, FiguresOfResults& all);

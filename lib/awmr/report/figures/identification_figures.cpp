@@ -25,8 +25,7 @@ const std::vector<KindWords>& kinds() {
   return kKinds;
 }
 
-/// Adds the measured runs as two series: runs with and runs without a warning. Empty series are
-/// left out.
+/// Adds the measured runs as two series, with and without a warning; omits empty series.
 void add_measured(const Model& model, const DrawnFit& fit, std::vector<Series>& series) {
   const std::vector<bool> doubtful = doubtful_trials(model);
   Series good{.name = "measured", .shape = SeriesShape::kPoints, .role = Role::kMeasured};
