@@ -114,7 +114,7 @@ Result<int> open_terminal() {
   return terminal;
 }
 
-/// Writes as many bytes as the terminal accepts; the others are lost, as on a real line.
+/// Writes the bytes that the terminal accepts; further bytes are lost, as on a real line.
 void write_to(int terminal, const std::string& bytes) {
   std::size_t sent = 0;
   while (sent < bytes.size()) {

@@ -255,7 +255,7 @@ Status compare_runs(const PilOptions& options, const Inputs& in, Report& report)
   AWMR_RETURN_IF_ERROR(failure_of(exact, in.setup.scenario));
   report.from_double = difference(report.chip.rows, exact);
   report.heading_apart_deg = heading_apart_deg(report.chip.rows, exact);
-  // Only power laws can be computed by powf, with which the tables are compared.
+  // The tables are compared with powf, which computes power laws only.
   if (!is_power_law(plant)) return {};
   AWMR_ASSIGN_OR_RETURN(const std::vector<LoopRow> by_powf, run_host(in, ResistanceForm::kPowf));
   report.by_float32 = difference(by_powf, exact);

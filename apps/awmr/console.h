@@ -67,7 +67,7 @@ Status check_outputs(const std::filesystem::path& directory, const std::vector<s
 
 /// Returns a table of the parameters: value, standard error, 95 % interval, unit and origin.
 std::string parameter_table_text(const Model& model);
-/// Returns the same table in N, N m, kg and kg m^2; empty if m' is unknown.
+/// Returns a table of the parameters in N, N m, kg and kg m^2; empty if m' is unknown.
 std::string si_table_text(const Model& model);
 
 }  // namespace awmr::cli

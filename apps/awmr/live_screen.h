@@ -24,7 +24,7 @@ struct LiveUpdate {
   bool out_of_time = false;
   /// Manoeuvre that would improve the model most; empty if the model is accurate enough.
   std::string next = {};
-  /// Target precision: largest sufficient half width of a 95 % interval.
+  /// Target precision: half width of a 95 % interval at which a parameter is known well enough.
   double enough = 0.1;
   /// Parameters whose intervals must be small enough; empty: all.
   std::vector<ParameterId> requested = {};

@@ -60,7 +60,7 @@ Result<OpenStream> open_stream(const StreamSource& source) {
     }
     return OpenStream{std::move(input)};
   }
-  // O_NONBLOCK: opening a pipe must not wait for its writer, to stay interruptible.
+  // With O_NONBLOCK, opening a pipe does not wait for its writer, so that Ctrl-C works.
   Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.number() < 0) {
     return input_error(ErrorCode::kCannotRead, name,

@@ -1,4 +1,4 @@
-/// Reads a recorder's data in a thread of its own, so that none are lost during a fit.
+/// Reads a recorder's data in a thread of its own, so that no data are lost during a fit.
 #pragma once
 
 #include <array>

@@ -14,7 +14,7 @@ std::string gains_table(const Tuning& tuning);
 /// All tables of a tuning.
 std::string tuning_summary(const Tuning& tuning, const TuneOptions& options);
 
-/// Text for `--verbose`: objective by scenario and mode, constraints, end of the search.
+/// Text for `--verbose`: objective by scenario and mode, constraints, why the search ended.
 std::string tuning_details(const Tuning& tuning);
 
 }  // namespace awmr::cli
