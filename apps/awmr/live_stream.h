@@ -61,7 +61,7 @@ class RecorderStream {
 };
 
 /// While an object exists, SIGINT, SIGTERM and SIGHUP (terminal closed) do not end the program.
-/// After one of them has arrived, came() returns true. After the first SIGHUP, further ones are
+/// After one of them has arrived, came() returns true. After the first SIGHUP, further SIGHUPs are
 /// ignored: when a terminal closes, kernel and shell send one each, and the results must still be
 /// written. Only one object may exist at a time.
 class Interruption {
