@@ -83,9 +83,7 @@ bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candid
 
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without) {
   if (!with.fit.usable) return false;
-  const bool is_inadequate = std::ranges::any_of(
-      with.fit.noise, [](const auto& channel) { return channel.second.overwhelms_sensor(); });
-  if (is_inadequate) return false;
+  if (with.fit.has_large_drift()) return false;
   for (std::size_t i = 0; i < with.fit.quantities.size(); ++i) {
     const bool is_open = !with.fit.refusal_reason[i].empty();
     if (with.fit.quantities[i].is(ParameterId::kBackEmf) && is_open) return false;

@@ -144,6 +144,16 @@ constexpr double kFarWorse = 1.5;
 
 double give_up_above(const LogFit& best) { return kFarWorse * std::max(1.0, best.relative_error); }
 
+/// Returns `options` for fits that compete with `best`: they stop early if they are much worse.
+LogFitOptions with_limits_of(const FamilyFit& best, const std::vector<DrivingLog>& logs,
+                             LogFitOptions options) {
+  if (!best.fit.usable) return options;
+  options.give_up_above = std::min(options.give_up_above, give_up_above(best.fit));
+  const FamilyFit rough = fit_roughly_from(logs, options, best, best.surge, best.yaw, {});
+  options.best_so_far = BestSoFar{rough.fit.relative_error, best.fit.has_large_drift()};
+  return options;
+}
+
 /// Index of the selected fit. The fit with a power law on the axis (yaw if `of_yaw`, else surge) is
 /// selected if its AIC is at most `lead` above the lowest AIC. Otherwise the fit with the lowest
 /// AIC is.
@@ -160,26 +170,25 @@ std::size_t selected(const std::vector<FamilyFit>& fits, bool of_yaw, double lea
 /// Fits the families `others` of one axis (yaw if `of_yaw`, else surge), and stores the best family
 /// in `result.best`. If another family is better than the previous best one, the previous best one
 /// is first fitted again (searched_again()), because its search may have failed.
-void compete(const std::vector<DrivingLog>& logs, LogFitOptions power_law, bool of_yaw,
+void compete(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law, bool of_yaw,
              const std::vector<Families>& others, double lead, BestFamily& result) {
   std::vector<FamilyFit> fits;
   fits.push_back(std::move(result.best));
   std::size_t best = 0;
-  const auto limit = [&] {
-    const LogFit& fit = fits[best].fit;
-    if (fit.usable) {
-      power_law.give_up_above = std::min(power_law.give_up_above, give_up_above(fit));
-    }
-  };
+  LogFitOptions limited = with_limits_of(fits[best], logs, power_law);
   for (const Families& other : others) {
     if (is_over(power_law)) break;
-    limit();
-    fits.push_back(fit_from(logs, power_law, fits[best], other.surge, other.yaw));
-    if (aic_lead(fits.back().fit, fits[best].fit) > 0.0) best = fits.size() - 1;
+    LogFitOptions options = limited;
+    // A power law is always fitted completely, because `power-law-inadequate` compares AIC with it.
+    const bool is_power_law = (of_yaw ? other.yaw : other.surge) == Family::kPower;
+    if (is_power_law) options.best_so_far.reset();
+    fits.push_back(fit_from(logs, options, fits[best], other.surge, other.yaw));
+    if (!(aic_lead(fits.back().fit, fits[best].fit) > 0.0)) continue;
+    best = fits.size() - 1;
+    limited = with_limits_of(fits[best], logs, std::move(limited));
   }
-  limit();
   if (best != 0) {
-    fits.front() = searched_again(logs, power_law, std::move(fits.front()), fits[best]);
+    fits.front() = searched_again(logs, limited, std::move(fits.front()), fits[best]);
   }
   if (is_over(power_law)) {
     result.is_out_of_time = true;
@@ -204,9 +213,8 @@ std::set<std::string> names_of_terms(const LogFit& fit) {
 /// could not find it, because a power law with Coulomb friction resembles Stribeck friction.
 void compete_with_stribeck(const std::vector<DrivingLog>& logs, LogFitOptions power_law,
                            bool of_yaw, BestFamily& result) {
-  const LogFit& best = result.best.fit;
-  if (!best.usable || result.is_out_of_time) return;
-  power_law.give_up_above = give_up_above(best);
+  if (!result.best.fit.usable || result.is_out_of_time) return;
+  power_law = with_limits_of(result.best, logs, std::move(power_law));
   FamilyFit stribeck = fit_stribeck(logs, power_law, result.best, of_yaw);
   if (aic_lead(stribeck.fit, result.best.fit) > kFamilyAicThreshold) {
     std::swap(stribeck, result.best);

@@ -108,6 +108,7 @@ FamilyFit fit_with(const std::vector<DrivingLog>& logs, LogFitOptions options, F
   if (result.options.frees(ParameterId::kBackEmf)) result.fit.report.family += ", back-EMF";
   if (result.fit.usable) result.fit.report.aicc = aic_under(result.fit.noise, result.fit);
   result.options.give_up_above = LogFitOptions{}.give_up_above;
+  result.options.best_so_far.reset();
   return result;
 }
 

@@ -161,12 +161,13 @@ LogFit fit_at(const LogProblem& problem, const Solved& solved, const std::vector
           .usable = solved.usable && solved.converged};
 }
 
-/// Result of a fit that stopped early because of large errors. `at`: end of its first round.
-LogFit given_up(const NoiseIteration& at) {
+/// Result of a fit that stopped early at `coordinates`, because of large errors.
+LogFit given_up(const std::vector<FreeQuantity>& quantities, std::vector<double> coordinates,
+                double relative_error) {
   LogFit fit = without_solution("not refined, because the errors are too large", {});
-  fit.quantities = at.problem.model.quantities;
-  fit.coordinates = at.point.coordinates;
-  fit.relative_error = 2.0 * at.first_cost / at.problem.readings();
+  fit.quantities = quantities;
+  fit.coordinates = std::move(coordinates);
+  fit.relative_error = relative_error;
   fit.gave_up = true;
   return fit;
 }
@@ -221,7 +222,10 @@ std::optional<LogFit> fit_from(const LogProblem& guess, const std::vector<double
     return is_between_rows;
   };
   if (tests(settled)) return stopped_at(settled);
-  if (settled.gave_up) return given_up(settled);
+  if (settled.gave_up) {
+    return given_up(settled.problem.model.quantities, settled.point.coordinates,
+                    2.0 * settled.first_cost / settled.problem.readings());
+  }
   if (options.finds_delays) {
     settled = find_delays_and_errors(std::move(settled), options.loss, tests);
   }
@@ -256,6 +260,9 @@ LogFit fit_logs(const std::vector<DrivingLog>& logs, const LogFitOptions& option
         "all initial guesses diverged (non-finite residuals); check the units and signs of the "
         "columns",
         search.starts);
+  }
+  if (options.best_so_far && is_far_worse(search, *options.best_so_far)) {
+    return given_up(guess.model.quantities, search.ends.front(), search.relative_error);
   }
   std::optional<LogFit> fit;
   for (std::size_t i = 0; i < std::min(kTries, search.ends.size()) && !fit; ++i) {

@@ -39,15 +39,22 @@ struct LogFit {
   /// the model is right. If the fit gave up, this is the value after the first round of
   /// settle_noise().
   double relative_error = 0.0;
-  /// True: the fit stopped early, because its relative error after the first round exceeded
-  /// LogFitOptions::give_up_above. The fit is then not usable. Of its results only `quantities`,
-  /// `coordinates`, `relative_error` and `report` are set.
+  /// True: the fit stopped early, because its errors were too large after its quick searches
+  /// (LogFitOptions::best_so_far) or after the first round (LogFitOptions::give_up_above). The fit
+  /// is then not usable. Of its results only `quantities`, `coordinates`, `relative_error` and
+  /// `report` are set.
   bool gave_up = false;
   /// True: the fit stopped early, because the commands of the logs probably change between rows
   /// (LogFitOptions::tests_changes). The fit is then not usable. Of its results only `quantities`
   /// and `coordinates` are set.
   bool has_changes_between_rows = false;
 
+  /// True if the errors of a channel have a drift that is large and long compared with the noise of
+  /// its sensor (ChannelNoise::overwhelms_sensor()): the model is probably wrong.
+  bool has_large_drift() const {
+    return std::ranges::any_of(
+        noise, [](const auto& channel) { return channel.second.overwhelms_sensor(); });
+  }
   double error_of(std::size_t i) const {
     return std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
   }

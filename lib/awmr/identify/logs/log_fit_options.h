@@ -34,6 +34,13 @@ class Effort {
   std::atomic<std::int64_t> spent_ = 0;
 };
 
+/// The best fit so far. The fit of another model stops early (LogFit::gave_up) if its quick searches
+/// end with much larger errors (is_far_worse() in multistart.h).
+struct BestSoFar {
+  double relative_error;  ///< LogFit::relative_error, in quick searches
+  bool has_large_drift;   ///< LogFit::has_large_drift()
+};
+
 struct LogFitOptions {
   Vehicle vehicle;
   /// One per ParameterId: initial guess of a free parameter, or value of a fixed parameter.
@@ -65,6 +72,8 @@ struct LogFitOptions {
   /// The fit stops early (LogFit::gave_up) if LogFit::relative_error exceeds this value after the
   /// first round of settle_noise().
   double give_up_above = std::numeric_limits<double>::infinity();
+  /// Absent: the fit never stops after its quick searches.
+  std::optional<BestSoFar> best_so_far;
   Loss loss = Loss::kSquared;  ///< use a robust loss if a sensor has outliers
   std::uint64_t seed = 1;      ///< seed of the multistart and of the bootstrap
   int multistart = 6;          ///< number of random initial guesses in addition to the given one

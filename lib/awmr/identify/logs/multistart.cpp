@@ -52,6 +52,14 @@ std::vector<std::vector<double>> places(const LogProblem& problem, const LogFitO
 
 }  // namespace
 
+bool is_far_worse(const Multistart& search, const BestSoFar& best) {
+  constexpr double kFar = 100.0;
+  constexpr double kMuchLess = 0.7;
+  if (best.has_large_drift && search.relative_error > kMuchLess * best.relative_error) return true;
+  return search.readings * (search.relative_error - best.relative_error) >
+         kFar * std::max(1.0, best.relative_error);
+}
+
 LogProblem rough_problem(const LogProblem& problem) {
   constexpr std::size_t kParts = 12;
   constexpr double kPart_s = 2.5;
@@ -90,7 +98,11 @@ Multistart multistart(const LogProblem& problem, const LogFitOptions& options) {
   }
   std::ranges::stable_sort(usable, {}, [&](std::size_t i) { return solved[i].cost; });
   for (const std::size_t i : usable) result.ends.push_back(solved[i].point.coordinates);
-  if (!usable.empty()) result.starts[usable.front()].chosen = true;
+  if (!usable.empty()) {
+    result.starts[usable.front()].chosen = true;
+    result.readings = rough.readings();
+    result.relative_error = 2.0 * solved[usable.front()].cost / result.readings;
+  }
   return result;
 }
 

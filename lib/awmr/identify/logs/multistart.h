@@ -16,7 +16,19 @@ struct Multistart {
   /// Report of every search: from the initial guess, from LogFitOptions::also_from, from random
   /// guesses.
   std::vector<SearchStart> starts;
+  /// LogFit::relative_error at the first element of `ends`, in the parts of the logs that the
+  /// searches use. 0 without a search.
+  double relative_error = 0.0;
+  int readings = 0;  ///< number of readings in these parts
 };
+
+/// True if a complete fit of a model would waste time, because its quick searches ended with a much
+/// larger error than those of the best fit so far. `search` must be usable. One of these conditions
+/// suffices:
+///   - -2 ln L is higher by more than 100, with a noise level for which the best model is right.
+///   - The errors of the best fit have a large drift, so that it gets no intervals, and this model
+///     does not reduce the mean square error by 30 %. AIC cannot decide between two wrong models.
+bool is_far_worse(const Multistart& search, const BestSoFar& best);
 
 /// Returns a smaller problem for quick searches: up to twelve parts of 2.5 s, spread over all logs,
 /// with longer integration steps.
