@@ -149,7 +149,7 @@ TEST_F(Check, NamesParametersWithoutATrial) {
   write("project.json", json);
   const ProcessResult result = awmr("check " + project());
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("no trial for mass_norm"));
+  EXPECT_THAT(result.err, HasSubstr("no trial determines mass_norm"));
 }
 
 TEST_F(Check, WrongUnitsOfTheVehicleAreNamedWithTheConvertedValue) {
