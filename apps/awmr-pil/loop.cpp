@@ -99,8 +99,9 @@ void command(const LoopSetup& setup, LoopRow& row) {
   }
 }
 
-/// Injects motors that are reversed and exchanged: each side gets the negative force of the other
-/// side. So the vehicle turns as commanded, but drives in the opposite direction.
+/// Injects a wiring error: the motors are reversed, and left and right are exchanged. Each side
+/// gets the negative force of the other side. The vehicle then turns as commanded, but drives in
+/// the opposite direction.
 void reverse_motors(LoopRow& row) { row.force = {-row.force.right, -row.force.left}; }
 
 void swap_sides(LoopRow& row) { row.force = {row.force.right, row.force.left}; }

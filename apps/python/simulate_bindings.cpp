@@ -68,8 +68,8 @@ py::dict metrics_dict(const Metrics& metrics) {
 
 void bind_simulate(py::module_& module) {
   py::class_<Scenario>(module, "Scenario",
-                       "Guidance of a run (headings, waypoints, ...), with the obstacles, "
-                       "disturbances and sensor noise (scenario.json).")
+                       "Scenario of a run, from scenario.json: the guidance (headings, waypoints, "
+                       "...), obstacles, disturbances and sensor noise.")
       .def_readonly("name", &Scenario::name)
       .def_readonly("duration_s", &Scenario::duration_s, "longest duration of a run, s");
   bind_read(

@@ -6,8 +6,8 @@
 /// the same m leading mantissa bits. So a shift of the float's bits gives the index of the cell,
 /// without a logarithm. Within a cell, the table gives the chord: the straight line through the
 /// curve's points at both ends of the cell. This needs one multiplication and one addition. Below
-/// the first cell, the table gives the line from the origin to the start of this cell. The table is
-/// odd: g(-w) = -g(w).
+/// the first cell, the table gives the straight line from the origin to the curve's point at the
+/// start of this cell. The table is odd: g(-w) = -g(w).
 #pragma once
 
 #include <stdint.h>
@@ -26,8 +26,9 @@ struct ResistanceLine {
 
 /// A table of a resistance. It refers to its lines, but does not own them.
 struct ResistanceTable {
-  /// One line per cell, in ascending order of speed, in flash on an AVR. The first line, with
-  /// offset 0, is for the speeds below all cells.
+  /// Straight lines of the table, in ascending order of speed; in flash on an AVR. lines[0] runs
+  /// through the origin (its resistance has no offset) and is for the speeds below all cells. Each
+  /// further element is for one cell.
   const ResistanceLine* lines;
   uint16_t count;         ///< number of lines, >= 2
   uint16_t first;         ///< cell_of() for the speeds of the first cell, whose line is lines[1]

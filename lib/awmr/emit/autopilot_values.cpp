@@ -218,16 +218,17 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
   const HeadingGains<double> gains = pilot.source.gains->in(YawMode::kDifferential).heading;
   const double closed_s = 1.0 / (gains.lambda + gains.mu / gains.epsilon);
   pilot.add("RO_YAW_RATE_P", "1/(rad/s)",
-            fmt::format("I'z/(4 d T); I'z: yaw inertia divided by F_max; d: half track; T = "
-                        "{:.4g} s: time constant of the closed yaw-rate loop, 1/(lambda + "
-                        "mu/epsilon)",
+            fmt::format("RO_YAW_RATE_P = I'z/(4 d T); I'z: yaw inertia divided by F_max; d: half "
+                        "of the track width; T = {:.4g} s: time constant of the closed yaw-rate "
+                        "loop, 1/(lambda + mu/epsilon) with the gains of the heading law",
                         closed_s),
             [closed_s](const Plant<double>& plant) {
               return plant.inertia_norm / (4.0 * plant.half_track_m * closed_s);
             });
   pilot.add("RO_YAW_RATE_I", "1/rad",
-            "g3'(r)/(4 d T): slope of the yaw resistance at half of RO_YAW_RATE_LIM; d: half "
-            "track, T: time constant of the closed loop",
+            "RO_YAW_RATE_I = g3'(r)/(4 d T); g3'(r): slope of the yaw resistance at the yaw rate "
+            "r, half of RO_YAW_RATE_LIM; d: half of the track width; T: time constant of the "
+            "closed yaw-rate loop",
             [closed_s, rate](const Plant<double>& plant) {
               return slope(plant.yaw, 0.5 * rate(plant)) / (4.0 * plant.half_track_m * closed_s);
             });
@@ -241,8 +242,8 @@ void add_skid(Autopilot& pilot, const OfPlant& rate) {
   pilot.add("RD_WHEEL_TRACK", "m", "2 d; d: half track",
             [](const Plant<double>& plant) { return 2.0 * plant.half_track_m; });
   pilot.add("RO_YAW_RATE_CORR", "1",
-            "g3(r) RO_MAX_THR_SPEED/(4 d^2 r); g3: yaw resistance, d: half track, r: half of "
-            "RO_YAW_RATE_LIM",
+            "RO_YAW_RATE_CORR = g3(r) RO_MAX_THR_SPEED/(4 d^2 r); g3: yaw resistance divided by "
+            "F_max, d: half of the track width, r: half of RO_YAW_RATE_LIM",
             [rate](const Plant<double>& plant) {
               const double r = 0.5 * rate(plant);
               const double d = plant.half_track_m;

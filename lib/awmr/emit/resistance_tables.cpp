@@ -54,8 +54,9 @@ struct TableErrors {
   double relative = 0.0;
 };
 
-/// Compares the table with the law at `samples` speeds in [lo, hi) from `rest_speed` on, and
-/// increases `errors` to the largest differences.
+/// Compares the table with the law at `samples` evenly spaced speeds in [lo, hi), and increases
+/// `errors` to the largest differences. Skips speeds below `rest_speed`: there the controller does
+/// not use the table, but a straight line (RestingTable).
 void measure(const ResistanceLaw& law, double lo, double hi, int samples, double rest_speed,
              const EmittedTable& table, TableErrors& errors) {
   const ResistanceTable view = table.view();
@@ -72,8 +73,9 @@ void measure(const ResistanceLaw& law, double lo, double hi, int samples, double
   }
 }
 
-/// Returns the errors below the table's first cell. Each octave (factor of 2 in speed) gets the
-/// same number of samples, because the law can be steepest at rest.
+/// Returns the errors of the table below its first cell. Each octave (factor of 2 in speed) gets
+/// the same number of samples, because the law can be steepest at rest, where evenly spaced samples
+/// would miss the largest error.
 TableErrors measure_below(const ResistanceLaw& law, double rest_speed, const EmittedTable& table) {
   TableErrors errors;
   for (double hi = table.lowest_speed; hi > 1e-9; hi /= 2.0) {

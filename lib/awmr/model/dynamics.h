@@ -50,8 +50,9 @@ struct Plant {
   T yaw_scrub_m = T(0.0);
 };
 
-/// Upper bound of the yaw resistance: g3 plus the largest moment of tyre scrub. A larger resistance
-/// needs shorter integration steps.
+/// Returns an upper bound of the yaw resistance: the resistance g3 plus the largest moment of tyre
+/// scrub. The integration chooses its step by this bound, because a larger resistance needs shorter
+/// steps.
 template <class T>
 Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   Resistance<T> law = p.yaw;

@@ -35,11 +35,11 @@ struct RunRow {
   State<double> state{};
   SideForces<double> force{};         ///< command of each motor, left and right, divided by F_max
   double steering_command_rad = 0.0;  ///< d_ro: commanded steering angle, rad, left positive
-  /// Requested surge force, dimensionless, before any limit: output of the speed law minus the
-  /// estimated disturbance.
+  /// Requested surge force, before any limit: output of the speed law minus the estimated
+  /// disturbance. The force is divided by F_max, so it is dimensionless.
   double tau_speed = 0.0;
-  /// Requested yaw moment divided by F_max, m, before any limit: output of the heading law minus
-  /// the estimated disturbance.
+  /// Requested yaw moment, before any limit: output of the heading law minus the estimated
+  /// disturbance. The moment is divided by F_max, so its unit is m.
   double tau_turn_m = 0.0;
   double psi_ref_rad = 0.0;  ///< psi_d: desired heading, input of the law; 0 in open loop
   double u_ref_mps = 0.0;    ///< u_d: desired speed, input of the law; 0 in open loop

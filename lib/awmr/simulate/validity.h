@@ -97,15 +97,17 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
                                              double fastest_degps, const std::string& where,
                                              const TurnCommands& commands);
 
-/// Adds extrapolation_finding() with the highest measured yaw rate of the model, if there is one.
-/// `where`: name of the run, such as "C3, combined". `commands`: turn commands of the run's
-/// scenario.
+/// Adds the warning of extrapolation_finding() for one run. It compares the run with the highest
+/// measured yaw rate of the model, and adds nothing if the model has no such rate. `where`: name of
+/// the run, such as "C3, combined". `commands`: turn commands of the run's scenario.
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,
                         const TurnCommands& commands, std::vector<Finding>& findings);
 
-/// Finds the element of `runs` with the highest yaw rate, calls note_extrapolation() for it, and
-/// returns the findings. The elements have a member `metrics`. `where(run)` returns the name of a
-/// run, `commands(run)` the commands of its scenario.
+/// Returns the warning `beyond-trials` if any of the runs turned faster than the yaw resistance was
+/// measured (extrapolation_finding()). Only the run with the highest yaw rate is reported: a
+/// finding for each run would repeat the same advice. Each element of `runs` must have a member
+/// `metrics`. `where(run)` must return the name of a run, `commands(run)` the turn commands of its
+/// scenario.
 template <class Runs, class Where, class Commands>
 std::vector<Finding> extrapolation_in(const Model& model, const Runs& runs, const Where& where,
                                       const Commands& commands) {

@@ -39,10 +39,11 @@ struct Contradiction {
   std::string remedy = {};  ///< advice that the message shows instead of `mapping`; may be empty
 };
 
-/// Returns the columns with a wrong unit or sign; empty if all channels agree. `mappings`: column
-/// mappings used to read the log; the corrections name the file's columns as these mappings do.
-/// Skips a comparison if its signals are weak (a straight drive, a vehicle at rest) or if the log
-/// has too few windows.
+/// Makes the comparisons above, and returns the columns with a wrong unit or sign. Returns an empty
+/// vector if all channels agree. `mappings`: column mappings with which the log was read;
+/// Contradiction::mapping names the columns of the file as these mappings do. Skips a comparison if
+/// both signals are too small to be compared (a straight drive, a vehicle at rest), or if the log
+/// has too few windows of one second.
 std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& vehicle,
                                           std::span<const ColumnMapping> mappings);
 

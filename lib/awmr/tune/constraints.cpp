@@ -138,8 +138,9 @@ ConstraintReport noise_gain(const Gains<double>& gains, const ConstraintContext&
       context.plant.inertia_norm * gains.heading.lambda * gains.heading.mu / gains.heading.epsilon *
           context.heading_noise_rad,
       context.limits.noise_share * turning_authority_m(vehicle, context.speed_mps, context.mode),
-      fmt::format("yaw moment that {:g} deg of heading noise requests <= {:g} % of the largest "
-                  "yaw moment of the weaker mode, m",
+      fmt::format("yaw moment that the heading law requests for a heading error of {:g} deg (the "
+                  "noise) <= {:g} % of the largest yaw moment of the mode with the smaller one; "
+                  "both divided by F_max, in m",
                   degrees(context.heading_noise_rad), 100.0 * context.limits.noise_share));
 }
 
@@ -156,27 +157,30 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
   const bool strict = context.form == ReachingForm::kStrict;
   return {
       at_most("T2 < T1 (paper)", reaching_s, context.margin * sliding_s,
-              "epsilon/(2 mu) <= margin/lambda (in s): the square of the sliding variable S "
-              "decays faster than the heading error",
+              "epsilon/(2 mu) <= margin/lambda (in s; lambda, mu, epsilon: gains of the heading "
+              "law): the square of the sliding variable S decays faster than the heading error",
               !strict),
       at_most("T2 < T1 (strict)", 2.0 * reaching_s, context.margin * sliding_s,
-              "epsilon/mu <= margin/lambda (in s): the sliding variable S decays faster than the "
-              "heading error",
+              "epsilon/mu <= margin/lambda (in s; lambda, mu, epsilon: gains of the heading law): "
+              "the sliding variable S decays faster than the heading error",
               strict),
       at_least(
           "heading damping",
           heading_damping(gains, context, at_all_rates(plant, context), 0.0, 0.0, damping_ratio),
           context.limits.damping,
-          "smallest damping ratio of the sampled heading loop with hold and servo >= required"),
+          "smallest damping ratio of the sampled heading loop, with the hold of the commands "
+          "between samples and with the servo >= `damping` of tune.json"),
       speed_gain(speed, context.sample_time_s),
       speed_lag(speed, context.limits.damping),
       at_least("mu dominates", gains.heading.mu,
                kUnmodelledShare * plant.yaw(context.fastest_radps) / known.inertia_norm,
-               fmt::format("mu >= 20 % of g3({:.3g} deg/s)/I'z, rad/s^2, against errors of g3",
+               fmt::format("gain mu >= 20 % of g3({:.3g} deg/s)/I'z, rad/s^2, so that the heading "
+                           "law overcomes errors of the yaw resistance g3",
                            degrees(context.fastest_radps))),
       at_least("mu_s dominates", gains.speed.mu,
                kUnmodelledShare * plant.surge(context.speed_mps) / known.mass_norm,
-               "mu_s >= 20 % of g1(u_d)/m', m/s^2, against errors of g1"),
+               "gain mu_s >= 20 % of g1(u_d)/m', m/s^2, so that the speed law overcomes errors of "
+               "the surge resistance g1"),
       noise_gain(gains, context, vehicle),
   };
 }

@@ -1,4 +1,5 @@
-/// Searches gains that meet the constraints that need no simulation. Private to tune/.
+/// Searches gains that meet the constraints which can be evaluated without a simulation. Private to
+/// tune/.
 #pragma once
 
 #include <optional>
@@ -11,9 +12,10 @@
 
 namespace awmr {
 
-/// Returns gains within the bounds that meet the constraints that need no simulation. If it finds
-/// none, it returns the gains with the smallest violation. Searches from `baseline`, then from
-/// other points.
+/// Searches gains within the bounds that meet all constraints which can be evaluated without a
+/// simulation. Starts from `baseline`, then from other points, until it finds such gains. If it
+/// finds none, it returns the gains with the smallest violation: the largest violation of a
+/// constraint counts.
 Candidate feasible_start(const TuneOptions& options, const ConstraintContext& context,
                          const Gains<double>& baseline);
 
@@ -21,9 +23,9 @@ Candidate feasible_start(const TuneOptions& options, const ConstraintContext& co
 Candidate feasible_near(const TuneOptions& options, const ConstraintContext& context,
                         const Gains<double>& gains);
 
-/// Returns gains within the bounds that violate the constraints named in `relaxed` as little as
-/// possible, and meet all other constraints that need no simulation. Empty if none are found.
-/// Searches from `baseline`, then from other points.
+/// Returns gains within the bounds that meet all constraints without a simulation, except those
+/// named in `relaxed`. Among such gains, it selects those that violate the constraints in `relaxed`
+/// least. Searches from `baseline`, then from other points. Returns empty if it finds none.
 std::optional<Gains<double>> least_relaxed(const TuneOptions& options,
                                            const ConstraintContext& context,
                                            const Gains<double>& baseline,

@@ -133,8 +133,8 @@ tl::unexpected<Error> never_settles(const Gains<double>& gains, std::size_t runs
                                     const TuneOptions& requested) {
   return refused_at(
       requested, changes.empty() ? "/scenarios" : changes.front().pointer, ErrorCode::kNoGains,
-      fmt::format("no run settles with gains within the limits: none of {} runs settles with the "
-                  "best gains ({}). {}",
+      fmt::format("no run settles: the search found no gains within the limits with which any of "
+                  "the {} runs settles. The gains with the smallest objective are {}. {}",
                   runs, in_words(gains),
                   changes.empty() ? no_change_settles("a run") : describe(changes, "runs")));
 }

@@ -215,8 +215,9 @@ Claim check_time_constants(const std::optional<ModeGains>& gains) {
   Claim claim{
       .id = "C14",
       .statement =
-          "the heading gains lambda = 3, mu = 50, epsilon = 12 give the time constants T1 = 0.33 s "
-          "and T2 = 0.12 s",
+          "with the gains lambda = 3, mu = 50, epsilon = 12 of the heading law, the heading error "
+          "decays with the time constant T1 = 0.33 s, and the square of the sliding variable S "
+          "with T2 = 0.12 s",
       .figure = fmt::format("T1 = 1/lambda = {:.4f} s, T2 = epsilon/(2 mu) = {:.4f} s", t1_s, t2_s),
       .tolerance =
           "T1 and T2 differ from the paper's values by at most 0.005 s, half a unit of the last "

@@ -75,9 +75,11 @@ Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs)
                             "excess over u_d after the heading step to -30 deg: {}",
                             by_mode(runs, "m/s", overshoot), by_mode(runs, "m/s", error),
                             by_mode(runs, "m/s", later)),
-      .tolerance = fmt::format("overshoot from rest and error at the end of the run are at most {} "
-                               "m/s each. The excess after the heading step does not count",
-                               kAccepted_mps),
+      .tolerance =
+          fmt::format("two errors of the speed are at most {} m/s each: the overshoot over u_d "
+                      "while the vehicle accelerates from rest, and the error at the end of the "
+                      "run. The excess of the speed over u_d after the heading step does not count",
+                      kAccepted_mps),
       .why = why_it_converges(none_over, no_error),
       .modes = verdicts_by_mode(
           runs, [&](const ModeRun& run) { return !is_over(run) && is_right(run); })};

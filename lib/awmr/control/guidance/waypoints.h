@@ -14,10 +14,11 @@ struct Waypoints {
   int count;                    ///< >= 0
   /// m, > 0: a waypoint is reached when the vehicle is within this distance
   T acceptance_m;
-  /// What happens at a waypoint that the vehicle passes outside `acceptance_m`. It has passed the
-  /// waypoint when it is beyond the line through the waypoint that is perpendicular to the leg.
-  /// true: the waypoint counts as missed, and the next one follows; for a vehicle that cannot turn
-  /// tightly enough to return. false, as in the paper: the vehicle turns back to the waypoint.
+  /// Selects what happens if the vehicle passes a waypoint at a distance of more than
+  /// `acceptance_m`. (It has passed the waypoint when it is beyond the line through the waypoint
+  /// that is perpendicular to the leg.) true: the waypoint counts as missed, and the vehicle drives
+  /// to the next one. Set this for a vehicle that cannot turn tightly enough to return. false, as
+  /// in the paper: the vehicle turns back to the waypoint.
   bool skip_passed;
 };
 

@@ -69,11 +69,13 @@ struct CoastFit {
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
                    const CoastStart& start);
 
-/// For a fit with a filter: tests whether the curves determine ln m' as well as its standard error
-/// says. Fixes ln m' at 3 standard errors below and above the optimum, and fits the other
-/// parameters again. Returns empty if, on both sides, the sum of squares rises by at least half of
-/// the rise that its curvature at the optimum predicts. Otherwise returns ln m' and the filter on
-/// the side with the smaller rise.
+/// For a fit with a speed filter (CoastFit::lag): tests whether the curves determine ln m' as well
+/// as its standard error says. Fixes ln m' at 3 standard errors below and above the optimum, and
+/// fits the other parameters again. A valid standard error predicts that the sum of squares then
+/// rises by 9 times the variance of the residuals. If it rises by at least half of that on both
+/// sides, the function returns empty. Otherwise another ln m' fits almost as well: the function
+/// returns that ln m' and its filter, on the side with the smaller rise, so that the caller can
+/// start a fit there.
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit);
 

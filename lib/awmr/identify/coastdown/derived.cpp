@@ -24,8 +24,9 @@ std::optional<double> log_unit_stop_time(const Resistance<double>& law, double s
   return std::log(*stop_s);
 }
 
-/// Derivative of ln m' (for a given stop time) by one coordinate of the surge law, by a central
-/// difference; 0 if the vehicle would not stop.
+/// Returns the derivative of ln m' with respect to one coordinate of the surge law (such as ln a1
+/// or b1), computed by a central difference. The stop time is kept constant. 0 if the vehicle would
+/// not stop.
 double derivative(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
   if (c == TransformedParameter::kDeadZone) return 0.0;  // the motors are off
   const double h = 1e-6 * std::max(1e-3, std::abs(surge[c]));
@@ -38,8 +39,9 @@ double derivative(const SteadyFit& surge, TransformedParameter c, double speed_m
   return high && low ? -(*high - *low) / (2.0 * h) : 0.0;
 }
 
-/// Like derivative(), but in closed form for a power law: 1 by ln a1, and -1/(1 - b1) + ln u_max by
-/// b1, with the initial speed u_max = speed_mps.
+/// Returns the same derivative of ln m' as derivative(), but for a power law in closed form:
+///   with respect to ln a1:   1
+///   with respect to b1:      ln u_max - 1/(1 - b1),   u_max = speed_mps: initial speed
 double by_coordinate(const SteadyFit& surge, TransformedParameter c, double speed_mps) {
   const Resistance<double> law = surge.law();
   if (law.coulomb > 0.0 || law.quadratic > 0.0) return derivative(surge, c, speed_mps);

@@ -1,4 +1,5 @@
-/// Estimation of m' from coast-downs: stop times, curves or both. Private to identify/.
+/// Estimation of m', the mass divided by F_max, from coast-downs: stop times, curves or both.
+/// Private to identify/.
 #pragma once
 
 #include <optional>
@@ -23,8 +24,9 @@ struct MassResult {
   std::optional<double> by_grip;
   std::optional<JointFit> joint;  ///< joint fit, if requested and converged
   std::optional<CoastFit> alone;  ///< fit of the curves, if there is no surge law
-  /// Reason why stop times or curves give no m'. Also set if only one kind of trial failed and the
-  /// other kind determines m'.
+  /// Reason why the stop times, or the curves, determine no m' (the mass divided by F_max). Empty
+  /// if neither failed. If only one of them failed, the other can still determine m': then both
+  /// `reason` and `estimate` are set.
   std::string reason;
   std::vector<EstimatorReport> reports;
   std::vector<Finding> findings;

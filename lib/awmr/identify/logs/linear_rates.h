@@ -17,12 +17,12 @@ namespace awmr {
 
 /// Resistance g(w) and its partial derivatives at one speed or yaw rate w.
 struct ResistanceSlopes {
-  double value = 0.0;
-  double by_speed = 0.0;
-  double by_alpha = 0.0;
-  double by_beta = 0.0;
-  double by_coulomb = 0.0;
-  double by_quadratic = 0.0;
+  double value = 0.0;         ///< g(w)
+  double by_speed = 0.0;      ///< dg/dw
+  double by_alpha = 0.0;      ///< dg/d alpha
+  double by_beta = 0.0;       ///< dg/d beta
+  double by_coulomb = 0.0;    ///< dg/dc
+  double by_quadratic = 0.0;  ///< dg/dq
 };
 
 /// Resistance law with derivatives. Below the law's rest_speed, a straight line from 0 to the value
@@ -31,13 +31,15 @@ struct ResistanceSlopes {
 class LinearResistance {
  public:
   explicit LinearResistance(const Resistance<double>& law);
-  /// Computes the resistance g and its derivatives at the speed w. With L = ln |w|,
+  /// Computes the resistance g at the speed w, and its derivatives with respect to w and to the
+  /// parameters alpha, beta, c and q of the law. For w > 0, with L = ln w:
   ///
-  ///     g = c + alpha e^(beta L) + q w^2,   dg/dw = (alpha beta e^(beta L))/|w| + 2 q |w|
+  ///     g = c + alpha e^(beta L) + q w^2,   dg/dw = (alpha beta e^(beta L))/w + 2 q w
   ///
-  /// All results but by_speed have the sign of w. Below rest_speed, they are the results at
-  /// rest_speed times w/rest_speed, and by_speed is g(rest_speed)/rest_speed. The derivatives treat
-  /// rest_speed as a constant.
+  /// g(-w) = -g(w). So for w < 0, g and its derivatives with respect to the parameters are those at
+  /// |w| with the opposite sign; dg/dw (by_speed) is the same. Below rest_speed, all of them except
+  /// dg/dw are the values at rest_speed times w/rest_speed, and dg/dw is g(rest_speed)/rest_speed.
+  /// The derivatives treat rest_speed as a constant.
   ResistanceSlopes operator()(double speed) const;
 
  private:
@@ -49,9 +51,9 @@ class LinearResistance {
 /// Vehicle model with precomputed reciprocals, because a fit evaluates its rates very often.
 /// linear_rates() leaves out the friction at rest, which add_friction() adds.
 struct LinearPlant {
-  /// `by_back_emf`: true to compute the derivatives with respect to k_e even if k_e is 0.
-  /// `longest_step_s`: longest Runge-Kutta step that will be used; 0 if all steps are short
-  /// compared with the time constant of sway.
+  /// `by_back_emf`: true to compute the derivatives of the rates with respect to the back-EMF k_e
+  /// even if k_e is 0. `longest_step_s`: longest Runge-Kutta step that will be used; 0 if all steps
+  /// are short compared with the time constant of sway.
   explicit LinearPlant(const Plant<double>& p, bool by_back_emf = false,
                        double longest_step_s = 0.0, const ExtraForces& extra_forces = {});
   Plant<double> plant;
@@ -66,7 +68,7 @@ struct LinearPlant {
   /// is shorter than a step, the factor is below 1: the sway speed v then approaches the same
   /// steady value with a time constant of one step.
   double sway_pace;
-  /// k |r|^p sgn r, a factor of the drag in turns (extra_forces.h).
+  /// Factor k |r|^p sgn r of the drag in turns, r: yaw rate (extra_forces.h).
   LinearResistance turn_drag_of_yaw;
   double step_per_mass;  ///< longest step / m', m/s: change of the speed by F_max in one step
   bool has_back_emf;
@@ -116,14 +118,14 @@ struct LinearRates {
   double steering_by_max_rate = 0.0;
 };
 
-/// Computes the rates at the state `s`. `out` must be LinearRates{} before the first call, because
-/// the function does not write derivatives that are always 0.
+/// Computes the rates of the state at the state `s`, and their derivatives. Before the first call,
+/// `out` must be LinearRates{}, because the function does not write derivatives that are always 0.
 void linear_rates(const LinearPlant& p, const State<double>& s, const HeldCommand& command,
                   LinearRates& out);
 
-/// Adds the friction at rest to the rates of u and r. `way`: direction of u and r; 0 for a speed
-/// that friction holds at 0. This function sets the rate of such a speed, and its derivatives, to
-/// 0.
+/// Adds the friction at rest to the rates of u and r (u_dot and r_dot). `way`: direction of u and
+/// r; 0 for a speed that friction holds at 0. For such a speed, the function sets its rate and the
+/// derivatives of this rate to 0.
 void add_friction(const LinearPlant& p, const Sliding<double>& way, LinearRates& out);
 
 }  // namespace awmr

@@ -35,9 +35,10 @@ struct ParameterColumn {
 
 class LinearStepper {
  public:
-  /// `columns`: number of columns of the derivatives; 0: only the state is computed. `parameters`:
-  /// columns of model parameters. `command_columns`: columns_of() of the command path.
-  /// `longest_step_s`, `extra`: as for LinearPlant.
+  /// `columns`: number of columns, the unknowns of the fit with respect to which the state is
+  /// differentiated; 0: only the state is computed. `parameters`: the columns that are model
+  /// parameters. `command_columns`: columns_of() of the command path. `longest_step_s`, `extra`: as
+  /// for LinearPlant.
   LinearStepper(const Plant<double>& plant, std::size_t columns,
                 const std::vector<ParameterColumn>& parameters,
                 const CommandColumns& command_columns, double longest_step_s = 0.0,
@@ -55,17 +56,18 @@ class LinearStepper {
   /// The additional delay of the steering changes only the derivative of the steering angle.
   void change_command(const DelayedCommand& before, const DelayedCommand& after,
                       LinearMotion& motion);
-  /// Does the same for the time of this jump, whose column is `column`.
+  /// Updates the derivatives of the motion with respect to the time of this jump in the same way.
+  /// `column`: index of this time among the columns.
   void change_time(std::size_t column, const DelayedCommand& before, const DelayedCommand& after,
                    LinearMotion& motion);
   /// Returns the rates of the state, friction included. If friction holds a speed at 0, sets the
-  /// derivatives of this speed in `motion` to 0.
+  /// derivatives of this speed with respect to the columns, in `motion`, to 0.
   State<double> rates(const DelayedCommand& command, LinearMotion& motion);
 
   std::size_t columns() const { return columns_; }
 
  private:
-  /// Derivative of one rate with respect to a parameter, and its place in driven_.
+  /// Place in driven_ of the derivative of one rate of the state with respect to a parameter.
   struct Term {
     std::size_t parameter;
     double DrivenSlopes::*rate;
@@ -76,22 +78,25 @@ class LinearStepper {
   /// Sets the derivatives of the rates with respect to a quantity that changes the commands. `by`:
   /// derivatives of the commands with respect to this quantity.
   void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
-  /// If another change acts than before (DelayedCommand::change_column), sets the derivatives of
-  /// the rates with respect to the previous one to 0.
+  /// If another change of the commands acts than before (DelayedCommand::change_column), sets the
+  /// derivatives of the rates with respect to the time of the previous change to 0.
   void follow_change(const DelayedCommand& command);
-  /// Computes the rates at the state `s` and their derivatives, friction included, into rates_.
+  /// Sets rates_: the rates of the state at the state `s` and their derivatives (LinearRates),
+  /// friction included.
   void find_rates(const DelayedCommand& command, const State<double>& s);
   /// Sets way_, the direction in which u and r move next. If friction holds a speed at 0, sets the
-  /// derivatives of this speed in `motion` to 0.
+  /// derivatives of this speed with respect to the columns, in `motion`, to 0.
   void find_way(const DelayedCommand& command, LinearMotion& motion);
   /// Returns the state after h_s seconds. Stores the derivatives of the rates at the Runge-Kutta
   /// stages for move_to().
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
-  /// Sets the state of `motion` to `next`, the result of the last state_after(), and advances its
-  /// derivatives by the same step.
+  /// Sets the state of `motion` to `next`, the result of the last state_after(). Advances the
+  /// derivatives of the state with respect to the columns of the fit by the same step of h_s
+  /// seconds.
   void move_to(const State<double>& next, double h_s, LinearMotion& motion);
-  /// Handles a speed that has reached 0: friction holds it at 0, or the speed changes its sign.
-  /// Multiplies its derivatives by the rate of this speed after the stop over that before.
+  /// Handles a speed w (u or r) that has reached 0: friction holds it at 0, or it changes its sign.
+  /// Multiplies the derivatives of w with respect to the columns by the ratio of two accelerations:
+  /// w_dot after the stop, divided by w_dot before it. stop() in the .cpp file derives this factor.
   void stop(LogChannel speed, const DelayedCommand& command, LinearMotion& motion);
 
   LinearPlant plant_;

@@ -1,5 +1,6 @@
-/// Simulated readings of all sensors of a log fit at the rows of a window, with derivatives. Biases
-/// are not included. Private to identify/.
+/// Simulated readings of all sensors of a log fit at the rows of a window, and their derivatives
+/// with respect to the columns of the fit (its unknowns, see LinearMotion). Biases are not
+/// included. Private to identify/.
 #pragma once
 
 #include <array>
@@ -11,7 +12,8 @@
 
 namespace awmr {
 
-/// Readings of one channel at all rows of a window, with derivatives, and their smoothing.
+/// Readings of one channel at all rows of a window, their derivatives with respect to the columns
+/// of the fit, and the smoothing of both.
 class ReadingSeries {
  public:
   /// Adds the reading at the next row. `row`: its derivatives.
@@ -35,9 +37,10 @@ class LogSensors {
   LogSensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
              const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
              std::size_t columns);
-  /// Returns the reading of channel c for the motion at the time t. Afterwards, row() returns the
-  /// derivatives of the reading.
+  /// Returns the reading of channel c for the motion at the time t. Also stores the derivatives of
+  /// this reading with respect to the columns of the fit; row() returns them.
   double read(LogChannel c, const LinearMotion& motion, double t_s);
+  /// Derivatives of the last reading, one per column of the fit.
   const std::vector<double>& row() const { return row_; }
 
  private:
@@ -61,7 +64,8 @@ class SensorReadings {
   /// Advances to the next row of the window (first call: to the first row). `now`: simulated motion
   /// there.
   void go_on(const LinearMotion& now);
-  /// Returns the reading of a channel at this row. Afterwards, row() returns its derivatives.
+  /// Returns the reading of a channel at this row. Also stores its derivatives, one per column of
+  /// the fit; row() returns them.
   double read(LogChannel c, const LinearMotion& now);
   std::vector<double>& row() { return row_; }
 

@@ -111,10 +111,11 @@ std::optional<Diagnostic> curvature(std::span<const double> forces,
   const double ratio = steps / squares;
   const double deviation = std::sqrt(4.0 * (size - 2.0) / (size * size - 1.0));
   const double p = normal_cdf((ratio - 2.0) / deviation);
-  return Diagnostic{"curvature", ratio, p,
-                    verdict(p, "no significant deviation from the shape of the curve",
-                            "residuals of neighbouring forces are correlated: the resistance has "
-                            "another shape than the fitted curve")};
+  return Diagnostic{
+      "curvature", ratio, p,
+      verdict(p, "no significant deviation from the shape of the curve",
+              "runs at similar forces deviate from the fitted curve to the same side, so the "
+              "resistance has another shape than the curve: compare other families (family auto)")};
 }
 
 std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,

@@ -18,9 +18,9 @@ std::optional<Diagnostic> normality(std::span<const double> residuals);
 std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags);
 
 /// Von Neumann's ratio test (normal approximation, one-sided) of the residuals in the order of the
-/// forces. A small p means that residuals at neighbouring forces are similar, so that the
-/// resistance has another shape than the fitted curve. Empty for fewer than 8 residuals, or if all
-/// are equal. `forces`: one per residual, in any unit.
+/// forces. A small p means that runs at similar forces deviate from the fitted curve to the same
+/// side. The resistance then has another shape than the curve. Empty for fewer than 8 residuals, or
+/// if all are equal. `forces`: one per residual, in any unit.
 std::optional<Diagnostic> curvature(std::span<const double> forces,
                                     const Eigen::VectorXd& residuals);
 
