@@ -199,7 +199,8 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
   const std::vector<Finding>& found = trials->findings;
   check.notes.insert(check.notes.end(), found.begin(), found.end());
   if (as_is || std::none_of(found.begin(), found.end(), contradicts)) return;
-  // Without `as_is`, each contradiction is a fault whose message has the correcting mapping.
+  // If `as_is` is false, each contradiction is a fault, and its message has the column mapping that
+  // corrects it.
   std::erase_if(check.notes, contradicts);
   files.options.as_is = false;
   if (const auto refused = load_trials(files); !refused) {

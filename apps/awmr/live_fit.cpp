@@ -12,7 +12,7 @@
 namespace awmr::cli {
 namespace {
 
-/// With fewer rows, a recording is not fitted yet.
+/// Smallest number of rows in a fit: while a recording has fewer rows, it is not fitted yet.
 constexpr std::size_t kMinRows = 10;
 
 }  // namespace

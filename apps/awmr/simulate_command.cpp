@@ -140,9 +140,9 @@ Result<std::vector<fs::path>> checked_inputs(const SimulateCommand& command) {
   return inputs;
 }
 
-/// Returns the gains in the file of `--gains`. Without that option, an open-loop scenario gets the
-/// paper's gains, which have no effect there. For any other scenario, the missing option is an
-/// error (input).
+/// Returns the gains in the file of `--gains`. If that option is not given, an open-loop scenario
+/// gets the paper's gains, which have no effect there. For any other scenario, the missing option
+/// is an error (input).
 Result<Gains<double>> gains_for(const SimulateCommand& command, const Scenario& scenario,
                                 const Model& model) {
   if (command.gains) {

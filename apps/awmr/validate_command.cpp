@@ -72,9 +72,9 @@ auto evaluate_logs(const ValidateCommand& command, const Vehicle& vehicle, const
   return all;
 }
 
-/// Evaluates the logs. Without a scenario, the logs are compared with the motion that the model
-/// predicts. With a scenario, they are compared with simulated drives of this scenario under the
-/// controller.
+/// Evaluates the logs. If no scenario is given, the logs are compared with the motion that the
+/// model predicts. If one is given, they are compared with simulated drives of this scenario under
+/// the controller.
 Status add_evaluated_logs(const ValidateCommand& command, const Model& model,
                           const std::optional<ModeGains>& gains, Validation& validation,
                           std::vector<Finding>& findings) {

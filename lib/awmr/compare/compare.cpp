@@ -118,7 +118,8 @@ std::vector<BatchRun> runs_of(const SampledPlants& plants, const Controller<doub
                               const Block& block, YawMode mode, std::uint64_t seed) {
   std::vector<BatchRun> runs;
   for (const std::size_t sample : block.samples) {
-    // With seed 0, sample 0 equals the run of `awmr simulate`, which uses only the scenario's seed.
+    // If the seed is 0, sample 0 equals the run of `awmr simulate`, which uses only the scenario's
+    // seed.
     runs.push_back({plants.vehicle(block.scenario, sample), controller, mode,
                     sample == 0 ? 0 : seed, static_cast<std::uint64_t>(sample)});
   }

@@ -52,7 +52,8 @@ struct Contender {
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// With fewer samples, 95 % intervals contain the true value in fewer than 95 % of the cases.
+/// Smallest sufficient number of samples. If there are fewer, the 95 % intervals contain the true
+/// value in fewer than 95 % of the cases.
 inline constexpr int kFewSamples = 6;
 
 /// Maximum number of runs of a comparison: scenarios x sets of gains x modes x samples (including
@@ -71,9 +72,9 @@ struct CompareOptions {
   /// Computes Comparison::break_even; needs a single set of gains.
   bool break_even = false;
   /// Computes Comparison::changes: further rankings, each with one changed assumption. One ranking
-  /// uses the plant that the scenario does not use (3-DOF model or four wheels). With a single set
-  /// of gains, two more rankings use slower and faster gains. If the comparison is divided into
-  /// parts (`shard`), only part 1 computes these rankings.
+  /// uses the plant that the scenario does not use (3-DOF model or four wheels). If there is a
+  /// single set of gains, two more rankings use slower and faster gains. If the comparison is
+  /// divided into parts (`shard`), only part 1 computes these rankings.
   bool other_settings = false;
   /// Tyres with which `other_settings` simulates a scenario that has none.
   Tyres<double> tyres = {};
@@ -95,20 +96,23 @@ struct BreakEven {
   std::string scenario;
   YawMode mode{};     ///< the mode with the better score without scrub
   YawMode against{};  ///< the other mode, which has smaller wheel-force differences
-  /// Smallest scrub at which `mode` is no longer ahead, m, > 0. Its error is at most 1 % of the
-  /// value or 3e-8 times most_m, whichever is larger. Absent if the mode stays ahead up to most_m.
+  /// Smallest scrub moment at which `mode` is no longer ahead, divided by F_max, m, > 0. Its error
+  /// is at most 1 % of the value or 3e-8 times most_m, whichever is larger. Absent if the mode
+  /// stays ahead up to most_m.
   std::optional<double> yaw_coulomb_m;
-  /// Largest yaw moment that left and right wheel forces can make, m: 2 d (F'max - F'min).
+  /// Largest yaw moment that left and right wheel forces can make, divided by F_max, m: 2 d (F'max
+  /// - F'min), d: half of the track width.
   double most_m = 0.0;
-  /// Largest possible scrub, m: 0.8 g m' l_f, the moment of four tyres that slide sideways with a
-  /// friction of 0.8. The centre of gravity is assumed half-way between the axles.
+  /// Largest possible scrub, divided by F_max, m: 0.8 g m' l_f, the moment of four tyres that slide
+  /// sideways with a friction of 0.8. The centre of gravity is assumed half-way between the axles.
   double sliding_m = 0.0;
   /// Highest yaw rate in the run of `mode` on the nominal model without scrub, deg/s, >= 0.
   double fastest_degps = 0.0;
-  /// Range of the scrub moment measured in differential turns, m. It contains the 95 % interval and
-  /// the largest moment that did not turn the vehicle. If scrub depends on the yaw rate, it
-  /// contains the values at all measured rates. If only the moment that did not turn the vehicle is
-  /// known, the range extends from this moment to most_m. Absent if nothing was measured.
+  /// Range of the scrub moment measured in differential turns, divided by F_max, m. It contains the
+  /// 95 % interval and the largest moment that did not turn the vehicle. If scrub depends on the
+  /// yaw rate, it contains the values at all measured rates. If only the moment that did not turn
+  /// the vehicle is known, the range extends from this moment to most_m. Absent if nothing was
+  /// measured.
   std::optional<Interval> measured_m = {};
   /// Yaw rates of the turns in which scrub was measured, deg/s; absent if the model has no scrub.
   std::optional<Interval> measured_degps = {};
@@ -202,7 +206,7 @@ std::vector<std::pair<std::string_view, std::optional<double>>> named_metrics(
     const Metrics& metrics);
 
 /// Content of comparison.csv. `completed` is 1 or 0; a metric that does not apply has an empty
-/// cell. With several sets of gains, the last column is `gains`.
+/// cell. If there are several sets of gains, the last column is `gains`, the name of the set.
 std::string comparison_csv(const Comparison& comparison);
 /// Content of comparison.json: options, statistics, ranking and verdict of each scenario.
 std::string comparison_text(const Comparison& comparison, const CompareOptions& options,

@@ -120,8 +120,8 @@ void evaluate(const std::vector<ComparisonRow>& rows, const CompareOptions& opti
   }
 }
 
-/// Multiplies the bandwidths of both closed loops by a factor: lambda and mu/epsilon of the heading
-/// loop, and mu_s/epsilon_s of the speed loop.
+/// Multiplies the bandwidths of both closed loops by a factor. They follow from the gains: lambda
+/// and mu/epsilon for the heading loop, mu_s/epsilon_s for the speed loop.
 NamedGains with_rates_times(double factor, const NamedGains& set) {
   const auto changed = [factor](Gains<double> gains) {
     gains.heading.lambda *= factor;

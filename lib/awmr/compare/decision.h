@@ -21,7 +21,7 @@ namespace awmr {
 /// test the ranking with other weights. A larger factor leaves fewer rankings decided.
 inline constexpr double kWeightFactor = 2.0;
 /// Factor, sqrt(2), by which the bandwidths of heading loop and speed loop are multiplied or
-/// divided, to test the ranking with other gains.
+/// divided, to test whether the ranking holds with slower and faster gains.
 inline constexpr double kGainsFactor = 1.4142135623730951;
 
 enum class DecisionKind {

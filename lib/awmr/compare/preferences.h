@@ -17,7 +17,7 @@ namespace awmr {
 inline constexpr double kMaximumWeight = 1000.0;
 /// Permitted range of Preferences::relevance. A smaller margin would make all scores nearly equal,
 /// because the offset floor/relevance is added to each metric (scoring.h). At 0.001, the offset is
-/// already above most values of the metrics. With 0, rounding could decide a rank.
+/// already above most values of the metrics. If it were 0, rounding errors could decide a rank.
 inline constexpr NumberRule kRelevance{.min = 0.001, .max = 1.0};
 
 struct Preferences {

@@ -30,7 +30,7 @@ struct RankingEntry {
 
 /// True if two modes complete the scenario about equally often: the exact McNemar test, which
 /// compares the runs sample by sample, finds no significant difference. False if only one mode
-/// completes any run. With a single run, both modes or neither must complete it.
+/// completes any run. If there is only one run, both modes or neither must complete it.
 bool complete_alike(const ModeRows& a, const ModeRows& b);
 
 /// Returns the modes of a scenario, best first. Modes that complete often enough

@@ -31,9 +31,9 @@ std::vector<ScoredMetric> rankable_metrics(const ScenarioRows& scenario,
 std::vector<ScoredMetric> scoring_of(const ScenarioRows& scenario, const Preferences& preferences);
 
 /// Loss of a run in one metric, ln(x + f): x is the value of the metric (0 if negative), and the
-/// offset f is the metric's floor divided by the relevance margin. Without f, ratios of small
-/// values would dominate the score. With f, adding floor + relevance x to x always multiplies x + f
-/// by 1 + relevance.
+/// offset f is the metric's floor divided by the relevance margin. If f were not added, ratios of
+/// small values would dominate the score. Because f is added, an increase of x by floor + relevance
+/// x always multiplies x + f by 1 + relevance.
 double log_loss(const Metrics& metrics, const ScoredMetric& scored);
 
 /// Mean of log_loss() over the counted runs of a mode (ModeRows::counted).

@@ -191,7 +191,7 @@ std::string trials_in_words(const std::vector<std::string_view>& trials) {
 std::string narrow_text(const Decision& decision) {
   if (!decision.narrow_lead) return {};
   return fmt::format(
-      "; undecided: {} leads {} only by {}, and no longer if this metric has half its weight",
+      "; undecided: {} leads {} only by {}, and no longer if this metric has half of its weight",
       listed(decision.first), listed(decision.narrow_lead->others),
       column_of(decision.narrow_lead->metric).name);
 }

@@ -73,8 +73,9 @@ AllocationConstants<T> prepared(const AllocationLimits<T>& l) {
           on_chip ? l.steering_max_tan_half : geometry.to_q(l.steering_max_rad)};
 }
 
-/// Smallest surge force tau_speed (dimensionless) at which the allocation steers. With less, the
-/// front wheels push too little to turn the vehicle, so the steering angle d_r is 0.
+/// Smallest surge force tau_speed (dimensionless) at which the allocation steers. If the surge
+/// force is smaller, the front wheels push too little to turn the vehicle, and the allocation sets
+/// the steering angle d_r to 0.
 template <class T>
 constexpr T steering_authority_min() {
   return T(1e-6);
@@ -89,8 +90,8 @@ constexpr T steering_authority_full() {
 /// Limit of |q| at the surge force tau_speed, where q measures the steering (steering_geometry.h):
 ///   q_max sat(tau_speed/steering_authority_full(), [0, 1])
 /// Reason: as tau_speed falls to 0, the q that makes a given moment grows as 1/tau_speed, and at
-/// tau_speed <= 0 it is 0. With a constant limit, the wheels would then jump from their stop to
-/// straight ahead. The reduced limit costs at most 1/256 of the steering moment at full thrust.
+/// tau_speed <= 0 it is 0. If the limit were constant, the wheels would then jump from their stop
+/// to straight ahead. The reduced limit costs at most 1/256 of the steering moment at full thrust.
 template <class T>
 AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
   using math::any;

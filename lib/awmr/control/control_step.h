@@ -17,7 +17,7 @@ template <class T>
 struct Command {
   /// requested surge force, dimensionless, forward positive, before any limit
   T tau_speed;
-  /// requested yaw moment, m, counter-clockwise positive, before any limit
+  /// requested yaw moment divided by F_max, m, counter-clockwise positive, before any limit
   T tau_turn_m;
   Allocation<T> allocation;  ///< wheel forces and steering angle, within their limits
 };
@@ -33,8 +33,8 @@ struct AllocationRequest {
   Allocation<T>& command;
 };
 
-/// Computes momentum, resistance and coupling force m' r v of the measured motion from the
-/// controller's model. The disturbance observers need them.
+/// Computes momentum, resistance and the coupling force m' r v (m': mass divided by F_max) of the
+/// measured motion from the controller's model. The disturbance observers need them.
 template <class T, class G>
 ObservedMotion<T> observed_motion(const PreparedController<T, G>& c, const Measurement<T>& m) {
   const ControlConstants<T>& k = c.constants;
@@ -77,8 +77,8 @@ AWMR_INLINE void allocate_compensated(const Observers<T>* observers,
   }
 }
 
-/// Computes both laws and the allocation for one sample. Without disturbance observers, and without
-/// compensation of the motors' dead zone.
+/// Computes the heading law, the speed law and the allocation for one sample. Does not use
+/// disturbance observers, and does not compensate the motors' dead zone.
 template <class T, class G>
 Command<T> control_step(const Controller<T, G>& c, YawMode mode, const Measurement<T>& m,
                         const Reference<T>& ref) {

@@ -11,17 +11,18 @@ namespace awmr {
 ///
 /// The model from which the laws are derived has an unknown disturbance d:
 ///   J w_dot = tau - g(w) + d                                                    [paper (80), (96)]
-/// J: inertia, w: speed, tau: commanded force or moment, g: resistance. Yaw: J = I'z, w = r, d in
-/// m. Surge: J = m', w = u, d dimensionless, and m' r v is added to tau. The laws omit d. Inside
-/// the boundary layer of the heading law (gains lambda, mu, eps), this causes a steady heading
-/// error of d/(J lambda mu/eps). The observer with the state z and the bandwidth L
+/// J: inertia, w: speed, tau: commanded force or moment, g: resistance; all forces, moments and
+/// inertias are divided by F_max. Yaw: J = I'z, w = r, d in m. Surge: J = m', w = u, d
+/// dimensionless, and m' r v is added to tau. The heading law and the speed law omit d. Inside the
+/// boundary layer of the heading law (gains lambda, mu, eps), this causes a steady heading error of
+/// d/(J lambda mu/eps). The observer with the state z and the bandwidth L
 ///   d_hat = z + L J w
 ///   z_dot = -L (tau - g(w) + d_hat)
 /// has d_hat_dot = L (d - d_hat): a first-order low pass of d that needs no differentiation.
 template <class T>
 struct DisturbanceObserver {
-  /// Bandwidth L, rad/s, > 0, with L T_s < 1 for the sample time T_s. With a larger L, the estimate
-  /// follows the disturbance faster and passes more noise.
+  /// Bandwidth L, rad/s, > 0, with L T_s < 1 for the sample time T_s. A larger L makes the estimate
+  /// follow the disturbance faster, and pass more measurement noise.
   T bandwidth_radps;
   T limit;  ///< limit of |d_hat|, > 0, in the unit of tau
 };
@@ -50,8 +51,8 @@ T estimate(const DisturbanceObserver<T>& observer, const T& momentum, ObserverSt
 }
 
 /// Advances the state by one sample. `known` is the known force tau - g(w). Its tau must be the
-/// limited command. With the requested command, a saturated actuator would look like a disturbance,
-/// and d_hat would wind up.
+/// limited command. If the observer used the requested command, an actuator at its limit would look
+/// like a disturbance, and the estimate d_hat would wind up (keep growing).
 template <class T>
 void advance(const DisturbanceObserver<T>& observer, const T& d_hat, const T& known,
              const T& sample_time_s, ObserverState<T>& state) {

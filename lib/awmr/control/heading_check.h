@@ -80,9 +80,9 @@ class TurnCheck {
   void begin(float rate_per_word, float dt_s) {
     quarter_turn_words_ = static_cast<int32_t>(float_math::kPiBy2 / (rate_per_word * dt_s));
   }
-  /// Processes a reading of the gyroscope without its zero-rate offset. `moment_m` is the yaw
-  /// moment commanded since the last reading, m; 0: the motors are off. Uses integers, which are
-  /// fast on the chip.
+  /// Processes a reading of the gyroscope without its zero-rate offset. `moment_m`: yaw moment
+  /// commanded since the last reading, divided by F_max, m; 0: the motors are off. Uses integers,
+  /// which are fast on the chip.
   AWMR_CALLED_MEMBER void take(int16_t word, float moment_m) {
     if (word <= kTurning && word >= -kTurning) {
       if (is_wrong_ && float_math::magnitude_bits(moment_m) == 0) restart();

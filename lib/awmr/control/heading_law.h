@@ -19,11 +19,11 @@ AWMR_INLINE T sliding_surface(const T& lambda, const T& error_rate_radps, const 
   return error_rate_radps + lambda * wrap_angle(error_rad);
 }
 
-/// Computes the yaw moment that the heading law commands, m:
+/// Computes the yaw moment that the heading law commands, divided by F_max, m:
 ///   tau_turn = g3(r) + I'z (psi_d_ddot + lambda e_dot) + I'z mu sat(S/eps)
 ///   sat(z)   = z for |z| <= 1, sgn z beyond                           [paper (84)-(89), corrected]
-/// g3: yaw resistance, r: yaw rate, I'z: normalised yaw inertia, psi_d: desired heading, e: heading
-/// error, S: sliding variable; lambda, mu, eps: gains.
+/// g3: yaw resistance, r: yaw rate, I'z: yaw inertia divided by F_max, psi_d: desired heading, e:
+/// heading error, S: sliding variable; lambda, mu, eps: gains.
 ///
 /// Corrected: (84)-(85) print r_ddot instead of r_dot. (88)-(89) print psi_d_dot - r_dot instead of
 /// psi_d_dot - r. (87) and (78) print the condition |e| <= eps of sat instead of |S| <= eps. The

@@ -98,7 +98,7 @@ struct LqiState {
   T error_rad;       ///< e of the current sample, rad
 };
 
-/// Computes the yaw moment that the LQI law commands, m:
+/// Computes the yaw moment that the LQI law commands, divided by F_max, m:
 ///   tau_turn = g3(r) + I'z (psi_d_ddot + a1 e + a2 e_dot + a0 z)
 ///   e        = wrap(psi_d - psi),  e_dot = psi_d_dot - r
 /// `yaw` is the yaw resistance g3, of type G as in Controller; `inertia_norm` is I'z. Stores the

@@ -16,9 +16,9 @@ namespace awmr {
 /// Number of log rows, 64 bytes each, in a block of the card, 512 bytes.
 constexpr uint8_t kLogBlockRows = 8;
 
-/// A ring buffer of kBlocks blocks of 512 bytes (8 rows). With one row per sample time, no row is
-/// lost while the card is busy for up to (kBlocks - 1) * 8 sample times: 0.56 s for 8 blocks and 10
-/// ms.
+/// A ring buffer of kBlocks blocks of 512 bytes (8 rows). If the sketch adds one row per sample
+/// time, no row is lost while the card is busy for up to (kBlocks - 1) * 8 sample times: 0.56 s for
+/// 8 blocks and 10 ms.
 template <uint8_t kBlocks>
 class LogRing {
   static_assert(kBlocks >= 2 && kBlocks <= 16 && (kBlocks & (kBlocks - 1)) == 0,

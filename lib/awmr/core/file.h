@@ -57,8 +57,8 @@ Status check_output(const std::filesystem::path& path,
 /// Makes the directory `path` and its missing parents. Errors: those of check_output_directory().
 Status make_directory(const std::filesystem::path& path);
 
-/// Maximum time to wait for a program at the other end of a pipe, s. Without a limit, a pipe that
-/// nobody opens would block the program for ever.
+/// Maximum time to wait for a program at the other end of a pipe, s. If there were no limit, a pipe
+/// that nobody opens would block the program for ever.
 inline constexpr double kPipeWait_s = 5.0;
 
 /// True if a file, a directory or anything else has this name. Symbolic links are followed. Errors

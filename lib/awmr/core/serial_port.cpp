@@ -51,7 +51,7 @@ Result<bool> make_raw(int file, unsigned baud) {
 }
 
 Result<Descriptor> open_serial_port(const std::filesystem::path& path, unsigned baud) {
-  // Without O_NONBLOCK, open() of a modem's port may wait for its carrier forever.
+  // If O_NONBLOCK were missing, open() of a modem's port could wait for its carrier for ever.
   Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
   if (port.number() < 0) {
     return input_error(ErrorCode::kCannotRead, path.string(), std::strerror(errno));

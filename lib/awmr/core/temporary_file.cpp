@@ -72,7 +72,7 @@ std::string random_characters() {
   constexpr std::string_view kCharacters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
   unsigned char bytes[kRandomCharacters] = {};
-  // Without random bytes from the system, all names are equal, and TemporaryFile::in() fails after
+  // If the system gives no random bytes, all names are equal, and TemporaryFile::in() fails after
   // kAttempts attempts.
   [[maybe_unused]] const ssize_t count = ::getrandom(bytes, sizeof bytes, 0);
   std::string text;

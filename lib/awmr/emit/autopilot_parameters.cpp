@@ -153,8 +153,9 @@ ChipLaw chip_law(std::string name, const Resistance<double>& law, double full_sc
 /// its end.
 float largest_below(double top) { return std::nextafter(static_cast<float>(top), 0.0F); }
 
-/// Adds the tables of g1 and g3 to the parameters. Errors (refused): the user gave `table_error`,
-/// and no table of at most 1024 lines has an error within it.
+/// Adds the tables of the surge resistance g1 and the yaw resistance g3 to the parameters. Errors
+/// (refused): the user gave `table_error`, and no table of at most 1024 lines has an error within
+/// it.
 Status add_tables(const ChipLaw& surge, const ChipLaw& yaw, std::optional<double> table_error,
                   AutopilotParameters& parameters) {
   const auto table = [&](const ChipLaw& chip) {

@@ -89,8 +89,9 @@ bool knows_yaw(const Autopilot& pilot) {
   return pilot.knows(ParameterId::kYawAlpha) && pilot.knows(ParameterId::kYawBeta);
 }
 
-/// Returns the steady speed u for a throttle F': g1(u) = 4 (F' minus the dead zone of the motors).
-/// NaN if the force does not overcome friction.
+/// Returns the steady speed u for a throttle F', at which the surge resistance equals the force of
+/// four motors: g1(u) = 4 (F' minus the dead zone of the motors). NaN if the force does not
+/// overcome friction.
 double speed_at(const Plant<double>& plant, double throttle) {
   return steady_or_never(plant.surge, 4.0 * beyond_dead_zone(throttle, plant.wheel_dead_zone));
 }
@@ -99,8 +100,8 @@ double speed_at(const Plant<double>& plant, double throttle) {
 /// and K_i. The closed loop gets the time constant T that awmr's speed law (gains mu_s, eps_s) has
 /// inside its boundary layer:
 ///   T = eps_s/mu_s,   K_p = m'/(4 T),   K_i = g1'(u)/(4 T),   g1' = dg1/du
-/// The zero of the PI controller then cancels the pole of the plant, m' du/dt = 4 dF' - g1'(u) du.
-/// [Skogestad 2003, J. Process Control 13, 291]
+/// m': mass divided by F_max, g1: surge resistance. The zero of the PI controller then cancels the
+/// pole of the plant, m' du/dt = 4 dF' - g1'(u) du. [Skogestad 2003, J. Process Control 13, 291]
 void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throttle,
                     std::optional<Interval> usual = {}) {
   if (!pilot.source.gains || !pilot.knows(ParameterId::kMassNorm)) {
@@ -112,14 +113,14 @@ void add_speed_loop(Autopilot& pilot, const char* p, const char* i, double throt
   const double closed_s = gains.epsilon / gains.mu;
   pilot.add(
       p, "1/(m/s)",
-      fmt::format("m'/(4 T); m': mass divided by F_max, T = eps_s/mu_s = {:.4g} s: time constant "
-                  "of the closed loop",
+      fmt::format("m'/(4 T); m': mass divided by F_max; T = eps_s/mu_s = {:.4g} s: time constant "
+                  "of the closed speed loop (eps_s, mu_s: gains of the speed law)",
                   closed_s),
       [closed_s](const Plant<double>& plant) { return plant.mass_norm / (4.0 * closed_s); }, usual);
   pilot.add(
       i, "1/m",
-      fmt::format("g1'(u)/(4 T): slope of the surge resistance at the speed of throttle {:g}; T: "
-                  "time constant of the closed loop",
+      fmt::format("g1'(u)/(4 T); g1'(u): slope of the surge resistance at the speed u of throttle "
+                  "{:g}; T: time constant of the closed speed loop",
                   throttle),
       [closed_s, throttle](const Plant<double>& plant) {
         return slope(plant.surge, speed_at(plant, throttle)) / (4.0 * closed_s);
@@ -160,12 +161,13 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
   constexpr Interval kUsual{0.0, 3.0};
   if (!knows_yaw(pilot)) return pilot.leave_out(kName, kNoYaw);
   if (!pilot.vehicle().has_steering()) {
-    // s/r: steering output s divided by the yaw rate r, with 4 d s = g3(r) at constant yaw rate.
+    // s/r: steering output s divided by the yaw rate r. At a constant yaw rate, the yaw moment 4 d
+    // s equals the yaw resistance g3(r) (d: half of the track width).
     const double s = 0.5 * pilot.vehicle().wheel_force.hi;
     pilot.add(
         kName, "1/(rad/s)",
-        fmt::format("s/r at the steering output s = {:g}; r: steady yaw rate, at which the moment "
-                    "4 d s equals the yaw resistance g3(r); d: half track",
+        fmt::format("s/r at the steering output s = {:g}; r: steady yaw rate, at which the yaw "
+                    "moment 4 d s equals the yaw resistance g3(r); d: half of the track width",
                     s),
         [s](const Plant<double>& plant) {
           return s / steady_or_never(plant.yaw, 4.0 * plant.half_track_m * s);
@@ -173,13 +175,15 @@ void add_steering_feed_forward(Autopilot& pilot, double throttle) {
         kUsual);
     return;
   }
-  // s/r: steering output s divided by the yaw rate r, with l_f g1(u) tan(s d_max/2) = g3(r) at
-  // constant yaw rate. Above MOT_SPD_SCA_BASE = 1 m/s, ArduPilot divides the output by the speed u,
-  // so the value is multiplied by u.
+  // s/r: steering output s divided by the yaw rate r. At a constant yaw rate, the yaw moment of the
+  // steering, l_f g1(u) tan(s d_max/2), equals the yaw resistance g3(r). Above MOT_SPD_SCA_BASE = 1
+  // m/s, ArduPilot divides the output by the speed u, so the value is multiplied by u.
   pilot.add(
       kName, "1/(rad/s)",
-      "s/r at the steering output s = 0.5; r: yaw rate with l_f g1(u) tan(s d_max/2) = g3(r) at "
-      "the speed u = CRUISE_SPEED; if u is above MOT_SPD_SCA_BASE = 1 m/s, times u",
+      "s/r at the steering output s = 0.5, multiplied by u if u is above MOT_SPD_SCA_BASE = 1 m/s; "
+      "r: yaw rate at which the yaw moment of the steering, l_f g1(u) tan(s d_max/2), equals the "
+      "yaw resistance g3(r) at the speed u = CRUISE_SPEED; l_f: centre of gravity to front axle, "
+      "g1: surge resistance, d_max: steering stop",
       [throttle](const Plant<double>& plant) {
         const double u = speed_at(plant, throttle);
         const double moment =
@@ -235,8 +239,8 @@ void add_skid_rate_loop(Autopilot& pilot, const OfPlant& rate) {
 }
 
 /// Adds the parameters of a skid-steered rover. PX4's feed-forward of the steering output is s =
-/// RO_YAW_RATE_CORR r d/u_max, with u_max = RO_MAX_THR_SPEED. The model needs s with 4 d s = g3(r),
-/// so that
+/// RO_YAW_RATE_CORR r d/u_max, with u_max = RO_MAX_THR_SPEED. In the model, the yaw moment 4 d s
+/// must equal the yaw resistance g3(r) (d: half of the track width), so that
 ///   RO_YAW_RATE_CORR = g3(r) u_max/(4 d^2 r)
 void add_skid(Autopilot& pilot, const OfPlant& rate) {
   pilot.add("RD_WHEEL_TRACK", "m", "2 d; d: half track",

@@ -113,7 +113,8 @@ struct EmitOptions {
   std::uint32_t step_timeout_ms = 0;
 };
 
-/// A table of g1 or g3 for the chip, and its errors. Speeds are in m/s for g1, in rad/s for g3.
+/// A table of the surge resistance g1 or the yaw resistance g3 for the chip, and its errors. Speeds
+/// are in m/s for g1, in rad/s for g3.
 struct EmittedTable {
   std::vector<ResistanceLine> lines;  ///< the lines, as in ResistanceTable::lines
   std::uint16_t first = 0;            ///< number of the first cell (ResistanceTable::first)

@@ -23,10 +23,10 @@ double table_top(const ResistanceLaw& law, double full_scale);
 
 /// Returns the smallest table of `law` up to the speed `top` (m/s or rad/s) whose error, in the
 /// chip's float32 arithmetic, is at most `error_share`. The error is relative to the law, or to a
-/// tenth of `full_scale` where the law is smaller. Without `error_share`, the bound is kTableError
-/// or, if no table meets it, the smallest error possible. Errors below `rest_speed` do not count,
-/// because the chip uses a line through the origin there. `name`: "surge" or "yaw", for the
-/// message. Errors (refused): no table is within `error_share`.
+/// tenth of `full_scale` where the law is smaller. If `error_share` is absent, the bound is
+/// kTableError or, if no table meets this bound, the smallest possible error. Errors below
+/// `rest_speed` do not count, because the chip uses a line through the origin there. `name`:
+/// "surge" or "yaw", for the message. Errors (refused): no table is within `error_share`.
 Result<EmittedTable> resistance_table(const std::string& name, const ResistanceLaw& law,
                                       double full_scale, double top,
                                       std::optional<double> error_share, double rest_speed);

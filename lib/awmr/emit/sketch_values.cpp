@@ -35,17 +35,18 @@ std::optional<double> turn_of_vehicle(const Plant<double>& plant, const Vehicle&
   return steady_rate(plant.yaw, moment_m);
 }
 
-/// Yaw moment, m, of motors whose forces differ in spite of equal commands: 0.08 d tau_speed if the
-/// left and right forces differ by 16 % of their mean (assumed). d: half track, tau_speed: surge
-/// force.
+/// Yaw moment, divided by F_max, m, of motors whose forces differ in spite of equal commands: 0.08
+/// d tau_speed if the left and right forces differ by 16 % of their mean (assumed). d: half of the
+/// track width, tau_speed: surge force.
 double unequal_moment_m(const Plant<double>& plant, double speed_mps) {
   return 0.08 * plant.half_track_m * plant.surge.at(speed_mps);
 }
 
-/// Fastest steady yaw rate r that the heading law reaches at a speed, rad/s, under unfavourable
-/// conditions, both assumed: the yaw resistance is 1.4 times that of the model, and the forces of
-/// the motors differ by 16 %, which takes the moment 0.08 d tau_speed. Outside of the boundary
-/// layer of the law (sat = 1), r is the solution of
+/// Fastest steady yaw rate r that the heading law reaches at a speed, rad/s, under two assumed
+/// unfavourable conditions: the yaw resistance is 1.4 times the g3 of the model, and the forces of
+/// the motors differ by 16 %, which takes the moment 0.08 d tau_speed (d: half of the track width,
+/// tau_speed: surge force). Outside of the boundary layer of the law (gains mu, lambda; sat = 1), r
+/// is the solution of
 ///   1.4 g3(r) + 0.08 d tau_speed = g3(r) + I'z (mu - lambda r)                 [paper (89)]
 std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains<double>& gains,
                                   double speed_mps) {
@@ -56,7 +57,8 @@ std::optional<double> turn_of_law(const Plant<double>& plant, const HeadingGains
 }
 
 /// Heading error e, rad, that remains if the forces of the motors differ by 16 %. At yaw rate 0 and
-/// inside its boundary layer, the heading law (heading_law.h) balances the moment of these motors:
+/// inside its boundary layer, the heading law (heading_law.h; gains lambda, mu, epsilon) balances
+/// the moment of these motors. I'z: yaw inertia divided by F_max:
 ///   0.08 d tau_speed = I'z lambda (mu/epsilon) e
 double steady_error_rad(const Plant<double>& plant, const HeadingGains<double>& gains,
                         double route_mps) {

@@ -3,7 +3,8 @@
 ///
 /// A tyre's lateral force is its cornering stiffness c times its load m g times its slip angle. At
 /// the forward speed u and the lateral speed v the slip angle is v/u. The sway resistance
-/// sway.alpha is this force divided by v and by F_max = m/m':
+/// sway.alpha is this force divided by v and by F_max = m/m', where m' is the mass m divided by
+/// F_max:
 ///
 ///     F_y = c m g v/u,    sway.alpha = F_y/(v F_max) = c g m'/u
 ///
@@ -23,8 +24,8 @@ namespace awmr {
 inline constexpr const char* kAssumedSwayMethod = "assumed of common tyres";
 
 /// Sets the assumed sway resistance and its covariance, and adds the finding `assumed-sway`. Does
-/// nothing if the model already has a sway resistance, if it lacks a3, I'z or m', or if no trial
-/// has a speed above 0.
+/// nothing in three cases: the model already has a sway resistance; it lacks the yaw resistance a3,
+/// the yaw inertia I'z or the mass m'; or no trial has a speed above 0.
 void assume_sway(const TrialData& data, MainValues& values);
 
 }  // namespace awmr

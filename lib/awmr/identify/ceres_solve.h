@@ -51,8 +51,8 @@ inline std::optional<Eigen::VectorXd> evaluated_residuals(
   return residuals;
 }
 
-/// Jacobian at the problem's current point, as a dense matrix. Empty if a derivative cannot be
-/// evaluated or is not finite.
+/// Jacobian of the residuals at the problem's current point, as a dense matrix. Empty if an element
+/// cannot be evaluated or is not finite.
 inline std::optional<Eigen::MatrixXd> evaluated_jacobian(
     ceres::Problem& problem, const ceres::Problem::EvaluateOptions& options) {
   ceres::CRSMatrix rows;
@@ -80,8 +80,8 @@ inline bool converged(const ceres::Solver::Summary& summary) {
 
 namespace ceres {
 
-/// Value of a Jet (a number with derivatives) without its derivatives. The function is in namespace
-/// ceres so that argument-dependent lookup finds it.
+/// Value of a Jet (a number that carries its derivatives) as a plain number. The function is in the
+/// namespace ceres so that argument-dependent lookup finds it.
 template <class T, int N>
 T value_of(const Jet<T, N>& x) {
   return x.a;

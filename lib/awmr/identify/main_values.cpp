@@ -20,8 +20,9 @@ Estimate exponent_of_family(Family family) {
   return given(1.0, fmt::format("family {}", name_of(family)));
 }
 
-/// Estimate of factor * m': the factor is 1 for m' itself and Iz/m for I'z. `log_value`: ln m'. The
-/// uncertainty comes from ln m', the last number of `posterior`.
+/// Estimate of the product factor * m': the factor is 1 for the mass m' itself, and Iz/m for the
+/// yaw inertia I'z. `log_value`: ln m'. The uncertainty comes from ln m', the last number of
+/// `posterior`.
 Estimate from_last(const Posterior& posterior, double log_value, double factor, Source source,
                    std::string method) {
   Estimate estimate{factor * std::exp(log_value), {}, {}, source, std::move(method)};
@@ -55,8 +56,8 @@ void set_law_errors(const Subject& subject, const SteadyFit& law, const Posterio
   }
 }
 
-/// Sets m', I'z and the standard errors of the surge law. `posterior`: joint distribution of the
-/// law's free parameters and of ln m'.
+/// Sets the mass m', the yaw inertia I'z and the standard errors of the surge law. `posterior`:
+/// joint distribution of the law's free parameters and of ln m'.
 ///   I'z = m' Iz / m                                                               [paper (68)]
 void set_mass_and_law(const SteadyFit& law, double log_mass, const Posterior& posterior,
                       Source source, const std::string& method, MainValues& values) {

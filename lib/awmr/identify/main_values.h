@@ -19,11 +19,11 @@ namespace awmr {
 /// estimated numbers with its own covariance, for example ln a1, b1 and ln m' from surge runs and
 /// coast-downs. Every parameter is a function of these numbers. The covariance of the parameters is
 /// C = G B G^T. B is block diagonal, with the covariance of each fit. Each row of G is the gradient
-/// of one parameter.
+/// of one parameter with respect to all these numbers.
 class JointCovariance {
  public:
-  /// Derivatives of one parameter by the estimated numbers. Key: index of a number, counted over
-  /// all blocks. Derivatives that are not listed are 0.
+  /// Derivatives of one parameter with respect to the estimated numbers. Key: index of a number,
+  /// counted over all blocks. If a number is not listed, the derivative is 0.
   using Gradient = std::map<Eigen::Index, double>;
 
   /// Appends a block and returns the index of its first number.
@@ -31,7 +31,7 @@ class JointCovariance {
   /// Sets the gradient of a parameter. Replaces an earlier gradient.
   void set(ParameterId id, Gradient gradient) { gradients_[id] = std::move(gradient); }
   bool has(ParameterId id) const { return gradients_.contains(id); }
-  /// Variance of a parameter with this gradient.
+  /// Variance of a parameter that has this gradient with respect to the estimated numbers.
   double variance(const Gradient& gradient) const;
   const Gradient& gradient(ParameterId id) const { return gradients_.at(id); }
   /// Covariance of all parameters for which set() was called, in the order of ParameterId. Exactly
@@ -58,10 +58,11 @@ void set_given(const Vehicle& vehicle, Model& model);
 /// Sets the parameters and the family of a resistance law. Precondition: `fit.chosen` is set.
 void set_law(const Subject& subject, const SubjectFit& fit, MainValues& values);
 
-/// Sets m' from coast-downs, and I'z from m'. Without a surge law, sets only the exponent b1, from
-/// a power-law fit of the coast-down curves. If the chosen surge law does not describe the surge
-/// runs (`SubjectFit::is_inadequate`), the values get no intervals. Precondition: set_law() was
-/// called with the surge fit, if there is one.
+/// Sets the mass m' from coast-downs, and the yaw inertia I'z from m' (both divided by F_max). If
+/// there is no surge law, it sets only the exponent b1, from a power-law fit of the coast-down
+/// curves. If the chosen surge law does not describe the surge runs (`SubjectFit::is_inadequate`),
+/// the values get no intervals. Precondition: set_law() was called with the surge fit, if there is
+/// one.
 void set_mass(const MassResult& mass, const SubjectFit& surge, MainValues& values);
 
 /// Sets the values, the families and the covariance that the logs determine.

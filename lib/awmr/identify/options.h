@@ -94,8 +94,8 @@ struct IdentifyOptions {
   FamilyChoice surge_family = {};
   FamilyChoice yaw_family = {};
   Loss loss = Loss::kSquared;
-  /// Fits a1, b1 and m' together to the surge rows and the coast-down curves, so that the curves
-  /// also improve a1 and b1.
+  /// Fits the surge law (coefficient a1, exponent b1) and the mass m' together to the surge rows
+  /// and the coast-down curves, so that the curves also improve a1 and b1.
   bool joint = false;
   /// Parameters to identify. Empty: the parameters that the given trials measure.
   std::vector<ParameterId> requested = {};

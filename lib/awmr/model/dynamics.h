@@ -51,8 +51,8 @@ struct Plant {
 };
 
 /// Returns an upper bound of the yaw resistance: the resistance g3 plus the largest moment of tyre
-/// scrub. The integration chooses its step by this bound, because a larger resistance needs shorter
-/// steps.
+/// scrub. The simulator uses this bound to choose its integration steps and the chord near rest
+/// (rest.h), because a larger resistance needs shorter steps.
 template <class T>
 Resistance<T> yaw_with_scrub(const Plant<T>& p) {
   Resistance<T> law = p.yaw;
@@ -120,7 +120,8 @@ T motor_force(const T& drive, const T& back_emf_s_per_m, const T& wheel_mps) {
 }
 
 /// Upper bound of the rate at which back-EMF makes the speeds decay, 1/s. It is the larger of 4
-/// k_e/m' (surge) and k_e (4 d^2 + 2 l_f^2)/I'z (yaw), and 0 without back-EMF.
+/// k_e/m' (surge) and k_e (4 d^2 + 2 l_f^2)/I'z (yaw), with the symbols of Plant. It is 0 if the
+/// motors have no back-EMF.
 inline double back_emf_rate(const Plant<double>& p) {
   const double surge = 4.0 / p.mass_norm;
   const double yaw =
@@ -202,8 +203,8 @@ WheelForces<T> wheel_forces(const Plant<T>& p, const State<T>& s, const WheelFor
   return e;
 }
 
-/// The three terms of the yaw moment that the wheel forces make, m: tau_steering, and tau_diff of
-/// the front and of the rear axle.
+/// The three terms of the yaw moment that the wheel forces make, divided by F_max, m: tau_steering,
+/// and tau_diff of the front and of the rear axle.
 template <class T>
 struct YawMoments {
   T steering_m;    ///< l_f S_f sin d_r

@@ -5,17 +5,20 @@
 
 namespace awmr {
 
-/// Gains of the heading law, heading_law() in control/heading_law.h. It controls the sliding
-/// variable S = e_dot + lambda e of the heading error e = psi_d - psi.
+/// Gains of the heading law, heading_law() in control/heading_law.h. The law drives the sliding
+/// variable S = e_dot + lambda e to 0, where e = psi_d - psi is the heading error (psi_d: desired
+/// heading).
 template <class T>
 struct HeadingGains {
-  /// lambda, 1/s, > 0: slope of the sliding surface. Larger: the heading error falls faster.
+  /// lambda, 1/s, > 0: slope of the sliding surface S = 0. A larger lambda makes the heading error
+  /// fall faster.
   T lambda;
-  /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed |disturbance|/I'z, where
-  /// the disturbance is a yaw moment divided by F_max.
+  /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed the yaw acceleration of
+  /// a disturbance, |d|/I'z (d: disturbing yaw moment, I'z: yaw inertia, both divided by F_max);
+  /// otherwise the disturbance drives S out of the boundary layer.
   T mu;
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
-  /// is proportional to S. Larger: less chattering, a softer response.
+  /// is proportional to S. A larger epsilon gives less chattering and a softer response.
   T epsilon;
   /// w0, rad/s, >= 0.02: friction width in steering mode. Below this yaw rate, the controller feeds
   /// forward the yaw resistance as a smooth curve, because g3 itself jumps at rest
@@ -48,8 +51,8 @@ struct SpeedGains {
 /// was tuned with the gains.
 template <class T>
 struct ObserverGains {
-  /// L, rad/s, >= 0: bandwidth; 0: no observer. L T_s < 1 with the controller's sample time T_s.
-  /// Larger: disturbances are compensated sooner, and more measurement noise reaches the commands.
+  /// L, rad/s, >= 0: bandwidth; 0: no observer. L T_s < 1 with the controller's sample time T_s. A
+  /// larger L compensates disturbances sooner, and lets more measurement noise reach the commands.
   T bandwidth_radps = T(0.0);
   T yaw_max_m = T(0.0);  ///< m, > 0: largest moment divided by F_max that is compensated
   T surge_max = T(0.0);  ///< dimensionless, > 0: largest force divided by F_max that is compensated
@@ -67,9 +70,9 @@ struct Gains {
   /// Friction width w, rad/s, in a mode of yaw control. At yaw rates below w, the controller feeds
   /// forward the resistance g3(w) sat((psi_d_dot + lambda e)/w) instead of g3, which jumps at rest
   /// (fed_forward()). A larger w gives less noise in the steering command, but a larger heading
-  /// error at rest, which only an observer removes. With an observer, w is w0 in every mode.
-  /// Without an observer, w depends on the share s = `steering_share` of the yaw moment that the
-  /// steering makes: 0.02 for s = 0, the width of the combined mode for s = 1/2, w0 for s = 1.
+  /// error at rest, which only an observer removes. If the gains have an observer, w is w0 in every
+  /// mode. Else w depends on the share s = `steering_share` of the yaw moment that the steering
+  /// makes: 0.02 for s = 0, the width of the combined mode for s = 1/2, w0 for s = 1.
   T friction_width_at(const T& steering_share) const {
     const T w0 = heading.friction_width_radps;
     if (observer.is_on() || steering_share > T(0.5)) return w0;

@@ -72,7 +72,7 @@ struct Covariance {
 /// steady differential turn,
 ///   2 d (F'R - F'L) = g3(r) + moment_m            (moments divided by F_max; d: half track)
 struct YawScrub {
-  double moment_m = 0.0;     ///< m; negative values are due to noise
+  double moment_m = 0.0;     ///< mean moment, m; a negative value is due to noise
   double std_error_m = 0.0;  ///< m, > 0: from the scatter of the turns and the uncertainty of g3
   Interval ci95_m;           ///< 95 % confidence interval
   int rows = 0;              ///< turns from which it was estimated, >= 3
@@ -121,8 +121,8 @@ struct Model {
   /// Largest yaw moment divided by F_max, m, > 0, that the difference of left and right wheel
   /// forces made while the vehicle did not turn. Absent: the vehicle turned in every trial.
   std::optional<double> yaw_held_m;
-  /// True: g3 was fitted only to differential turns, although the vehicle also steers. It then
-  /// includes the moment of tyre scrub.
+  /// True: the yaw resistance g3 was fitted only to differential turns, although the vehicle also
+  /// steers. g3 then includes the moment of tyre scrub.
   bool yaw_by_sides_alone = false;
   IdentificationRecord record;
 

@@ -8,7 +8,7 @@
 namespace awmr {
 
 /// Checks that L T_s < 1, with the bandwidth L = `bandwidth_radps` and the sample time T_s =
-/// `sample_time_s`. With a larger bandwidth, the observer's estimate would oscillate. Errors
+/// `sample_time_s`. If the bandwidth were larger, the observer's estimate would oscillate. Errors
 /// (input), at `place`: L T_s >= 1.
 Status check_observer_rate(double bandwidth_radps, double sample_time_s, const std::string& place);
 

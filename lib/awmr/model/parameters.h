@@ -36,7 +36,8 @@ struct ParameterInfo {
   std::string_view unit;     ///< "1" if dimensionless
   std::string_view meaning;  ///< description for messages
   std::string_view trial;    ///< the trial that identifies it, as text for messages
-  /// True for an optional term. Without a fitted or given value, it is 0 and not in model.json.
+  /// True for an optional term. If it was neither fitted nor given, it is 0, and model.json does
+  /// not contain it.
   bool term = false;
 };
 
@@ -46,9 +47,10 @@ inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";
 inline constexpr std::string_view kBiasPrefix = "bias.";  ///< followed by the channel's column name
-/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). Without a surge trial, a coast-down determines
-/// only ratios of parameters: m'/a1 and, if the resistance family has the terms, the ratios of
-/// ratio_names.h. It also determines the exponent b1, if the family has one.
+/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). If there is no surge trial, a coast-down
+/// determines only ratios of parameters: m'/a1 (mass over surge coefficient) and, if the resistance
+/// family has the terms, the ratios of ratio_names.h. It also determines the exponent b1, if the
+/// family has one.
 inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";
 
 /// The table, in the order of ParameterId.

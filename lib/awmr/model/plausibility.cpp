@@ -46,7 +46,7 @@ std::optional<Guess> likely(double ratio, std::span<const Guess> guesses, Interv
 }
 
 /// End of a message with the probable unit and the converted value, such as "; the value looks like
-/// mm: 0.32". Without a guess, the text advises to measure again.
+/// mm: 0.32". If there is no guess, the text advises to measure again.
 std::string remedy(double value, const std::optional<Guess>& guess) {
   if (!guess) return "; measure it again";
   return fmt::format("; the value {}: {:.4g}", guess->words, value * guess->factor);

@@ -28,8 +28,8 @@ inline constexpr Interval kInertiaOverBox{0.05, 3.0};
 /// Largest plausible time constant of a steering servo, s; a larger number is probably in ms.
 inline constexpr double kSlowestServo_s = 2.0;
 
-/// Ratio of the identified I'z/m' to Iz/m of the vehicle data; 1 if they agree. Precondition:
-/// mass_norm > 0.
+/// Ratio of the identified I'z/m' (yaw inertia to mass) to Iz/m of the vehicle data; 1 if both
+/// agree. Precondition: mass_norm > 0.
 double inertia_over_vehicle(const Vehicle& vehicle, double inertia_norm, double mass_norm);
 /// Range of this ratio for the 95 % intervals of I'z and m'. If I'z or m' has no interval: half to
 /// twice the ratio of the values. Precondition: both estimates have a value.

@@ -25,7 +25,7 @@ inline constexpr NumberRule kStallPower_w{.min = 0.0, .max = 1e6, .min_excluded 
 /// At the maximum, a motor under full voltage has no force left at 1/k_e = 1 mm/s.
 inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
-/// Coefficients of resistance, m' and I'z, each in its own unit.
+/// Coefficients of resistance, mass m' and yaw inertia I'z, each in its own unit.
 inline constexpr NumberRule kCoefficient{.min = 1e-9, .max = 1e9};
 /// Optional terms of the model (ParameterInfo::term): Coulomb, quadratic, back-EMF.
 inline constexpr NumberRule kTerm{.min = 0.0, .max = 1e9};

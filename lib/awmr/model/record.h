@@ -130,7 +130,8 @@ struct TrialPoint {
   TrialKind kind = TrialKind::kSurge;  ///< not kLog
   std::string file;
   int line = 0;
-  /// Input of the run. Surge: tau_speed; turning: tau_turn in m; coastdown: initial speed in m/s.
+  /// Input of the run. Surge: the force tau_speed; turning: the yaw moment tau_turn, divided by
+  /// F_max, in m; coastdown: initial speed in m/s.
   double input = 0.0;
   /// Result of the run. Surge: speed in m/s; turning: yaw rate in rad/s; coastdown: stop time in s.
   double measured = 0.0;

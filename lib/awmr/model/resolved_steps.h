@@ -12,8 +12,8 @@ namespace awmr {
 /// deviations decay without a change of sign. Above 2.78, the method is unstable.
 inline constexpr double kMaxRateTimesStep = 1.0;
 
-/// Limits of the time of a run: successive halvings of one step, and halved steps in the run. A run
-/// that exceeds one of them fails.
+/// Limits that keep a run from taking too long: successive halvings of one step, and number of
+/// halved steps in the run. A run that exceeds one of them fails.
 inline constexpr int kMaxHalvings = 40;
 inline constexpr double kMaxHalves = 5e7;
 
@@ -40,9 +40,9 @@ T decay_rate(const Resistance<T>& law, const T& inertia, const T& speed) {
   return select(counts, T((slope + T(2.0) * law.quadratic * w) / inertia), T(0.0));
 }
 
-/// The largest of three rates at the state `at`, 1/s: the decay of u by g1; the decay of r by g3;
-/// and |r|, the rate at which the velocity rotates in the vehicle's frame (terms m' r v and m' r
-/// u).
+/// The largest of three rates at the state `at`, 1/s: the decay of the speed u by the surge
+/// resistance g1; the decay of the yaw rate r by the yaw resistance g3; and |r|, the rate at which
+/// the velocity rotates in the vehicle's frame (terms m' r v and m' r u).
 template <class T>
 T fastest_rate(const Plant<T>& plant, const State<T>& at) {
   using math::abs;

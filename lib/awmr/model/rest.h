@@ -7,10 +7,11 @@
 
 namespace awmr {
 
-/// The value of a scalar, without derivatives. Types with derivatives (ceres::Jet) have overloads.
+/// The value of a scalar as a plain number. Types that carry derivatives (ceres::Jet) have
+/// overloads of this function.
 inline double value_of(double x) { return x; }
 
-/// The law with doubles as coefficients, without their derivatives.
+/// The same law with coefficients of type double; derivatives that T carries are dropped.
 template <class T>
 Resistance<double> value_of(const Resistance<T>& law) {
   return {value_of(law.alpha), value_of(law.beta), value_of(law.rest_speed), value_of(law.coulomb),

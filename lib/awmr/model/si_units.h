@@ -1,4 +1,5 @@
-/// Converts the quantities of a model with a known m' to newtons, newton metres and kilograms.
+/// Converts the quantities of a model whose mass m' (divided by F_max) is known to newtons, newton
+/// metres and kilograms.
 #pragma once
 
 #include <string>
@@ -20,8 +21,8 @@ struct SiQuantity {
 /// model in SI units; empty if m' has no value. The mass of the vehicle is assumed exact, so
 ///   F_max = m/m'                                                                      [paper (66)]
 ///   Q     = p F_max = p m/m'      of each quantity p divided by F_max
-/// The variance of Q follows from the covariances C of p and m', with the gradient (m/m', -p
-/// m/m'^2) of Q:
+/// The variance of Q follows from the covariances C of p and m'. With the derivatives of Q with
+/// respect to p and m', which are m/m' and -p m/m'^2:
 ///   Var Q = (m/m')^2 (C_pp - 2 (p/m') C_pm' + (p/m')^2 C_m'm')
 /// For p = I'z = m' Iz/m, the terms cancel, so that Iz is exact again. The half width of the
 /// interval of Q, in standard errors, is the larger of the half widths for p and m'. Q has no

@@ -23,8 +23,8 @@ std::optional<double> steady_rate(const Resistance<double>& law, double force,
 std::optional<double> stop_time_s(const Resistance<double>& law, double mass_norm,
                                   double speed_mps);
 
-/// Time constant with which a resistance slows the motion at the speed w > 0, s: inertia w/g(w),
-/// where the inertia is m' for surge and I'z for yaw.
+/// Time constant, s, with which a resistance g slows the motion at the speed w > 0: inertia w/g(w).
+/// The inertia is the mass m' for surge, and the yaw inertia I'z for yaw.
 inline double relaxation_time_s(const Resistance<double>& law, double inertia, double w) {
   return inertia * w / law.at(w);
 }

@@ -46,8 +46,9 @@ T wheel_load(const T& mass_norm) {
   return mass_norm * T(kGravity_mps2 / 4.0);
 }
 
-/// Largest possible scrub moment, m: all four tyres slide sideways while the vehicle turns on the
-/// spot, with the centre of gravity half-way between the axles.
+/// Returns the largest possible scrub moment, divided by F_max, m. All four tyres slide sideways
+/// while the vehicle turns on the spot; the centre of gravity is assumed half-way between the
+/// axles.
 ///   mu g m' l_f,   mu = kTyreFriction
 template <class T>
 T sliding_moment_m(const Plant<T>& plant) {
@@ -196,7 +197,8 @@ T rolling_inertia(const Plant<T>& p) {
   return select(turning < p.mass_norm, turning, p.mass_norm);
 }
 
-/// As resolved_at_rest() of rest.h, but for a vehicle on tyres, where g1 acts at the wheels.
+/// As resolved_at_rest() of rest.h, but for a vehicle on tyres, on which the surge resistance g1
+/// acts at the wheels.
 inline Plant<double> resolved_at_rest_on_tyres(const Plant<double>& body, double step_s) {
   Plant<double> resolved = resolved_at_rest(body, step_s);
   resolved.surge.rest_speed = rest_speed(body.surge, rolling_inertia(body), step_s);

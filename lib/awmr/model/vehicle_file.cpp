@@ -184,7 +184,8 @@ Vehicle vehicle_from_json(JsonObject& json) {
   vehicle.width_m = json.number("width_m", kSize_m);
   if (json.has("drive")) vehicle.drive = json.choice("drive", kDriveNames);
   vehicle.half_track_m = json.number("half_track_m", kSize_m);
-  // Without steering, l_f is optional: it only gives the position of the front wheels.
+  // The distance l_f from the centre of gravity to the front axle is optional for a vehicle without
+  // steering: it only gives the position of the front wheels.
   vehicle.front_axle_m = vehicle.has_steering() || json.has("front_axle_m")
                              ? json.number("front_axle_m", kSize_m)
                              : vehicle.half_track_m;

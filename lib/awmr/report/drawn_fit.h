@@ -52,8 +52,8 @@ struct CoastdownCurve {
 };
 
 /// Computes one curve for each initial speed of the model's coast-downs, or for eight evenly chosen
-/// speeds if there are more than eight. Empty if there is no coast-down, or if the model lacks g1
-/// or m'.
+/// speeds if there are more than eight. Empty if there is no coast-down, or if the model lacks the
+/// surge resistance g1 or the mass m'.
 std::vector<CoastdownCurve> coastdown_curves(const Model& model);
 
 /// Returns a flag for each trial of the model: true if a warning or an error refers to its row.

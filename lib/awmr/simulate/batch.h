@@ -34,8 +34,8 @@ struct BatchRun {
   YawMode mode;
   std::uint64_t seed = 0;    ///< as in SimulateOptions
   std::uint64_t sample = 0;  ///< as in SimulateOptions
-  /// The result of draw_sensor_noise() for the run's scenario, seed and sample, or null. With null,
-  /// the run draws the same numbers itself, which takes longer.
+  /// The result of draw_sensor_noise() for the run's scenario, seed and sample, or null. If it is
+  /// null, the run draws the same numbers itself, which takes longer.
   const DrawnNoise* noise = nullptr;
 };
 

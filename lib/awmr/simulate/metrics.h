@@ -41,8 +41,8 @@ struct Metrics {
   /// duration of the run, 1/s.
   double control_variation = 0.0;
   double control_effort = 0.0;  ///< mean of F'L^2 + F'R^2 + (d_r/d_max)^2 over the run
-  /// Smallest distance from the vehicle to an obstacle, m; < 0 if they overlapped. With avoidance,
-  /// the vehicle is a circle, else a point. Absent without obstacles.
+  /// Smallest distance from the vehicle to an obstacle, m; < 0 if they overlapped. If the vehicle
+  /// avoids obstacles, its shape is a circle, else a point. Absent without obstacles.
   std::optional<double> clearance_min_m;
   /// Time, s, at which the vehicle reached the last waypoint or the end of the line. Absent if it
   /// did not, if it missed a waypoint, or if it overlapped an obstacle.

@@ -30,7 +30,7 @@ struct MotorLag {
 };
 
 /// Returns the mean forces over the sample. `motors`: forces at the start of the sample; set to
-/// those at its end. Without lag, returns the command and leaves `motors` unchanged.
+/// those at its end. If the motors have no lag, returns the command and leaves `motors` unchanged.
 template <class T>
 SideForces<T> through_motors(const MotorLag& lag, const SideForces<T>& command,
                              SideForces<T>& motors) {

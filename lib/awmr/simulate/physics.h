@@ -78,8 +78,8 @@ struct StepLimit {
   double step_s = 0.0;
   ParameterId parameter{};
 };
-/// Computes the longest step for a plant. With `on_tyres`, the sway and yaw resistances g2 and g3
-/// do not limit the step: tyre forces replace them.
+/// Computes the longest step for a plant. If `on_tyres` is true, the sway and yaw resistances g2
+/// and g3 do not limit the step: tyre forces replace them.
 StepLimit step_limit(const Plant<double>& plant, bool on_tyres);
 
 /// Number of RK4 steps in the whole duration of the scenario, if no step has to be halved.

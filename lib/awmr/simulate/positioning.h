@@ -16,8 +16,8 @@ inline double fix_noise_m(const Gps& gps) {
   return std::sqrt(gps.x.noise * gps.x.noise + gps.x.quantum * gps.x.quantum / 12.0);
 }
 
-/// Computes the position for the guidance. With a GPS, this is the position estimate of the
-/// firmware, or the last fix if the scenario disables the estimate. Without a GPS, it is the true
+/// Computes the position for the guidance. If the scenario has a GPS, this is the position estimate
+/// of the firmware, or the last fix if the scenario disables the estimate. Else it is the true
 /// position.
 class Positioning {
  public:

@@ -49,7 +49,7 @@ struct RunRow {
   /// external forces; the force of a slope is not included
   BodyLoad disturbance = {};
   /// Distance from the vehicle to the nearest obstacle, m; < 0 if they overlap; 0 without
-  /// obstacles. With avoidance, the vehicle is a circle, else a point.
+  /// obstacles. If the vehicle avoids obstacles, its shape is a circle, else a point.
   double clearance_m = 0.0;
   /// Power divided by F_max, m/s, that the lateral tyre forces dissipate. In the 3-DOF model: the
   /// power of tyre scrub, without the power of the yaw resistance g3.

@@ -132,7 +132,8 @@ std::optional<Finding> tyres_differ(const Scenario& scenario, const Model& model
   const double moment_m = model.plant_as_known().yaw(radians(*measured_degps));
   const double plain_degps = turned_degps(model, moment_m, {});
   const double on_tyres_degps = turned_degps(model, moment_m, scenario.tyres);
-  // Factor between the two yaw rates above which the tyres do not match the vehicle.
+  // Ratio of the two yaw rates above which `tyres-differ` is reported. A smaller limit warns of
+  // tyres that match the vehicle only roughly.
   constexpr double kMuch = 1.5;
   if (on_tyres_degps <= kMuch * plain_degps && plain_degps <= kMuch * on_tyres_degps) {
     return std::nullopt;
@@ -250,13 +251,12 @@ std::optional<Finding> extrapolation_finding(const std::string& file, double mea
                                              double fastest_degps, const std::string& where,
                                              const TurnCommands& commands) {
   if (fastest_degps <= kLittleFurther * measured_degps) return std::nullopt;
-  return Finding{
-      file, 0, Severity::kWarning, "beyond-trials",
-      fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times the highest rate at "
-                  "which the yaw resistance was measured ({:.3g} deg/s); above it, the model is "
-                  "extrapolated. {}",
-                  where, fastest_degps, fastest_degps / measured_degps, measured_degps,
-                  remedy_for_turns(commands, measured_degps, fastest_degps))};
+  return Finding{file, 0, Severity::kWarning, "beyond-trials",
+                 fmt::format("{}: the vehicle turns at up to {:.3g} deg/s, {:.2g} times the "
+                             "highest rate at which the yaw resistance was measured ({:.3g} "
+                             "deg/s); above this rate, the model extrapolates the resistance. {}",
+                             where, fastest_degps, fastest_degps / measured_degps, measured_degps,
+                             remedy_for_turns(commands, measured_degps, fastest_degps))};
 }
 
 void note_extrapolation(const Model& model, double fastest_degps, const std::string& where,

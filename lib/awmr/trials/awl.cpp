@@ -117,7 +117,8 @@ std::vector<Place> without_short_runs(const std::vector<Place>& rows, const std:
   }
   if (!dropped.empty()) {
     warn(log, file, "short-run",
-         fmt::format("{} runs with fewer than {} rows are not used; their numbers of rows: {}",
+         fmt::format("{} runs with fewer than {} rows are not used; their numbers of rows: {}. "
+                     "Drive longer runs",
                      dropped.size(), kShortestLog,
                      list_of(dropped, [](std::size_t size) { return fmt::format("{}", size); })));
   }

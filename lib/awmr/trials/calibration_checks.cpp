@@ -382,12 +382,13 @@ std::vector<Finding> calibration_findings(const DrivingLog& log,
   if (const auto offset = offset_of(*course)) {
     findings.push_back(
         {log.file, 0, Severity::kWarning, "heading-offset",
-         fmt::format(
-             "the course over ground differs from heading_deg by {:+.2f} +- {:.2f} deg (left "
-             "positive): the compass is rotated in the vehicle, its declination is missing, or "
-             "the vehicle drifts to one side; the fit estimates this offset, as with {}",
-             degrees(offset->value), degrees(offset->std_error),
-             option_text("fit bias.heading_deg"))});
+         fmt::format("the course over ground (direction of motion) differs from heading_deg by "
+                     "{:+.2f} +- {:.2f} deg (left positive): the compass is rotated in the "
+                     "vehicle, the magnetic declination was not added, or the vehicle drifts to "
+                     "one side. The fit estimates this offset, as with {}; to avoid it, align the "
+                     "compass or map heading_deg with the offset",
+                     degrees(offset->value), degrees(offset->std_error),
+                     option_text("fit bias.heading_deg"))});
   }
   return findings;
 }

@@ -34,8 +34,8 @@ struct ChannelQuality {
 };
 
 /// Determines why `value` contains repeated readings: sets only `repeats`, `fresh` and `quantum`,
-/// by the rules of channel_quality(). With fewer than 8 changes of the value, every row counts as a
-/// measurement.
+/// by the rules of channel_quality(). If the value changes fewer than 8 times, every row counts as
+/// a measurement.
 ChannelQuality find_repeats(std::span<const double> value);
 
 /// Returns the resolution of readings that were written only when they had changed; 0 for other

@@ -11,8 +11,9 @@
 namespace awmr {
 namespace {
 
-/// A change between two readings is a jump if it exceeds kTimes times the usual change. The usual
-/// change is the quantile kQuantile of all changes per second, times the time between the readings.
+/// A change between two readings is a jump if it exceeds kTimes times the usual change for the time
+/// between them. The usual change per second is the quantile kQuantile of all changes per second:
+/// the jumps themselves, if they are rare, do not affect this quantile.
 constexpr double kTimes = 10.0;
 constexpr double kQuantile = 0.95;
 /// Smallest jump of the position that is reported, in vehicle lengths. A smaller jump may be a

@@ -347,10 +347,10 @@ void set_aside_course_at_rest(const DrivingLog& log, std::span<const double> spe
   }
   findings.push_back(
       {log.file, log.line[found.rows.front()], Severity::kWarning, "course-at-rest",
-       fmt::format(
-           "heading_deg: {} readings at rest (below {:.2g} m/s) jump by up to {:.0f} deg, as the "
-           "course of a GPS does: these readings are not used",
-           found.rows.size(), found.rest_mps, degrees(found.jump_rad))});
+       fmt::format("heading_deg: {} readings at rest (below {:.2g} m/s) jump by up to {:.0f} deg, "
+                   "like the direction of motion that a GPS reports (its course). These readings "
+                   "are not used; to have a heading at rest, log a compass",
+                   found.rows.size(), found.rest_mps, degrees(found.jump_rad))});
 }
 
 DrivingLog log_of(TrialReader& reader, RowSpan rows, std::span<const LogChannel> unmeasured,

@@ -31,26 +31,29 @@ void note_quality(LogChannel channel, const DrivingLog& log, const ChannelQualit
   };
   if (!quality.spikes.empty()) {
     warn(quality.spikes.front(), "spikes",
-         fmt::format("{}: {} readings jump away and back (spikes, at {}); they are not used",
+         fmt::format("{}: {} readings jump away and back (spikes, at {}); these readings are not "
+                     "used. Check the connection of the sensor",
                      about.column, quality.spikes.size(), times_of(log, quality.spikes)));
   }
   for (const RowSpan& span : quality.stuck) {
     warn(span.begin, "stuck-sensor",
          fmt::format("{} is stuck at one value from {:.4g} s to {:.4g} s while the commands "
-                     "changed; these readings are not used",
+                     "changed; these readings are not used. Check the sensor and its connection",
                      about.column, log.t_s[span.begin], log.t_s[span.end - 1]));
   }
   if (quality.saturated > 0) {
     warn(0, "saturated-channel",
          fmt::format("{} is {:.4g} in {} rows and never beyond: the end of the sensor's range "
-                     "(saturated); these readings are not used, and readings near it are biased",
+                     "(saturated). These readings are not used, and readings near this value are "
+                     "biased; drive more gently, or use a sensor with a larger range",
                      about.column, quality.saturated_at / about.to_si, quality.saturated));
   }
   if (quality.repeats == Repeats::kCoarse) {
     warn(0, "quantised-samples",
-         fmt::format("{} has steps of {:.4g}, a coarse (quantised) sensor: every row is used, "
-                     "and the rounding is part of its error",
-                     about.column, quality.quantum / about.to_si));
+         fmt::format(
+             "{} changes only in steps of {:.4g}: a coarse (quantised) sensor. Nothing needs to be "
+             "done: the fit uses every row, and includes the rounding in the error of the sensor",
+             about.column, quality.quantum / about.to_si));
   }
 }
 
@@ -180,10 +183,11 @@ void note_held(const DrivingLog& log, std::vector<Finding>& findings) {
     if (!log[channel] || !log[channel]->held) continue;
     findings.push_back(
         {log.file, 0, Severity::kNote, "held-samples",
-         fmt::format("{} repeats its value between updates: only the {} new values ({:.3g} Hz) are "
-                     "used",
-                     info(channel).column, log[channel]->fresh_count,
-                     log[channel]->fresh_count / duration_s)});
+         fmt::format(
+             "{} repeats its value in several rows, because the sensor is slower than the log. "
+             "Nothing needs to be done: the fit uses only the {} new values ({:.3g} Hz)",
+             info(channel).column, log[channel]->fresh_count,
+             log[channel]->fresh_count / duration_s)});
   }
 }
 
@@ -215,10 +219,11 @@ void note_gaps(const DrivingLog& log, std::vector<Finding>& findings) {
   for (std::size_t i = 1; i < log.rows(); ++i) {
     const double step_s = log.t_s[i] - log.t_s[i - 1];
     if (step_s <= longest_s) continue;
-    findings.push_back({log.file, log.line[i], Severity::kNote, "log-gap",
-                        fmt::format("nothing was logged for {:.3g} s before this row: the commands "
-                                    "of that time are unknown, and the fit restarts here",
-                                    step_s)});
+    findings.push_back(
+        {log.file, log.line[i], Severity::kNote, "log-gap",
+         fmt::format("nothing was logged for {:.3g} s before this row, so the commands of that "
+                     "time are unknown. The fit restarts here from the measurements",
+                     step_s)});
   }
 }
 

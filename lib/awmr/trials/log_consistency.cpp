@@ -80,10 +80,11 @@ Status check_consistency(const DrivingLog& log, const std::string& place, const 
   if (bias && bias->significant()) {
     findings.push_back(
         {log.file, 0, Severity::kWarning, "gyro-bias",
-         fmt::format(
-             "yaw_rate_radps differs by {:.3g} +- {:.2g} rad/s from the rate of the heading: a "
-             "gyro bias; the fit estimates this bias, as with {}",
-             bias->bias_radps, bias->std_error_radps, option_text("fit bias.yaw_rate_radps"))});
+         fmt::format("yaw_rate_radps differs by {:.3g} +- {:.2g} rad/s from the rate of change of "
+                     "the heading: the gyroscope has a bias. The fit estimates this bias, as with "
+                     "{}; to avoid it, let the gyroscope settle at rest before a drive",
+                     bias->bias_radps, bias->std_error_radps,
+                     option_text("fit bias.yaw_rate_radps"))});
   }
   return {};
 }

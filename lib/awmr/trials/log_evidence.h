@@ -84,9 +84,9 @@ std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<con
 /// Coefficients of a linear regression of the yaw rate on the yaw moments tau_steering (of the
 /// steering) and tau_diff (of the force difference), as in EvidenceWindow:
 ///     yaw rate = steering * tau_steering + sides * tau_diff
-/// A coefficient whose magnitude is below five standard errors is 0. With fewer than 10 windows,
-/// both coefficients are 0. If the moments are so correlated that a joint fit cannot separate their
-/// effects, each coefficient comes from a fit of its own.
+/// A coefficient whose magnitude is below five standard errors is 0. If there are fewer than 10
+/// windows, both coefficients are 0. If the moments are so correlated that a joint fit cannot
+/// separate their effects, each coefficient comes from a fit of its own.
 struct MomentShares {
   double steering = 0.0;  ///< 1/(m s)
   double sides = 0.0;     ///< 1/(m s)
@@ -109,7 +109,7 @@ std::array<std::string, 2> swapped_mappings(const Evidence& evidence);
 std::optional<Contradiction> rest_contradiction(const Evidence& evidence);
 /// Checks the units of time, forces, steering angle, yaw rate and speed.
 std::vector<Contradiction> unit_contradictions(const Evidence& evidence);
-/// Compares yaw rate with heading, and speed with positions. Without a heading or without
+/// Compares yaw rate with heading, and speed with positions. If the log has no heading or no
 /// positions, detects yaw rates and speeds that no wheeled vehicle reaches.
 std::vector<Contradiction> motion_unit_contradictions(const Evidence& evidence);
 /// Detects a jump of the position or of the heading, as at the seam of two runs in one file.

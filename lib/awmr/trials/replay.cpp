@@ -88,10 +88,10 @@ std::vector<LogWindow> windows_of(const DrivingLog& log, double longest_s) {
   for (std::size_t row = 1; row <= log.rows(); ++row) {
     if (row == log.rows() || log.t_s[row] - log.t_s[row - 1] > kGapSteps * step_s) {
       piece_end = row;
-      // Windows of equal length leave no short remainder. Without the subtraction of one step, the
-      // row added by add_row_of_rest() could make a further window. The number of windows is at
-      // most the number of rows, because times in nanoseconds that are read as seconds would give
-      // far more windows.
+      // Windows of equal length leave no short remainder. If one step were not subtracted, the row
+      // added by add_row_of_rest() could make a further window. The number of windows is at most
+      // the number of rows, because times in nanoseconds that are read as seconds would give far
+      // more windows.
       const double span_s = log.t_s[piece_end - 1] - log.t_s[begin] - step_s;
       const double most = static_cast<double>(piece_end - begin);
       const auto parts =

@@ -73,7 +73,8 @@ void note_missing(const Topic& topic, const Signals& signals, std::vector<CsvNot
     if (missing == 0) continue;
     notes.push_back(
         {0, "missing-values",
-         fmt::format("{} is NaN in {} of {} messages, which count as messages without this value",
+         fmt::format("{} is not a number (NaN) in {} of {} messages; these messages count as "
+                     "messages without this value",
                      signals.header[topic.columns[c]], missing, topic.values[c].size())});
   }
 }

@@ -16,11 +16,11 @@ namespace awmr {
 ///   - the remainder is steady if a straight line fitted to its rate (at least five measurements)
 ///     changes from end to end by at most `drift` of the mean rate, or by at most three standard
 ///     errors of that change.
-/// With steering, the forces left and right must be equal and forward; the segment is a surge run
-/// if |steering| <= straight_rad, else a turning run. Without steering, the segment is a turning
-/// run if the forces left and right differ by more than `same`. Otherwise it is a surge run, whose
-/// forces must be forward. The mean rate must also exceed three standard errors and have the
-/// direction of the command.
+/// If the vehicle has steering, the forces left and right must be equal and forward; the segment is
+/// a surge run if |steering| <= straight_rad, else a turning run. If it has no steering, the
+/// segment is a turning run if the forces left and right differ by more than `same`. Otherwise it
+/// is a surge run, whose forces must be forward. The mean rate must also exceed three standard
+/// errors and have the direction of the command.
 struct SteadyRule {
   /// Largest accepted change of a constant command, in F' or rad, >= 0; increase it for noisy
   /// commands.
@@ -70,8 +70,8 @@ struct SteadyWheel {
 /// Returns the steady speeds of the wheels in the segments of the log in which speed and yaw rate
 /// are steady (SteadyRule). A segment with equal commands left and right gives one speed, the
 /// vehicle's speed u. Other segments give u - d r for the left and u + d r for the right wheels,
-/// with the yaw rate r and half the track width d. Without a yaw rate, uses only segments with
-/// equal commands.
+/// with the yaw rate r and half the track width d. If the log has no yaw rate, uses only segments
+/// with equal commands.
 std::vector<SteadyWheel> steady_wheels(const DrivingLog& log, const Vehicle& vehicle,
                                        const SteadyRule& rule);
 

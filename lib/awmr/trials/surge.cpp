@@ -43,11 +43,11 @@ double tau_speed_of(TrialReader& reader, std::size_t row, int driven_wheels,
   const double tolerance = reader.rounding_error(*printed, "tau_speed") +
                            driven_wheels * reader.rounding_error(*wheel_force, "wheel_force");
   if (std::abs(*printed - from_wheels) > tolerance) {
-    findings.push_back(
-        reader.finding(row, Severity::kWarning, "tau-speed-mismatch",
-                       fmt::format("tau_speed is {}, but {} x wheel_force {} is {:.4g}; the "
-                                   "printed value {} is used",
-                                   *printed, driven_wheels, *wheel_force, from_wheels, *printed)));
+    findings.push_back(reader.finding(
+        row, Severity::kWarning, "tau-speed-mismatch",
+        fmt::format("tau_speed is {}, but {} x wheel_force {} is {:.4g}; the printed value {} is "
+                    "used. Correct the row, or remove the column tau_speed",
+                    *printed, driven_wheels, *wheel_force, from_wheels, *printed)));
   }
   return *printed;
 }

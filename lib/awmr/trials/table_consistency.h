@@ -26,7 +26,7 @@ struct Tables {
 ///   - steering angles that are all below 2 % of the stop: probably radians;
 ///   - speeds and times in another unit (table_units.h);
 ///   - turns that are faster than wheels can roll or than grip allows (turn_evidence.h).
-/// With `options.as_is`, adds them as findings (warning `table-contradiction`) instead.
+/// If `options.as_is` is true, adds them as findings (warning `table-contradiction`) instead.
 void check_consistency(const TrialSet<SurgeRow>& surge, const std::filesystem::path& path,
                        const Tables& tables, const TrialOptions& options,
                        std::vector<Finding>& findings, std::vector<Fault>& faults);

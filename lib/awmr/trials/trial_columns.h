@@ -14,8 +14,8 @@ namespace awmr {
 
 /// Columns read from a file of this kind.
 std::span<const CsvColumn> columns_of(TrialKind kind);
-/// Columns of a turning table of this vehicle. Without steering, force_left and force_right are
-/// required.
+/// Columns of a turning table of this vehicle. For a vehicle without steering, force_left and
+/// force_right are required.
 std::span<const CsvColumn> turning_columns(const Vehicle& vehicle);
 
 /// Returns the options with the mappings of the vehicle file appended, and with `has_steering` and

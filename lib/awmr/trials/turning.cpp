@@ -46,7 +46,7 @@ struct Turn {
   /// The value of steering_deg, or F'R - F'L if the turn is differential; left positive.
   double left = 0.0;
   std::string in_words;     ///< cause of the turn, for messages: "steering_deg 5"
-  double computed_m = 0.0;  ///< tau_turn computed from the forces, m, >= 0
+  double computed_m = 0.0;  ///< tau_turn computed from the forces, over F_max, m, >= 0
   std::string equation;     ///< equation of computed_m, for messages
   std::string parameter;    ///< vehicle parameter in the equation: "front_axle_m"
   double length_m = 0.0;    ///< value of this parameter
@@ -82,8 +82,9 @@ void check_stop(const TrialReader& reader, std::size_t row, const Vehicle& vehic
                   steering_deg, vehicle.steering_max_deg)));
 }
 
-/// Magnitude of tau_turn, m: the value in the file, else the computed value. (The paper's table
-/// gives the unit N m. In awmr, moments are divided by F_max, so the unit is m.)
+/// Returns the magnitude of the yaw moment tau_turn, m: the value in the file, else the computed
+/// value. (The paper's table gives the unit N m. In awmr, moments are divided by F_max, so the unit
+/// is m.)
 double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
                    std::vector<Finding>& findings) {
   const auto cell = reader.cell(row, "tau_turn");
@@ -99,10 +100,10 @@ double tau_turn_of(TrialReader& reader, std::size_t row, const Turn& turn,
                                     : std::string();
     findings.push_back(reader.finding(
         row, Severity::kWarning, "tau-turn-mismatch",
-        fmt::format(
-            "tau_turn is {}, but {} with {} {} gives {:.4g}; the printed value {} is used{}",
-            printed, turn.equation, turn.parameter, turn.length_m, turn.computed_m, printed,
-            implied)));
+        fmt::format("tau_turn is {}, but {} with {} {} gives {:.4g}; the printed value {} is "
+                    "used{}. Correct the row, or remove the column tau_turn",
+                    printed, turn.equation, turn.parameter, turn.length_m, turn.computed_m, printed,
+                    implied)));
   }
   return printed;
 }

@@ -23,8 +23,8 @@ namespace awmr {
 ///     chi-squared distribution with PlantSampler::rank() degrees of freedom;
 ///   - all yaw rates in examined_rates_radps();
 ///   - the mass factors of `open`.
-/// Without a covariance, only the identified plant is examined. The heading law always uses the
-/// identified plant, `context.plant`.
+/// If the model has no covariance, only the identified plant is examined. The heading law always
+/// uses the identified plant, `context.plant`.
 ///
 /// Each minimum is found by search: first the centre, the axes and the corners at five yaw rates
 /// and 500 random points; then a pattern search from the best point of each orthant of the

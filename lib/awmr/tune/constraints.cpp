@@ -34,7 +34,8 @@ ConstraintReport at_least(std::string name, double value, double limit, std::str
           .meaning = std::move(meaning)};
 }
 
-/// Slope of the yaw resistance at the yaw rate r, divided by I'z, 1/s: g3'(r)/I'z.
+/// Slope of the yaw resistance with respect to the yaw rate, at the yaw rate r, divided by the yaw
+/// inertia I'z, 1/s: g3'(r)/I'z.
 double resistance_rate(const Plant<double>& plant, double rate_radps) {
   return slope(plant.yaw, rate_radps) / plant.inertia_norm;
 }
@@ -81,7 +82,8 @@ double heading_damping(const Gains<double>& gains, const ConstraintContext& cont
   return worst;
 }
 
-/// Largest yaw moments tau_turn of the modes steering and differential at steady speed, m.
+/// Largest yaw moments tau_turn (divided by F_max, m) of the modes steering and differential at
+/// steady speed.
 struct Moments {
   double steering;
   double differential;
@@ -169,7 +171,7 @@ std::vector<ConstraintReport> constraints_with(const Gains<double>& gains,
           heading_damping(gains, context, at_all_rates(plant, context), 0.0, 0.0, damping_ratio),
           context.limits.damping,
           "smallest damping ratio of the sampled heading loop, with the hold of the commands "
-          "between samples and with the servo >= `damping` of tune.json"),
+          "between samples and with the servo, >= limits/damping of tune.json"),
       speed_gain(speed, context.sample_time_s),
       speed_lag(speed, context.limits.damping),
       at_least("mu dominates", gains.heading.mu,
@@ -237,14 +239,14 @@ std::vector<ConstraintReport> constraints_of(const Gains<double>& gains,
         "late damping",
         heading_damping(gains, context, loops, context.latency_s, lag_s, dominant_damping_ratio),
         context.limits.late_damping,
-        "smallest damping ratio of the slow poles of the heading loop with latency and motor lag "
-        ">= required"));
+        "smallest damping ratio of the slow poles of the heading loop, with latency and motor lag, "
+        ">= limits/late_damping of tune.json"));
     const double doubled_s = 2.0 * context.latency_s + context.sample_time_s;
-    worst.push_back(at_least("delay margin",
-                             heading_damping(gains, context, ends, doubled_s, lag_s, damping_ratio),
-                             context.limits.delayed_damping,
-                             "smallest damping ratio of the heading loop with motor lag and twice "
-                             "the latency plus one sample >= required"));
+    worst.push_back(at_least(
+        "delay margin", heading_damping(gains, context, ends, doubled_s, lag_s, damping_ratio),
+        context.limits.delayed_damping,
+        "smallest damping ratio of the heading loop, with motor lag and with twice the latency "
+        "plus one sample, >= limits/delayed_damping of tune.json"));
   }
   if (const auto& limit = context.limits.steering_rate_rms_degps; limit && context.steers()) {
     worst.push_back(at_most(kSteeringRate, steering_rate_rms_degps(gains, context), *limit,

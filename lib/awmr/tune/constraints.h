@@ -15,8 +15,8 @@ namespace awmr {
 /// Largest latency, in samples, for which the damping is computed.
 inline constexpr int kMaxLatencySamples = 20;
 /// mu I'z must be at least this share of the modelled yaw resistance, and mu_s m' of the surge
-/// resistance. With less, the control laws could not compensate model errors. Chosen above the
-/// relative model error that `awmr validate` accepts by default (0.15).
+/// resistance. If mu or mu_s were smaller, the control laws could not compensate model errors.
+/// Chosen above the relative model error that `awmr validate` accepts by default (0.15).
 inline constexpr double kUnmodelledShare = 0.2;
 inline constexpr const char* kSteeringRate = "steering rate";
 /// Largest permitted (mu_s/eps_s) T_s, the gain of the speed loop times the sample time. The
@@ -74,23 +74,25 @@ inline double steering_angle_factor(const Plant<double>& plant) {
   return plant.rear_driven > 0.0 ? 0.5 : 1.0;
 }
 
-/// Largest yaw moment of the steering at the steady speed u_d, m: l_f g1(u_d) tan(k d_max), with k
-/// from steering_angle_factor().
+/// Largest yaw moment of the steering at the steady speed u_d, divided by F_max, m: l_f g1(u_d)
+/// tan(k d_max), with k from steering_angle_factor().
 double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 
-/// Returns the largest yaw moment tau_turn, m, at the steady speed u_d, of the weaker mode
-/// (steering or differential). If `mode` is one of the two modes: of this mode. A mode without any
-/// moment at that speed (steering at rest) is ignored.
+/// Returns the largest yaw moment tau_turn (divided by F_max, m) at the steady speed u_d: that of
+/// the weaker mode, which is steering or differential, whichever has the smaller one. If `mode` is
+/// one of the two modes, it returns the moment of this mode. A mode that has no moment at that
+/// speed (steering at rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
-/// F'max and F'min are the limits of the wheel force after subtracting the motor dead zone. With
-/// front-wheel drive, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. With back-EMF (k_e
-/// per wheel), k_e u_d is added to g1/4.
+/// F'max and F'min are the limits of the wheel force after subtracting the motor dead zone. If only
+/// the front wheels are driven, tan(d_max) replaces tan(d_max/2), and 2 replaces each 4. If the
+/// motors have back-EMF (k_e per wheel), k_e u_d is added to g1/4. l_f: centre of gravity to front
+/// axle, d: half of the track width, d_max: steering stop, g1: surge resistance.
 double turning_authority_m(const DrawnVehicle& vehicle, double speed_mps,
                            std::optional<YawMode> mode = {});
 
-/// Returns the largest yaw moment tau_turn, m, of the stronger mode (steering or differential) at
-/// the steady speed u_d.
+/// Returns the largest yaw moment tau_turn (divided by F_max, m) at the steady speed u_d of the
+/// stronger of the two modes steering and differential.
 double largest_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 
 /// Computes every constraint, as value <= limit or value >= limit (ConstraintReport::sense). zeta

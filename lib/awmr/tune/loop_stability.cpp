@@ -35,8 +35,8 @@ std::optional<UnstableLoop> unstable_heading(const Gains<double>& gains,
   return std::nullopt;
 }
 
-/// Slope of the force that surge resistance and back-EMF of n driven wheels need at the speed u,
-/// divided by m', 1/s: (g1'(u) + n k_e)/m'.
+/// Slope, with respect to the speed u, of the force that overcomes the surge resistance and the
+/// back-EMF of n driven wheels, divided by m', 1/s: (g1'(u) + n k_e)/m'.
 double surge_rate(const Plant<double>& plant, double speed_mps) {
   return (slope(plant.surge, speed_mps) + driven_wheels(plant) * plant.back_emf_s_per_m) /
          plant.mass_norm;

@@ -62,11 +62,12 @@ double damping_ratio(const SampledHeadingLoop& loop);
 double speed_damping_ratio(const SampledHeadingLoop& loop);
 
 /// Like damping_ratio(), but poles that decay much faster than the slowest pole count less, because
-/// they hardly affect the response. With sigma = -Re(s) the decay rate of a pole, the result is the
-/// smallest max(zeta, sigma/(20 sigma_slowest)) over the poles. A limit of 0.25 therefore permits
-/// poles with zeta < 0.25 that decay at least five times as fast as the slowest pole. A latency of
-/// many samples adds such poles. sigma_slowest is computed without observer, and without the servo
-/// or motors if they do not turn the vehicle in this mode.
+/// they hardly affect the response. sigma = -Re(s) is the decay rate of a pole s, sigma_slowest
+/// that of the slowest pole. The result is the smallest max(zeta, sigma/(20 sigma_slowest)) over
+/// the poles. A limit of 0.25 therefore permits poles with zeta < 0.25 that decay at least five
+/// times as fast as the slowest pole. A latency of many samples adds such poles. sigma_slowest is
+/// computed without observer, and without the servo or motors if they do not turn the vehicle in
+/// this mode.
 double dominant_damping_ratio(const SampledHeadingLoop& loop);
 
 /// Delay margin: smallest additional delay of the command, s, that makes the loop unstable. 0 if

@@ -17,8 +17,8 @@
 namespace awmr {
 namespace {
 
-/// Individuals of the evolution strategy ISRES in each generation. With NLopt's default of 20 (n +
-/// 1) for n gains, the default budget would end in the first generation.
+/// Individuals of the evolution strategy ISRES in each generation. NLopt's default, 20 (n + 1) for
+/// n gains, is too large: the default budget of evaluations would end in the first generation.
 constexpr unsigned kPopulation = 40;
 /// If a local search lowers the objective by at least this, the next local search begins at its
 /// result. While no gains meet the constraints, their violation replaces the objective.

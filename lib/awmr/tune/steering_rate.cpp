@@ -191,8 +191,8 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
                                 is_own ? &HeadingGains<double>::combined_friction_width_radps
                                        : &HeadingGains<double>::friction_width_radps,
                                 widths, *limit * (1.0 + wider), share, context);
-    // With an observer, all modes get the width of the first mode, whose steering command has the
-    // most noise.
+    // If the gains have an observer, all modes get the width of the first mode, whose steering
+    // command has the most noise.
     if (gains.observer.is_on()) break;
   }
   const bool is_default =

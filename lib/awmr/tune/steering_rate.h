@@ -23,11 +23,12 @@ double steering_rate_rms_degps(const Gains<double>& gains, const ConstraintConte
 /// gains. The width of a mode is the smallest in the following range with which the mode's steering
 /// rate is at most the limit times (1 + wider):
 ///   0.02 <= w <= min(10 c3 eps/(I'z mu), the highest yaw rate of the runs)
-/// c3 is the Coulomb friction in yaw. With a wider w, the fed-forward friction would compensate
+/// c3: Coulomb friction in yaw, I'z: yaw inertia (both divided by F_max); mu, eps: gains of the
+/// heading law; S: its sliding variable. With a wider w, the fed-forward friction would compensate
 /// little: at w = 10 c3 eps/(I'z mu), it grows with S only a tenth as fast as the corrective term
-/// mu S/eps. If no w in this range meets the limit, w is the upper bound. Without a limit, without
-/// steering or without Coulomb friction, w is 0.02 rad/s. With an observer, all modes have the
-/// width of the mode whose steering command has the most noise.
+/// mu S/eps. If no w in this range meets the limit, w is the upper bound. w is 0.02 rad/s if there
+/// is no limit, no steering or no Coulomb friction. If the gains have an observer, all modes get
+/// the width of the mode whose steering command has the most noise.
 Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& context,
                                   double wider = 0.0);
 

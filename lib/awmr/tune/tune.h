@@ -48,7 +48,8 @@ struct ObjectiveWeights {
   double control_variation = 0.5;
   /// Mean sum of the squared commands (Metrics::control_effort).
   double effort = 0.25;
-  /// Speed: integral of t |u_d - u| over time. With weight 0, mu_s and eps_s are not determined.
+  /// Speed: integral of t |u_d - u| over time. If this weight is 0, the gains mu_s and eps_s of the
+  /// speed law are not determined.
   double speed_itae = 0.25;
 };
 
@@ -118,9 +119,9 @@ struct ObserverSearch {
 inline constexpr double kObserverShare = 0.5;
 
 /// Number of drawn vehicles on which the search evaluates gains if it tunes three modes. A search
-/// for one mode uses 12, so the number of runs is the same. With unmodelled variation, the search
-/// uses at least UnmodelledVariation::combinations() vehicles. Only the last part of the search
-/// uses all drawn vehicles.
+/// for one mode uses 12, so the number of runs is the same. If the options contain unmodelled
+/// variation, the search uses at least UnmodelledVariation::combinations() vehicles. Only the last
+/// part of the search uses all drawn vehicles.
 inline constexpr int kSearchedDraws = 4;
 /// Relative difference of objectives below which gains count as equally good (settle()).
 inline constexpr double kIndifferent = 1e-3;
@@ -190,7 +191,8 @@ struct TuneOptions {
   /// Required form of T2 < T1. kPaper permits twice the eps/mu of kStrict.
   ReachingForm form = ReachingForm::kStrict;
   /// The reaching time constant (ReachingForm) must be at most margin T1, T1 = 1/lambda. In (0, 1).
-  /// With a smaller margin, S decays faster compared with the heading error.
+  /// If the margin is smaller, the sliding variable S decays faster compared with the heading
+  /// error.
   double margin = 0.8;
   ObjectiveWeights weights;
   int global_evaluations = 80;  ///< >= 1

@@ -84,8 +84,8 @@ TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawM
 std::string describe(const TurningMoment& moment, const DrawnVehicle& vehicle) {
   const std::vector<std::string> found = changes(moment, vehicle);
   std::string text = fmt::format(
-      "the largest yaw moment of mode {} at {:.3g} m/s is {:.3g} m, but the yaw "
-      "resistance at {:.3g} deg/s is {:.3g} m. ",
+      "the largest yaw moment of mode {} at {:.3g} m/s is {:.3g} m, but the yaw resistance at "
+      "{:.3g} deg/s is {:.3g} m (both divided by F_max). ",
       name_of(moment.mode), moment.speed_mps, moment.available_m, degrees(kSlowest_radps),
       moment.needed_m);
   if (found.empty()) return text + "Use motors with more force, or reduce the yaw resistance";

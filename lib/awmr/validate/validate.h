@@ -98,12 +98,12 @@ struct ValidateOptions {
 std::optional<double> predicted_measurement(const Plant<double>& plant, const TrialPoint& trial);
 
 /// Predicts the model's trials and checks the paper's claims. Claims do not affect `passed`,
-/// because a claim that is not reproduced is a result about the paper, not about the model. Without
-/// gains, validate() checks only C1, C2 and C14. It leaves out claims that need parameters which
-/// the model lacks, or four driven wheels and steering which the vehicle lacks; the verdict names
-/// them. Errors (input): the model lacks a parameter that its trials measure or, with gains, any
-/// parameter; the input or the measurement of a trial is not above 0; the tolerance is not above 0;
-/// the errors of batch_arithmetic().
+/// because a claim that is not reproduced is a result about the paper, not about the model. If no
+/// gains are given, validate() checks only the claims C1, C2 and C14. It leaves out claims that
+/// need parameters which the model lacks, or four driven wheels and steering which the vehicle
+/// lacks; the verdict names them. Errors (input): the model lacks a parameter that its trials
+/// measure or, with gains, any parameter; the input or the measurement of a trial is not above 0;
+/// the tolerance is not above 0; the errors of batch_arithmetic().
 Result<Validation> validate(const Model& model, const std::optional<ModeGains>& gains,
                             const ValidateOptions& options);
 

@@ -24,7 +24,7 @@ struct Avoidance {
   /// before a turn takes effect (servo, yaw inertia).
   T mmd_per_speed_s;
   /// sigma, rad, in [0, pi/2): angle by which the blocked sector exceeds the tangent to the
-  /// obstacle, for a vehicle at the obstacle's edge. With a larger angle, the vehicle passes at a
+  /// obstacle, for a vehicle at the obstacle's edge. A larger angle makes the vehicle pass at a
   /// larger distance.
   T sigma_rad;
   /// vehicle_radius, m, >= 0: radius of the circle around the centre of gravity that encloses the
@@ -33,11 +33,12 @@ struct Avoidance {
   /// clearance, m, > 0: free distance between that circle and the obstacle.
   T clearance_m;
   /// Hysteresis of the distance, m, >= 0. While obstacles are avoided, an obstacle counts until its
-  /// distance D_obs exceeds MMD by this value. Without hysteresis, the avoidance could switch on
-  /// and off at D_obs = MMD.
+  /// distance D_obs exceeds MMD by this value. If this value were 0, the avoidance could switch on
+  /// and off again and again at D_obs = MMD.
   T hysteresis_m;
   /// Hysteresis of the side, rad, >= 0. The vehicle changes the side on which it passes only if the
-  /// turn to the other side is smaller by more than this. With 0, it could swerve left and right.
+  /// turn to the other side is smaller by more than this. If this were 0, it could swerve left and
+  /// right.
   T side_hysteresis_rad;
   /// brake, m, > 0: free distance ahead below which the avoidance reduces the speed. It must be at
   /// least the stopping distance.

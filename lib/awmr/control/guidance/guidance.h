@@ -56,8 +56,8 @@ AWMR_INLINE void slow_down(const SlowDown<T>& part, bool is_last, const ToGo& to
   ref.speed_mps *= arrival_share(part.distance_m, T(to_go_m()));
 }
 
-/// Computes the guidance to waypoints by guide() of waypoints.h. With obstacle avoidance, waypoints
-/// that an obstacle makes unreachable are skipped (covers() in obstacles.h).
+/// Computes the guidance to waypoints by guide() of waypoints.h. If obstacles are avoided, the
+/// guidance skips waypoints that an obstacle makes unreachable (covers() in obstacles.h).
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide_clear(const Disabled<Avoider<T>>&,
                                             const Waypoints<T>& waypoints, const T& acceptance_m2,

@@ -99,8 +99,8 @@ struct Polyline {
   const Position<T>* points_m;  ///< corners in the world frame, m; `count` of them, not owned
   int count;                    ///< >= 0; with 0 or 1 corners, the guidance is finished at once
   /// m, >= 0: at this distance before the end of a segment, the vehicle changes to the next
-  /// segment, so that it rounds the corner on the inside. With 0, it overshoots the corner. The
-  /// vehicle drives the last segment to its end.
+  /// segment, so that it rounds the corner on the inside. If this distance is 0, the vehicle
+  /// overshoots the corner. The vehicle drives the last segment to its end.
   T corner_m;
   Law law;  ///< parameters of the law
 };

@@ -22,7 +22,7 @@ struct Lissajous {
   T amplitude_x_m, amplitude_y_m;  ///< A_x, A_y, m: 10 each in the paper
   T rate_x_radps, rate_y_radps;    ///< w_x, w_y, rad/s: 0.01 and 0.03 in the paper
 
-  /// The point of the path at the time t_s, s, and its derivatives.
+  /// The point of the path at the time t_s, s, and its first and second time derivatives.
   AWMR_CALLED PathPoint<T> at(const T& t_s) const {
     using math::cos;
     using math::sin;

@@ -60,8 +60,8 @@ bool is_past(const Position<T>& position_m, const Position<T>& leg_start_m,
 /// Corrected: the printed differences point from the waypoint to the vehicle.
 ///
 /// If the vehicle is within the acceptance radius of several waypoints in sequence, it reaches them
-/// in the same step. With no waypoints, guidance is finished at once and psi_d keeps its value.
-/// `acceptance_m2` is the square of Waypoints::acceptance_m.
+/// in the same step. If there are no waypoints, guidance is finished at once and psi_d keeps its
+/// value. `acceptance_m2` is the square of Waypoints::acceptance_m.
 template <class T>
 AWMR_INLINE WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const T& acceptance_m2,
                                       const Position<T>& position_m,
@@ -90,8 +90,8 @@ AWMR_CALLED WaypointGuidance<T> guide(const Waypoints<T>& waypoints, const Posit
   return guide(waypoints, acceptance_m2, position_m, progress);
 }
 
-/// Fraction of the reference speed at which the vehicle arrives at the end of the route. With 0, it
-/// would never reach the end.
+/// Fraction of the reference speed at which the vehicle arrives at the end of the route. If this
+/// fraction were 0, the vehicle would never reach the end.
 template <class T>
 constexpr T arrival_share_min() {
   return T(0.1);

@@ -22,8 +22,8 @@ EstimatorParameter by_logarithm(std::string name, double value, double error, do
 /// Estimates m'/a1 and, if the resistance family has these terms, the exponent b1, c1/a1 (Coulomb)
 /// and q1/a1 (quadratic) from coast-down curves alone. Uses the requested family (for `auto`: the
 /// one with the smallest AICc), or the power law if none is requested. Returns `result` with these
-/// values and with the reason why m' itself is not identified. Without curves or a usable fit, adds
-/// only the reason.
+/// values and with the reason why m' itself is not identified. If there are no curves, or no fit of
+/// them is usable, it adds only the reason.
 MassResult without_surge(const std::vector<CoastCurve>& curves, const Vehicle& vehicle,
                          const FamilyChoice& family, MassResult result);
 

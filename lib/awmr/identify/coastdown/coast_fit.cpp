@@ -44,7 +44,8 @@ bool is_finite(const CoastFit& fit) {
          std::isfinite(fit.beta_variance) && fit.dof > 0.0 && std::isfinite(fit.dof);
 }
 
-/// Marks the fit as unusable because its curve or a derivative is not finite.
+/// Marks the fit as unusable, because a residual of its curves or an element of their Jacobian is
+/// not finite.
 CoastFit not_finite(CoastFit fit, const CoastProblem& problem) {
   fit.usable = false;
   if (converged(problem.summary())) fit.stop_reason = kNotFinite;
@@ -126,7 +127,8 @@ CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit) {
   constexpr double kStandardErrors = 3.0;
-  // Smallest accepted rise of the sum of squares, as a fraction of the predicted rise.
+  // Smallest accepted rise of the sum of squares, as a fraction of the predicted rise. If the rise
+  // is smaller, the true interval of ln m' is clearly wider than the standard error says.
   constexpr double kShare = 0.5;
   const bool terms = surge.law().coulomb > 0.0 || surge.law().quadratic > 0.0;
   double best = 0.0;

@@ -1,4 +1,5 @@
-/// Fit of m' to coast-down curves: speed over time with the motors off. Private to identify/.
+/// Fit of the mass m' (divided by F_max) to coast-down curves: speed over time with the motors off.
+/// Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +18,8 @@ struct CoastStart {
   double lag_s = 0.0;  ///< time constant T of a filter of the speed; 0: no filter
 };
 
-/// Ratio of a term of the surge resistance, c1 or q1, to the coefficient a1. Without a surge law,
-/// curves determine only such ratios.
+/// Ratio of a term of the surge resistance, c1 or q1, to the coefficient a1. If the surge law is
+/// not identified, curves determine only such ratios.
 struct TermOverAlpha {
   TransformedParameter term{};  ///< c1 or q1
   double value = 0.0;           ///< c1/a1 in (m/s)^b1, q1/a1 in (m/s)^(b1 - 2); >= 0
@@ -63,9 +64,9 @@ struct CoastFit {
   std::string stop_reason;
 };
 
-/// Fits m' to the curves for a given surge law. Also fits each run's initial speed, the filter's
-/// time constant if `start` has one, and the time of switching the motors off if the record begins
-/// earlier.
+/// Fits the mass m' to the curves; the surge law stays fixed. Also fits each run's initial speed,
+/// the time constant of the speed filter if `start` has a filter, and, if the record begins before
+/// the motors are switched off, the time of switching off.
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
                    const CoastStart& start);
 
@@ -79,7 +80,8 @@ CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit);
 
-/// Fits curves without a surge law. The curves then determine only m'/a1, b1, c1/a1 and q1/a1:
+/// Fits curves if no surge law is identified. The curves then determine only the exponent b1 and
+/// the ratios m'/a1 (mass), c1/a1 (Coulomb term) and q1/a1 (quadratic term):
 ///   (m'/a1) u_dot = -(c1/a1 + |u|^b1 + (q1/a1) u^2)
 CoastFit fit_coast_alone(const std::vector<CoastCurve>& curves, const Interval& beta_range,
                          Family family);

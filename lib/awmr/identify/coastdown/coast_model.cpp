@@ -13,8 +13,8 @@ namespace awmr {
 namespace {
 
 /// Two models describe the curves about equally well if their AICc differ by less than this. A
-/// difference of 10 is a likelihood ratio of 150. With a larger value, more intervals of m' are
-/// withdrawn.
+/// difference of 10 is a likelihood ratio of 150. If this threshold is larger, more intervals of m'
+/// are withdrawn.
 constexpr double kClose = 10.0;
 
 struct CoastData {
@@ -101,8 +101,9 @@ CoastCandidate fit_candidate(const CoastData& data, const CoastStart& start) {
 
 constexpr double kFast = 0.2;  ///< time constant of a fast filter over that of the motion
 
-/// Initial guess for a fit with a filter, from the fit `plain` without one: a fast filter, and a
-/// smaller m'. (The filter explains a part of the slow decrease of the speed.)
+/// Returns an initial guess for a fit with a filter, from `plain`, the fit without a filter. The
+/// guess has a fast filter and a smaller mass m', because the filter explains a part of the slow
+/// decrease of the speed.
 CoastStart fast_filter(const CoastData& data, const CoastStart& plain) {
   return {plain.log_mass + std::log1p(-kFast),
           kFast * fall_time_s(data.curves, data.surge.law(), plain.log_mass)};

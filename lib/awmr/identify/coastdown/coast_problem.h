@@ -16,28 +16,29 @@ namespace awmr {
 
 /// Time t0 at which a run's motors were switched off, and the speed u0 at that time. If the record
 /// begins earlier, the speed begins with a plateau (constant speed). The mean of the plateau is the
-/// initial guess of u0, and the end of the plateau that of t0. Without a detected plateau, u0
-/// starts at the first sample's speed, and t0 is fixed at the first sample's time. A short plateau
-/// may go undetected, so the solver also tries to fit t0 and keeps that fit if it lowers AIC.
+/// initial guess of u0, and the end of the plateau that of t0. If no plateau is detected, u0 starts
+/// at the first sample's speed, and t0 is fixed at the first sample's time. A short plateau may go
+/// undetected, so the solver also tries to fit t0 and keeps that fit if it lowers AIC.
 struct CoastInitialState {
   double block[2];         ///< u0 in m/s, t0 in s
   bool free_time = false;  ///< true if t0 is fitted
-  /// Initial guess of t0 without a detected plateau; absent if a plateau was detected, or if too
-  /// few samples follow to fit t0.
+  /// Initial guess of t0 if no plateau was detected. Absent if one was detected, or if too few
+  /// samples follow to fit t0.
   std::optional<double> short_lead_s;
 };
 
 /// Residuals u(t) - measured of every sample, run after run. Parameters: the surge law (ln a, b, c,
 /// q), ln m', T and each run's (u0, t0). The surge law is constant unless the caller sets its
-/// parameter blocks variable. With a filter of the sensor the residuals are y(t) - measured:
+/// parameter blocks variable. If the fit has a filter of the speed sensor, with the output y and
+/// the time constant T, the residuals are y(t) - measured:
 ///
 ///     T y' = u - y,   y = u0 until t0
 ///
 /// Not movable, because the problem has pointers to its members. `curves` must outlive this object.
 class CoastProblem {
  public:
-  /// `terms_free`: true if c or q will be fitted. The curve is then integrated numerically, because
-  /// its closed form has no derivative by c or q.
+  /// `terms_free`: true if c or q will be fitted. The curve is then integrated numerically: its
+  /// closed form is only for power laws, so it has no derivative with respect to c or q.
   CoastProblem(const std::vector<CoastCurve>& curves, const TransformedParameters& surge,
                const CoastStart& start, bool terms_free);
   CoastProblem(const CoastProblem&) = delete;
@@ -64,11 +65,11 @@ class CoastProblem {
   void solve();
   const ceres::Solver::Summary& summary() const { return summary_; }
 
-  /// Residuals of all samples, m/s; empty if one is not finite.
+  /// Residuals of all samples, m/s. Empty if one of them is not finite.
   std::optional<Eigen::VectorXd> residuals();
-  /// Jacobian of the residuals, samples x columns. The first columns are the parameter blocks
-  /// `first`, in their order. Then follow each run's u0 and, if it is free, t0. Empty if a
-  /// derivative is not finite.
+  /// Jacobian of the residuals: a row per sample, a column per parameter. The first columns belong
+  /// to the parameter blocks `first`, in their order. Then follow each run's u0 and, if it is
+  /// fitted, t0. Empty if an element is not finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<double*>& first);
 
   /// Adds the step `by` to the coordinates `free`, own_blocks() and each run's initial state, in

@@ -12,12 +12,13 @@
 namespace awmr {
 namespace {
 
-/// Relative standard error of m' above which `fragile-mass` is reported.
+/// Relative standard error of m' above which `fragile-mass` is reported: m' and F_max = m/m' are
+/// then uncertain by more than about 20 % (two standard errors).
 constexpr double kFragileShare = 0.10;
 /// Relative difference of Iz from the box formula above which `inertia-mismatch` is reported.
 constexpr double kInertiaDisagreement = 0.10;
 
-/// Logarithm of the stop time for m' = 1; empty if the vehicle never stops.
+/// Logarithm of the stop time of a vehicle with the mass m' = 1; empty if it never stops.
 std::optional<double> log_unit_stop_time(const Resistance<double>& law, double speed_mps) {
   const auto stop_s = stop_time_s(law, 1.0, speed_mps);
   if (!stop_s) return std::nullopt;

@@ -1,5 +1,5 @@
-/// m' (mass over F_max) from stop times, and plausibility checks of m' and I'z. Private to
-/// identify/.
+/// Mass m' from stop times, and plausibility checks of m' and of the yaw inertia I'z (both divided
+/// by F_max). Private to identify/.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,15 +11,16 @@
 
 namespace awmr {
 
-/// m' from stop times, with its derivatives with respect to the surge law and the variance due to
-/// the times.
+/// m' from stop times, its derivatives with respect to the surge law, and the variance that the
+/// errors of the stop times cause.
 struct MassFromStopTime {
   double log_mass_norm = 0.0;  ///< ln m'
   /// d ln m' / d theta for the free coordinates theta of the surge fit (SteadyFit::free). For a
-  /// power law d/d ln a1 = 1 and d/d b1 = -1/(1 - b1) + mean ln u_max, u_max: initial speed.
+  /// power law, the derivative is 1 with respect to ln a1, and -1/(1 - b1) + mean ln u_max with
+  /// respect to b1 (u_max: initial speed).
   Eigen::VectorXd by_surge;
-  /// Variance of ln m' due to the times: from the scatter of the runs or, for a single run, from
-  /// the timing error.
+  /// Variance of ln m' that the errors of the stop times cause. It follows from the scatter of the
+  /// runs or, if there is a single run, from its timing error.
   double timing_variance = 0.0;
 };
 
@@ -42,10 +43,11 @@ void check_mass(const Resistance<double>& surge, const TrialSet<StopTimeRow>& co
 void check_mass(const Resistance<double>& surge, const std::vector<CoastCurve>& curves,
                 double mass_norm, std::vector<Finding>& findings);
 
-/// True if a coast-down from `speed_mps` begins with a deceleration g1(u)/m' above gravity.
+/// True if a coast-down from `speed_mps` begins with a deceleration g1(u)/m' above g, the
+/// acceleration of gravity (g1: surge resistance, m': mass, both divided by F_max).
 bool is_implausible(const Resistance<double>& surge, double speed_mps, double mass_norm);
-/// The m' for which the initial deceleration of a coast-down from the speed u is mu g, the limit of
-/// tyres with the friction coefficient mu = kTyreFriction:
+/// Returns the mass m' for which a coast-down from the speed u begins with the deceleration mu g,
+/// the limit of tyres with the friction coefficient mu = kTyreFriction:
 ///   m' = g1(u)/(mu g)
 double mass_norm_by_grip(const Resistance<double>& surge, double speed_mps);
 

@@ -18,9 +18,10 @@ struct JointFit {
   CoastFit coast;       ///< residuals and noise of the curves; stop reason; usable or not
 };
 
-/// Fits surge rows and curves together. `alone`: fit of the surge rows alone, the initial guess.
-/// `start`: initial guess of m', and of the filter's time constant if there is a filter. If
-/// the search fails, `coast.usable` is false and the stop reasons are set.
+/// Fits the rows of the surge runs and the coast-down curves together. `alone`: fit of the surge
+/// rows alone, the initial guess of the surge law. `start`: initial guess of m', and of the time
+/// constant of the speed filter if there is one. If the search fails, `coast.usable` is false and
+/// the stop reasons are set.
 JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
                    const std::vector<CoastCurve>& curves, const CoastStart& start);
 

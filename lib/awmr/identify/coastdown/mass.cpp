@@ -59,7 +59,8 @@ std::vector<CoastCurve> falling(const std::vector<CoastCurve>& curves, MassResul
   return kept;
 }
 
-/// Estimates m' from the stop times. Adds the report to `result`, or the reason if that fails.
+/// Estimates m' from the stop times. Adds the report to `result`. If the estimate fails, sets
+/// `result.reason` instead.
 std::optional<MassEstimate> by_stop_time(const SteadyFit& surge,
                                          const std::optional<TrialSet<StopTimeRow>>& stops,
                                          MassResult& result) {
@@ -92,18 +93,20 @@ EstimatorParameter report_of_lag(const FittedLag& lag, double error, double dof)
 Finding lag_finding(const CoastModel& model, double value_s, double error_s,
                     const std::string& file) {
   const std::string also =
-      model.other ? fmt::format(
-                        ", or of {:.2g} s with mass_norm {:.3g}: the curves do not decide between "
-                        "them, so the interval of mass_norm is withdrawn. ",
-                        model.other->lag_s, std::exp(model.other->log_mass))
-                  : "; the fit compensates for this. ";
+      model.other
+          ? fmt::format(
+                ", or of {:.2g} s with mass_norm {:.3g}: the curves do not decide between "
+                "them, so the interval of mass_norm is withdrawn. ",
+                model.other->lag_s, std::exp(model.other->log_mass))
+          : "; the fit estimates this filter too, which makes the interval of mass_norm wider. ";
   return {file, 0, Severity::kWarning, "sensor-lag",
           fmt::format("the speed of the coast-downs is low-pass filtered with a time constant of "
                       "{:.3g} +- {:.2g} s{}Log the unfiltered speed, or make the filter faster",
                       value_s, error_s, also)};
 }
 
-/// Estimates m' from the curves. Adds the report to `result`, or the reason if that fails.
+/// Estimates m' from the curves. Adds the report to `result`. If the estimate fails, sets
+/// `result.reason` instead.
 std::optional<MassEstimate> by_curves(const SteadyFit& surge, const std::vector<CoastCurve>& curves,
                                       const std::optional<CoastModel>& model, MassResult& result) {
   if (curves.empty()) {
@@ -128,9 +131,11 @@ std::optional<MassEstimate> by_curves(const SteadyFit& surge, const std::vector<
     result.findings.push_back(lag_finding(*model, fit.lag->value_s, error, file));
   }
   if (fit.autocorrelated) {
-    result.findings.push_back({file, 0, Severity::kNote, "coloured-residuals",
-                               "neighbouring residuals of the coast-down are correlated, and the "
-                               "interval of mass_norm is wider for this reason"});
+    result.findings.push_back(
+        {file, 0, Severity::kNote, "coloured-residuals",
+         "successive residuals of the coast-down curves are correlated: an error of the model or "
+         "of the speed sensor lasts for several rows. The interval of mass_norm was widened, so "
+         "that it includes this error"});
   }
   return estimate;
 }
@@ -297,8 +302,9 @@ void withdraw_mass(MassResult& result) {
   }
 }
 
-/// The note `back-emf-assumed`. Surge runs of motors with back-EMF k_e (n driven wheels) give g1 +
-/// n k_e u instead of g1, but only g1 brakes a coast-down. m' = g1/|u_dot| is then too large.
+/// The note `back-emf-assumed`. If the motors have back-EMF k_e (n driven wheels), surge runs give
+/// g1 + n k_e u instead of the surge resistance g1, but only g1 brakes a coast-down. The mass m' =
+/// g1/|u_dot| is then too large.
 Finding assumed_back_emf(const std::string& file) {
   return {file, 0, Severity::kNote, "back-emf-assumed",
           "mass_norm assumes that at a constant command the force of a motor does not fall with "

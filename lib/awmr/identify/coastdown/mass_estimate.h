@@ -24,8 +24,8 @@ struct MassEstimate {
 
   /// Total variance of ln m'; empty if the surge fit has no covariance.
   std::optional<double> variance(const SteadyFit& surge) const;
-  /// Effective degrees of freedom (Satterthwaite) of the total variance V of ln m', which is the
-  /// sum of V_surge from the surge law and V_own from the coast-down:
+  /// Effective degrees of freedom (Satterthwaite) of the total variance V of ln m'. V is the sum of
+  /// two variances: V_surge, due to the surge law, and V_own, due to the coast-down itself:
   ///   V^2 / (V_surge^2/dof_surge + V_own^2/dof_own),   V = V_surge + V_own
   double dof(const SteadyFit& surge) const;
 };

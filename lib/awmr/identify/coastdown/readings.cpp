@@ -46,7 +46,7 @@ double extrapolated_mps(const CoastCurve& curve, std::size_t end) {
 /// significantly above 0.
 std::optional<double> cut_at_rest(double quantum_mps, CoastCurve& curve) {
   // Smallest extrapolated speed that counts as above 0: in standard deviations of the noise, and as
-  // a share of the highest speed.
+  // a share of the highest speed. A smaller speed can be due to noise or to the extrapolation.
   constexpr double kOverNoise = 5.0;
   constexpr double kShare = 0.03;
   const std::size_t end = first_zero(curve.speed_mps);
@@ -120,10 +120,12 @@ CoastReadings measured_rows(const std::vector<CoastCurve>& curves, std::vector<F
   }
   report_cut_off(curves, lost_mps, findings);
   if (is_held) {
-    findings.push_back({curves.front().file, 0, Severity::kNote, "held-samples",
-                        fmt::format("the speed of the coast-downs repeats its value between "
-                                    "updates: only the {} new values ({:.3g} Hz) are used",
-                                    fresh, static_cast<double>(fresh) / duration_s)});
+    findings.push_back(
+        {curves.front().file, 0, Severity::kNote, "held-samples",
+         fmt::format("the speed of the coast-downs repeats its value in several rows, because the "
+                     "sensor is slower than the record. Nothing needs to be done: the fit uses "
+                     "only the {} new values ({:.3g} Hz)",
+                     fresh, static_cast<double>(fresh) / duration_s)});
   }
   return readings;
 }

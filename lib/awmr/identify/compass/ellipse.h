@@ -23,9 +23,10 @@ struct Ellipse {
 
 /// Residual r = |S (f - o)| - 1 of a point f.
 double residual(const Ellipse& ellipse, const Eigen::Vector2d& f);
-/// Gradient dr/dp of the residual by the parameters.
+/// Gradient dr/dp of the residual r with respect to the parameters p of the ellipse.
 Eigen::Matrix<double, 1, 5> residual_gradient(const Ellipse& ellipse, const Eigen::Vector2d& f);
-/// Derivatives dc/dp of the point on the unit circle by the parameters.
+/// Derivatives dc/dp of on_circle(f), a point c on the unit circle, with respect to the parameters
+/// p of the ellipse.
 Eigen::Matrix<double, 2, 5> circle_gradient(const Ellipse& ellipse, const Eigen::Vector2d& f);
 
 /// Fits the ellipse with the smallest sum of squared residuals. Empty if the points determine none.

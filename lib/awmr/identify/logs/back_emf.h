@@ -15,19 +15,20 @@
 
 namespace awmr {
 
-/// Returns the reason why these logs cannot separate k_e from the resistance. Empty if all logs
-/// together contain at least 1 s of coasting (both forces 0). Only the first 3 s after driving
-/// count as coasting, because the vehicle may stand still later.
+/// Returns the reason why these logs cannot separate the back-EMF k_e from the resistance. Empty if
+/// all logs together contain at least 1 s of coasting (both forces 0). Only the first 3 s after
+/// driving count as coasting, because the vehicle may stand still later.
 std::string why_no_back_emf(const std::vector<DrivingLog>& logs);
 
-/// Returns the options with k_e as an estimated parameter, and with an initial guess of k_e if
-/// there was none.
+/// Returns the options with the back-EMF k_e as an estimated parameter, and with an initial guess
+/// of k_e if there was none.
 LogFitOptions with_back_emf(LogFitOptions options);
 
-/// Returns the options with k_e as an estimated parameter if `fit` estimates it, else unchanged.
+/// If `fit` estimates the back-EMF k_e, returns the options with k_e as an estimated parameter.
+/// Else returns them unchanged.
 LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options);
 
-/// True if a further fit should also estimate k_e, for one of these reasons:
+/// True if a further fit should also estimate the back-EMF k_e, for one of these reasons:
 ///   - The score test of k_e (score_test.h) predicts that -2 ln L decreases by more than 4. Noise
 ///     alone gives such a prediction in about 2 % of fits.
 ///   - A channel has a slow drift, which may hide the effect of k_e.
@@ -36,14 +37,14 @@ LogFitOptions with_back_emf_as_in(const FamilyFit& fit, LogFitOptions options);
 /// False if k_e is not one of `candidate_terms`, the terms that `fit` tested.
 bool suspects_back_emf(const LogFit& fit, const std::vector<ParameterId>& candidate_terms);
 
-/// True if `with`, the fit that estimates k_e, is better than `without`: it identifies k_e, and its
-/// AIC is lower by more than kFamilyAicThreshold. False if a channel of `with` has too large a
-/// drift (ChannelNoise::overwhelms_sensor()), because another model error may then cause the
-/// difference.
+/// True if `with`, the fit that estimates the back-EMF k_e, is better than `without`, the fit that
+/// does not: `with` identifies k_e, and its AIC is lower by more than kFamilyAicThreshold. False if
+/// a channel of `with` has too large a drift (ChannelNoise::overwhelms_sensor()), because another
+/// model error may then cause the difference.
 bool shows_back_emf(const FamilyFit& with, const FamilyFit& without);
 
-/// Returns the warning `back-emf`: the fit uses the model with k_e. The text has the value of k_e
-/// and the decrease of AIC.
+/// Returns the warning `back-emf`: the fit uses the model with back-EMF, `with`. The text has the
+/// value of k_e and the decrease of AIC.
 Finding back_emf_finding(const std::string& file, const FamilyFit& with, const FamilyFit& without);
 
 }  // namespace awmr

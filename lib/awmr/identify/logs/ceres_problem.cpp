@@ -22,8 +22,8 @@ double prior_residual(const LogProblem& problem, std::size_t i, double x) {
   return (x - problem.initial[i]) / prior_std(problem, i);
 }
 
-/// Work (Effort) of one evaluation of all windows with derivatives: number of integration steps
-/// times the number of values that each step integrates.
+/// Work (Effort) of one evaluation of the residuals and the Jacobian of all windows: the number of
+/// integration steps times the number of values that each step integrates.
 std::int64_t numbers_integrated(const LogProblem& problem) {
   double numbers = 0.0;
   for (const FitWindow& window : problem.windows) {
@@ -38,9 +38,9 @@ std::int64_t numbers_integrated(const LogProblem& problem) {
   return std::llround(numbers);
 }
 
-/// Computes the residuals and derivatives of all windows in parallel at each new point, before
-/// Ceres requests those of the first window. Derivatives are always computed: they take little more
-/// time than the residuals.
+/// Computes the residuals and the Jacobian of all windows in parallel at each new point, before
+/// Ceres requests those of the first window. The Jacobian is always computed, because it takes
+/// little more time than the residuals.
 ///
 /// If a coordinate is at its bound and the cost decreases towards values beyond the bound, this
 /// class fixes the coordinate: it sets the derivatives with respect to it to 0. (Ceres would

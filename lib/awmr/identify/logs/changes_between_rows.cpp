@@ -110,8 +110,8 @@ LogFitOptions options_from(const FamilyFit& at_rows, const LogFitOptions& power_
   from.initial_guess = fitted_values(at_rows.options, at_rows.fit);
   from.guessed.clear();
   reset_terms(from.free, power_law.initial_guess, from.initial_guess);
-  // With wrong times of the changes, the fitted time constant of the servo can be almost 0. A
-  // search that begins there would stay there.
+  // If the assumed times of the changes are wrong, the fitted time constant of the servo can be
+  // almost 0. A search that begins there would stay there.
   constexpr std::size_t kServo = at(ParameterId::kSteeringTimeConstant);
   from.initial_guess[kServo] = power_law.initial_guess[kServo];
   const std::vector<FreeQuantity>& quantities = at_rows.fit.quantities;

@@ -79,8 +79,8 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
   if (channels.size() < 2 || latency.size() < channels.size()) return {};
   const auto [least, most] = std::ranges::minmax(latency, {}, &FoundTerm::value);
   return {{file, 0, Severity::kWarning, "actuator-lag",
-           fmt::format("all sensors appear delayed by {:.3f} to {:.3f} s, which indicates a common "
-                       "cause: {}",
+           fmt::format("all sensors appear delayed by {:.3f} to {:.3f} s. A common cause is more "
+                       "likely than a delay of each sensor: {}",
                        least.value, most.value, kWhy)}};
 }
 
@@ -91,11 +91,11 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
     const LogChannel channel = quantity.channel;
     findings.push_back(
         {file, 0, Severity::kWarning, "sensor-delay",
-         fmt::format(
-             "{} {} delayed by {:.3f} +- {:.3f} s relative to the commands. The fit compensates "
-             "for this; set latency_s in the vehicle file, so that gains are tuned for it",
-             channel == LogChannel::kX ? "the position" : info(channel).name,
-             channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
+         fmt::format("{} {} delayed by {:.3f} +- {:.3f} s relative to the commands. The fit "
+                     "compensates for this delay; set latency_s in the vehicle file, so that the "
+                     "gains are tuned for the delay",
+                     channel == LogChannel::kX ? "the position" : info(channel).name,
+                     channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
   }
   for (const auto& [quantity, value_s, error_s] :
        found_terms(fit, FreeQuantity::Kind::kSensorLag)) {

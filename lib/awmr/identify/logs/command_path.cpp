@@ -24,9 +24,9 @@ void scale_derivatives(double slope, double SideForces<double>::*side, DelayedCo
   }
 }
 
-/// Replaces the forces f by the saturated forces f_s, with their derivatives. L: share of the force
-/// that is lost at the largest command F'm of the logs; n: sharpness of the saturation. With w =
-/// (|f|/F'm)^n and s = (1 - L)^(-n) - 1:
+/// Replaces the forces f by the saturated forces f_s, and the derivatives of f with respect to the
+/// columns of the fit by those of f_s. L: share of the force that is lost at the largest command
+/// F'm of the logs; n: sharpness of the saturation. With w = (|f|/F'm)^n and s = (1 - L)^(-n) - 1:
 ///
 ///     f_s = f (1 + s w)^(-1/n)
 ///     d f_s/d f = (1 + s w)^(-1/n - 1),   d f_s/d s = -f w/n d f_s/d f
@@ -53,7 +53,8 @@ void saturate(const CommandPath& path, DelayedCommand& at) {
   }
 }
 
-/// Replaces the forces f by |f|^p sgn f with the fitted exponent p, and computes the derivatives
+/// Replaces the forces f by |f|^p sgn f with the fitted exponent p. Computes the derivatives with
+/// respect to the columns of the fit from the derivatives of |f|^p sgn f:
 ///
 ///     d/df = p |f|^(p - 1),   d/d ln p = p ln|f| |f|^p sgn f
 void raise_to_power(const CommandPath& path, DelayedCommand& at) {
@@ -69,9 +70,10 @@ void raise_to_power(const CommandPath& path, DelayedCommand& at) {
   }
 }
 
-/// Replaces the steering command c by the angle to which the linkage steers, with its derivatives.
-/// b: dead band; e: asymmetry; k: curve; q: scale error; d_max: steering stop. With s = sgn c and
-/// the part of the command beyond the dead band, c_b = c - s b (0 if |c| < b), the angle is
+/// Replaces the steering command c by the angle to which the linkage steers, and the derivatives of
+/// c with respect to the columns of the fit by those of the angle. b: dead band; e: asymmetry; k:
+/// curve; q: scale error; d_max: steering stop. With s = sgn c and the part of the command beyond
+/// the dead band, c_b = c - s b (0 if |c| < b), the angle is
 ///
 ///     (1 + q) (1 + s e) c_b (1 + k (c_b/d_max)^2)
 void steer_by_linkage(const CommandPath& path, DelayedCommand& at) {
@@ -121,7 +123,8 @@ DelayedCommand with_errors(DelayedCommand at, const CommandPath& path) {
   return at;
 }
 
-/// Sets force and derivatives to 0 for each side whose command is 0 (CommandPath::switches_off).
+/// For each side whose command is 0, sets the force and its derivatives with respect to the columns
+/// to 0, if the motors switch off (CommandPath::switches_off).
 void switch_off(const SideForces<double>& command, DelayedCommand& at_wheels) {
   const auto off = [&](double SideForces<double>::*side) {
     if (command.*side != 0.0) return;

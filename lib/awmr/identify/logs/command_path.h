@@ -1,6 +1,6 @@
 /// Path of the logged commands to the wheels: delays, motor lag and constant errors. A log fit
-/// needs its derivatives with respect to the free quantities. A "column" is the index of a free
-/// quantity among these derivatives. Private to identify/.
+/// needs the derivatives of the commands at the wheels with respect to the free quantities. A
+/// "column" is the index of a free quantity among these derivatives. Private to identify/.
 #pragma once
 
 #include <cstddef>

@@ -103,9 +103,9 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
   return terms;
 }
 
-/// Smallest accepted exponent of the yaw rate in the drag in turns (ExtraForce::kTurnDrag). With a
-/// smaller exponent, this drag hardly depends on the yaw rate. It is then Coulomb friction of the
-/// surge resistance, which a resistance family describes better.
+/// Smallest accepted exponent of the yaw rate in the drag in turns (ExtraForce::kTurnDrag). If the
+/// exponent is smaller, this drag hardly depends on the yaw rate. It is then Coulomb friction of
+/// the surge resistance, which a resistance family describes better.
 constexpr double kFlattestTurnDrag = 0.2;
 
 /// True if the fit has a drag in turns with an exponent below kFlattestTurnDrag.

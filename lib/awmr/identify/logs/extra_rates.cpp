@@ -17,8 +17,8 @@ WheelForce wheel_force(double command, double zone) {
 
 /// Multiplies the force of a wheel by 1 + e_b if it acts against the motion of its side, and by 1 +
 /// e_r if it is negative. `w_mps`: speed of that side. To keep the rates continuous, the effect of
-/// e_b rises linearly from 0 at rest to its full size at a small speed. The derivatives treat this
-/// small speed as constant.
+/// e_b rises linearly from 0 at rest to its full size at a small speed. The derivatives of the
+/// force treat this small speed as constant.
 ByExcess scale_by_excess(const LinearPlant& plant, double w_mps, WheelForce& wheel) {
   constexpr double kFade_mps = 0.002;
   constexpr double kWheels = 4.0;

@@ -7,11 +7,11 @@
 
 namespace awmr {
 
-/// Force of a wheel after its dead zone is subtracted from the command, with derivatives.
+/// Force of a wheel after its dead zone is subtracted from the command, and its derivatives.
 struct WheelForce {
   double value;
-  double by_command;
-  double by_dead_zone;
+  double by_command;    ///< with respect to the command
+  double by_dead_zone;  ///< with respect to the dead zone
 };
 
 /// Derivatives of the force of a wheel with respect to e_b, e_r (extra_forces.h) and the speed at
@@ -53,9 +53,9 @@ struct ByForces {
 void add_wheel_slopes(const LinearPlant& plant, const Wheels& wheels, const ByForces& forces,
                       LinearRates& out);
 
-/// Adds the effect of back-EMF to the rates, after the wheel forces and the resistance were added.
-/// `left_on`, `right_on`: true if the motors of that side are on. `sin_d`, `cos_d`: sine and cosine
-/// of the steering angle d_r.
+/// Adds the effect of back-EMF to the rates of the state and to their derivatives. Call it after
+/// the wheel forces and the resistance were added. `left_on`, `right_on`: true if the motors of
+/// that side are on. `sin_d`, `cos_d`: sine and cosine of the steering angle d_r.
 void add_back_emf(const LinearPlant& plant, const State<double>& s, bool left_on, bool right_on,
                   double sin_d, double cos_d, LinearRates& out);
 
@@ -76,14 +76,14 @@ struct TurnDrag {
   double by_speed_exponent = 0.0;  ///< with respect to q
 };
 
-/// Computes the drag in turns. Near u = 0, a straight line through 0 replaces |u|^q sgn u. The
-/// derivatives treat the speed at which this line ends as constant.
+/// Computes the drag in turns and its derivatives. Near u = 0, a straight line through 0 replaces
+/// |u|^q sgn u. The derivatives treat the speed at which this line ends as constant.
 TurnDrag turn_drag(const LinearPlant& plant, const State<double>& s);
 
 void add_turn_drag(const TurnDrag& drag, double per_mass, LinearRates& out);
 
-/// Adds the yaw moment of a side pull to r_dot. Call it before the derivative of r_dot with respect
-/// to I'z is computed from r_dot.
+/// Adds the yaw moment M of a side pull to r_dot. Call it before the derivative of r_dot with
+/// respect to I'z is computed, because that derivative is -r_dot/I'z with the complete r_dot.
 void add_side_pull(const LinearPlant& plant, double u_mps, LinearRates& out);
 
 void add_slope(const ExtraForces& extra, double psi_rad, LinearRates& out);

@@ -102,8 +102,8 @@ std::optional<Finding> power_law_inadequate(const std::string& file, const BestF
   }
   if (reasons.empty()) return std::nullopt;
   return Finding{file, 0, Severity::kWarning, "power-law-inadequate",
-                 fmt::format("another resistance family is used, because a power law does not "
-                             "describe these logs: {}",
+                 fmt::format("the fit uses another resistance family (form of the resistance law), "
+                             "because a power law does not describe these logs: {}",
                              fmt::join(reasons, "; "))};
 }
 

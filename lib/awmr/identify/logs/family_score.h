@@ -1,9 +1,9 @@
 /// AIC comparison of log fits with different models under one noise model. Private to identify/.
 ///
 /// The noise model is that of the fit with the smaller errors. Reason: each fit estimates its own
-/// noise, and the drift in this noise absorbs the error of the fit's own model. With its own noise
-/// model, a fit with a smooth error of 0.2 m/s could be likelier than a fit with an error of 3
-/// mm/s.
+/// noise, and the drift in this noise absorbs the error of the fit's own model. If each fit used
+/// its own noise model, a fit with a smooth error of 0.2 m/s could be likelier than a fit with an
+/// error of 3 mm/s.
 #pragma once
 
 #include "awmr/identify/logs/log_fit.h"

@@ -1,5 +1,5 @@
-/// Simulation of a sensor's low-pass filter of first or second order, with derivatives. Private to
-/// identify/.
+/// Simulation of a sensor's low-pass filter of first or second order, and the derivatives of its
+/// output with respect to the columns of the fit. Private to identify/.
 #pragma once
 
 #include <complex>
@@ -30,8 +30,9 @@ struct SensorFilter {
 template <class Scalar>
 class FilterStage {
  public:
-  /// `direction`: time constant of this stage over that of the whole filter (complex for second
-  /// order). `first`: initial output. `by_column`: derivatives of `first`, one per column.
+  /// `direction`: time constant of this stage, divided by that of the whole filter (complex for
+  /// second order). `first`: initial output. `by_column`: derivatives of `first` with respect to
+  /// the columns of the fit.
   FilterStage(const SensorFilter& filter, Scalar direction, Scalar first,
               std::vector<Scalar> by_column)
       : lag_s_(direction * filter.lag.delay_s),
@@ -71,8 +72,8 @@ class FilterStage {
 /// before.
 class FilteredChannel {
  public:
-  /// `first`: first reading of the window. `columns`: number of columns of the fit, one for each
-  /// derivative of y. With 0 columns, only y is computed.
+  /// `first`: first reading of the window. `columns`: number of columns of the fit, with respect to
+  /// which y is differentiated. If it is 0, only y is computed.
   FilteredChannel(const SensorFilter& filter, double first, std::size_t columns)
       : filter_(filter), y_(first), by_column_(columns, 0.0) {}
 

@@ -13,7 +13,8 @@
 namespace awmr {
 namespace {
 
-// A force is reported if it is above this many standard errors.
+// A force is reported if it exceeds this number of its standard errors. If it does not, it can be
+// due to noise.
 constexpr double kStandardErrors = 2.0;
 
 /// An identified quantity with its standard error.
@@ -123,12 +124,13 @@ std::vector<Finding> side_pull_findings(const LogFit& fit, const std::string& fi
 std::vector<Finding> turn_drag_findings(const LogFit& fit, const std::string& file) {
   const auto drag = significant(fit, ExtraForce::kTurnDrag);
   if (!drag) return {};
-  return {{file, 0, Severity::kWarning, "turn-drag",
-           fmt::format("the resistance to driving is larger in turns, by {:.2g} +- {:.2g} of "
-                       "F_max at 1 rad/s and 1 m/s: tyres or tracks scrub. The fit compensates "
-                       "for this, but simulations and tuned gains ignore it, so the vehicle is "
-                       "slower in turns than simulated",
-                       drag->value, drag->error)}};
+  return {
+      {file, 0, Severity::kWarning, "turn-drag",
+       fmt::format(
+           "the resistance to driving is larger in turns, by {:.2g} +- {:.2g} of F_max at 1 rad/s "
+           "and 1 m/s: tyres or tracks are dragged sideways (scrub). The fit compensates for this, "
+           "but simulations and tuned gains ignore it: expect lower speeds in turns than simulated",
+           drag->value, drag->error)}};
 }
 
 std::vector<Finding> backward_drag_findings(const LogFit& fit, const std::string& file) {

@@ -198,7 +198,8 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> found;
   add_times(problem, found);
-  // Without a delay of the steering, a free time constant of the servo would absorb its dead time.
+  // If the fit had no delay of the steering, the free time constant of the servo would absorb the
+  // servo's dead time.
   if (place_of(quantities, ParameterId::kSteeringTimeConstant) &&
       !has_kind(quantities, Kind::kSteeringDelay)) {
     found.push_back(steering_delay());

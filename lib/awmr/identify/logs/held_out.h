@@ -32,11 +32,11 @@ struct HeldOut {
 ///
 ///     d = -H^-1 S,   cov d = f^2 H^-1 + C,   X^2 = d^T (cov d)^-1 d,   chi-squared
 ///
-/// H and S are information and score (curvature and gradient of -ln L) of the rows at the fit's
-/// coordinates, after elimination of the initial states and biases. C is the covariance of the fit.
-/// f is the largest factor by which the scatter between parts of the logs raised a standard error
-/// of the fit. The test compares only directions that the rows determine (identifiability.h), and
-/// fixes quantities at an end of their range.
+/// H and S are the information and the score of the tested rows: curvature and gradient of -ln L
+/// with respect to the coordinates, at the fit's coordinates, after elimination of the initial
+/// states and biases. C is the covariance of the fit. f is the largest factor by which the scatter
+/// between parts of the logs raised a standard error of the fit. The test compares only directions
+/// that the rows determine (identifiability.h), and fixes quantities at an end of their range.
 ///
 /// The noise levels are those of the fit. (Noise levels estimated from the tested rows would absorb
 /// a change of the vehicle as sensor drift.) Returns empty if the rows determine no direction or if

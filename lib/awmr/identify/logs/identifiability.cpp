@@ -19,10 +19,10 @@ namespace {
 /// Largest standard error of an identified quantity, in units of FreeQuantity::large_change.
 ///
 /// The limit is lower for the sway resistance a_s: 1/a_s has to be at least 4 standard errors from
-/// 0. Reason: the logs measure 1/a_s, because the lateral speed is v ~ m' r u / a_s. The standard
-/// error of ln a_s is a_s times that of 1/a_s. Noise that makes a_s too small thus also makes this
-/// standard error too small, and the limit of the other quantities would accept such values too
-/// often.
+/// 0. Reason: the logs measure 1/a_s, because the lateral speed in turns is about v = m' r u/a_s
+/// (m': mass, r: yaw rate, u: speed). The standard error of ln a_s is a_s times that of 1/a_s.
+/// Noise that makes a_s too small thus also makes this standard error too small, and the limit of
+/// the other quantities would accept such values too often.
 double unknown_from(const FreeQuantity& q) {
   constexpr double kUnknownReciprocal = 0.25;
   return q.is(ParameterId::kSwayAlpha) ? kUnknownReciprocal : kUnknown;

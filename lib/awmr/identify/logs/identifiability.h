@@ -40,10 +40,11 @@ struct Identifiability {
 
 /// Computes the covariance of the coordinates and decides which quantities are identified.
 ///
-/// The covariance follows from the information H (n x n), a weak prior P and the scores s_b
-/// (gradients of -ln L) of m parts of the logs. If the noise model is wrong, the scores scatter
-/// more than it predicts, and the standard errors are raised. C is the covariance by the noise
-/// model, V that by the scatter. In units of large changes (FreeQuantity::large_change),
+/// The covariance follows from the information matrix H (n x n), a weak prior P, and the scores s_b
+/// of m parts of the logs: the gradients of -ln L of a part with respect to the coordinates. If the
+/// noise model is wrong, the scores scatter more than it predicts, and the standard errors are
+/// raised. C is the covariance by the noise model, V that by the scatter. In units of large changes
+/// (FreeQuantity::large_change),
 ///
 ///     C = (H + P)^-1,   V = m/(m - 1) C (sum s_b s_b^T) C,   covariance = D C D,
 ///     D_ii^2 = max(1, V_ii / C_ii)

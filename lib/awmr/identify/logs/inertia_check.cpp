@@ -17,10 +17,10 @@ namespace {
 /// I'z/m' of real vehicles, divided by that of a uniform box.
 constexpr Interval kUsual{0.3, 2.0};
 
-/// Names a unit of the speed column that would explain a too large I'z/m'. Reason: if the logged
-/// speed is k times the true speed, the fitted m' is 1/k of the true m', and I'z/m' is k times the
-/// true ratio. Empty if I'z/m' is not too large, or if the logs have positions, because another
-/// check has compared these with the speed.
+/// Names a unit of the speed column that would explain a too large ratio I'z/m' of yaw inertia to
+/// mass. Reason: if the logged speed is k times the true speed, the fitted m' is 1/k of the true
+/// m', and I'z/m' is k times the true ratio. Empty if I'z/m' is not too large, or if the logs have
+/// positions, because another check has compared these with the speed.
 std::string speed_unit_hint(const std::vector<DrivingLog>& logs, double inertia_over_box) {
   const bool is_compared = std::ranges::all_of(
       logs, [](const DrivingLog& log) { return log[LogChannel::kX] || !log[LogChannel::kSpeed]; });
@@ -44,7 +44,8 @@ const Estimate* estimate_of(const Model& model, const LogStage& stage, Parameter
   return model[id].value ? &model[id] : nullptr;
 }
 
-/// Warns of an I'z/m' that is possible, but unusual: a unit or a size may be wrong.
+/// Warns of a ratio I'z/m' (yaw inertia to mass) that is possible, but unusual: a unit or a size
+/// may be wrong.
 void note_unusual_inertia(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
                           const Model& model, LogStage& stage) {
   const Estimate* inertia = estimate_of(model, stage, ParameterId::kInertiaNorm);

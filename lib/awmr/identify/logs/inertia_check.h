@@ -1,4 +1,5 @@
-/// Plausibility check of I'z from a log fit, by m' and the vehicle's size. Private to identify/.
+/// Plausibility check of the yaw inertia I'z from a log fit, by the mass m' and the vehicle's size.
+/// Private to identify/.
 #pragma once
 
 #include <vector>

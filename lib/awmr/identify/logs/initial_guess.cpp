@@ -17,7 +17,7 @@ double rms(const std::vector<double>& values) {
 struct Magnitudes {
   double thrust = 0.0;    ///< tau_speed, dimensionless
   double speed = 0.0;     ///< m/s
-  double moment = 0.0;    ///< tau_turn, m
+  double moment = 0.0;    ///< tau_turn: yaw moment divided by F_max, m
   double yaw_rate = 0.0;  ///< rad/s
 };
 

@@ -10,9 +10,10 @@
 namespace awmr {
 
 /// Guesses the order of magnitude of each parameter. The guessed surge and yaw resistances balance
-/// the root mean square forces at the root mean square speed and yaw rate. m' is 0.3 s times the
-/// surge coefficient a1, so that the time constant m'/a1 is 0.3 s. I'z is m' times Iz/m of the
-/// vehicle. Terms that only some resistance families have are 0.
+/// the root mean square forces at the root mean square speed and yaw rate. The mass m' is 0.3 s
+/// times the surge coefficient a1, so that the time constant m'/a1 of the speed is 0.3 s. The yaw
+/// inertia I'z is m' times Iz/m of the vehicle. Terms that only some resistance families have are
+/// 0.
 ParameterValues<double> guess_from_logs(const std::vector<DrivingLog>& logs,
                                         const Vehicle& vehicle);
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Adds the rate of the steering angle d_r: d_r_dot = sat((command - d_r)/T, d_rate_max), with the
 /// time constant T and the rate limit d_rate_max of the servo. At the rate limit, all derivatives
-/// are 0 except that with respect to d_rate_max.
+/// of d_r_dot are 0, except that with respect to d_rate_max.
 void add_servo(const LinearPlant& plant, const State<double>& s, double command_rad,
                LinearRates& out) {
   const Plant<double>& p = plant.plant;
@@ -163,8 +163,9 @@ SteeredForces steered_forces(const Wheels& wheels, double rear_driven, double st
           .reach = cos_d + rear_driven};
 }
 
-/// Adds the rate of the speed u, with the sum of the left and right wheel forces and the steering
-/// angle d_r. rho: 1 if the rear wheels are driven, else 0; D: drag in turns.
+/// Adds the rate u_dot of the speed u. `sum`: sum of the left and right wheel forces; d_r: steering
+/// angle; rho: 1 if the rear wheels are driven, else 0; g1: surge resistance; D: drag in turns; m':
+/// mass.
 ///
 ///     u_dot = (sum (rho + cos d_r) - g1(u) - D)/m' + r v
 void add_surge(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,
@@ -184,8 +185,8 @@ void add_surge(const LinearPlant& plant, const State<double>& s, const SteeredFo
   add_turn_drag(drag, plant.per_mass, out);
 }
 
-/// Adds the rate of the sway speed, v_dot = (sum sin d_r - a_s v)/m' - r u, with the sum of the
-/// left and right wheel forces.
+/// Adds the rate of the sway speed v: v_dot = (sum sin d_r - a_s v)/m' - r u. `sum`: sum of the
+/// left and right wheel forces; d_r: steering angle; a_s: sway resistance; m': mass.
 void add_sway(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,
               LinearRates& out) {
   const double alpha = plant.plant.sway_alpha;
@@ -199,8 +200,9 @@ void add_sway(const LinearPlant& plant, const State<double>& s, const SteeredFor
   out.by_parameter[at(ParameterId::kMassNorm)].v = -sway * plant.per_mass;
 }
 
-/// Adds the rate of the yaw rate r, with the sum of the left and right wheel forces and their
-/// difference (right minus left) and the side pull M sgn u (extra_forces.h):
+/// Adds the rate r_dot of the yaw rate r. `sum`, `difference`: sum and difference (right minus
+/// left) of the wheel forces; l_f: centre of gravity to front axle; d: half of the track width; g3:
+/// yaw resistance; M sgn u: side pull (extra_forces.h); I'z: yaw inertia:
 ///
 ///     r_dot = (l_f sum sin d_r + d difference (rho + cos d_r) - g3(r) + M sgn u)/I'z
 void add_yaw(const LinearPlant& plant, const State<double>& s, const SteeredForces& force,

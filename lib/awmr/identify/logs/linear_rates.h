@@ -65,8 +65,8 @@ struct LinearPlant {
   double per_inertia;
   double per_lag;
   /// Factor on v_dot, <= 1, that keeps the integration stable. If the time constant m'/a_s of sway
-  /// is shorter than a step, the factor is below 1: the sway speed v then approaches the same
-  /// steady value with a time constant of one step.
+  /// (mass over sway resistance) is shorter than a step, the factor is below 1: the sway speed v
+  /// then approaches the same steady value with a time constant of one step.
   double sway_pace;
   /// Factor k |r|^p sgn r of the drag in turns, r: yaw rate (extra_forces.h).
   LinearResistance turn_drag_of_yaw;

@@ -11,8 +11,9 @@
 
 namespace awmr {
 
-/// Integrates the motion and its derivatives from `from_s` to `to_s`, two times between `row` and
-/// the next row. (advance_after_row() in trials/replay.h does the same without derivatives.)
+/// Integrates the motion, and its derivatives with respect to the columns of the fit, from `from_s`
+/// to `to_s`. Both times lie between `row` and the next row. (advance_after_row() in
+/// trials/replay.h integrates the motion alone.)
 void advance_after_row(const LogSignals& signals, std::size_t row, double from_s, double to_s,
                        const CommandPath& path, LinearStepper& stepper, double longest_step_s,
                        LinearMotion& motion);

@@ -19,14 +19,14 @@ namespace awmr {
 /// of a command change.
 struct LinearMotion {
   State<double> state{};
-  /// Derivatives, [kStateSize][columns]; empty if there are no columns.
+  /// Derivatives of the state, [kStateSize][columns]; empty if there are no columns.
   std::vector<double> by_column;
   /// Derivatives of the component `channel` of the state, one per column.
   const double* row(LogChannel channel, std::size_t columns) const;
   double* row(LogChannel channel, std::size_t columns);
 };
 
-/// A free parameter and the column of its derivatives.
+/// A free parameter, and the column of the derivatives with respect to it.
 struct ParameterColumn {
   ParameterId id;
   std::size_t column;

@@ -72,8 +72,8 @@ double relative_error_of(const LogProblem& guess, const ErrorsByChannel& errors)
   return sum / guess.readings();
 }
 
-/// Solution of a log fit with n quantities, its covariance (n x n), and the scores (gradients of
-/// -ln L, of length n) of the blocks into which the logs are divided.
+/// Solution of a log fit with n quantities, its covariance (n x n), and the scores of the blocks
+/// into which the logs are divided (gradients of -ln L with respect to the n quantities).
 struct BootstrapInput {
   const std::vector<FreeQuantity>& quantities;
   const std::vector<double>& coordinates;

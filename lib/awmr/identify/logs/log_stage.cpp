@@ -216,8 +216,9 @@ void take(const LogFit& fit, const Model& model, bool overrule, const std::strin
 /// Compares the logs with each other, or the halves of a single log. Adds a finding for each
 /// disagreement, and withdraws the intervals if necessary.
 void compare_parts(const std::vector<DrivingLog>& logs, FamilyFit& chosen, LogStage& stage) {
-  // The true form of a large saturation is unknown. With a wrong form, the estimates differ between
-  // parts of the logs, so a comparison of the parts would mean nothing.
+  // The true form of a large saturation is unknown. If this form is wrong, the estimates differ
+  // between parts of the logs for that reason alone, so a comparison of the parts would mean
+  // nothing.
   const bool saturates = saturates_much(chosen.fit);
   const LogComparison compared = saturates ? LogComparison{} : compare_logs(logs, chosen);
   stage.withdraws_intervals =

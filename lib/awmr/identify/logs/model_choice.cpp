@@ -139,8 +139,8 @@ Chosen choose_families(const std::vector<DrivingLog>& logs, const LogFitOptions&
   Chosen chosen{{.best = std::move(first), .others = {}, .findings = {}}};
   chosen.may_have_back_emf = suspects_back_emf(chosen.found.best.fit, power_law.candidate_terms);
   if (!open.any()) return chosen;
-  // With `--family auto`, any lower AIC is enough for a family to replace the power law. Without
-  // this option, its AIC has to be significantly lower.
+  // If the user gave `--family auto`, any lower AIC is enough for a family to replace the power
+  // law. Else the AIC of the family has to be significantly lower.
   show_step(options, "trying families of resistance");
   const bool is_family_requested = !options.surge_family.family || !options.yaw_family.family;
   const FamilyContest contest{.open = open,

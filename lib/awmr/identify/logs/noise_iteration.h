@@ -16,8 +16,8 @@ struct NoiseIteration {
   bool gave_up = false;      ///< true: first_cost exceeds NoiseRounds::give_up_above
 };
 
-/// Collects the errors (before whitening) by channel. With a robust loss, clips them at three
-/// robust standard deviations, because outliers would increase the estimated noise.
+/// Collects the errors (before whitening) by channel. If the fit has a robust loss, clips them at
+/// three robust standard deviations, because outliers would increase the estimated noise.
 ErrorsByChannel errors_by_channel(const LogProblem& problem,
                                   const std::vector<WindowErrors>& errors, Loss loss);
 

@@ -21,8 +21,8 @@ Interval parameter_bounds(const FreeQuantity& quantity, double initial, const Ve
   }
   if (quantity.scale == Scale::kLinear) return {0.0, 1e6};
   // The servo's time constant T is limited to kSlowestServo_s. Reason: servo and yaw motion are two
-  // lags in series. Without the limit, a search could exchange T with the time constant I'z/g3' of
-  // the yaw motion.
+  // lags in series. If there were no limit, a search could exchange T with I'z/g3', the time
+  // constant of the yaw motion (I'z: yaw inertia, g3': slope of the yaw resistance).
   const double most = quantity.is(ParameterId::kSteeringTimeConstant)
                           ? to_coordinate(quantity.scale, kSlowestServo_s)
                           : initial + 10.0;
@@ -49,7 +49,7 @@ Interval range_of(const FreeQuantity& quantity) {
   constexpr double kSlowestRate_radps = 0.01;
   constexpr double kFastestRate_radps = 100.0;
   constexpr double kLargestImbalance = 0.5;
-  // With a curve below -1/3, a larger command would steer to a smaller angle.
+  // If the curve k were below -1/3, a larger command would steer to a smaller angle.
   constexpr Interval kCurve{-0.33, 2.0};
   constexpr double kLargestSlip = 10.0;
   constexpr double kLargestOffset_m = 5.0;

@@ -20,7 +20,8 @@ struct LogFitOptions;
 /// One free quantity of a fit. The search changes its coordinate, which is the value or the
 /// logarithm of the value.
 struct FreeQuantity {
-  /// Kinds of quantities. The columns of the derivatives in a fit have the same order.
+  /// Kinds of quantities. In the Jacobian of a fit, the columns of the quantities are in this
+  /// order.
   enum class Kind {
     kParameter,            ///< a model parameter
     kDelay,                ///< delay of all commands

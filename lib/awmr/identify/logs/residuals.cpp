@@ -30,8 +30,9 @@ void for_each_row(const LogModel& model, const FitWindow& window, const Simulate
                 });
 }
 
-/// Calls visit(i, reading, row) for every sample i in order, with the simulated reading of the
-/// sensor and its derivatives. Only for fits in which no channel is smoothed.
+/// Calls visit(i, reading, row) for every sample i in order. `reading`: simulated reading of the
+/// sensor. `row`: its derivatives with respect to the columns of the fit. Only for fits in which no
+/// channel is smoothed.
 template <class Visit>
 void for_each_reading(const LogModel& model, const FitWindow& window,
                       const SimulatedVehicle& vehicle, std::size_t columns, Visit visit) {
@@ -46,8 +47,8 @@ void for_each_reading(const LogModel& model, const FitWindow& window,
                });
 }
 
-/// Does the same for fits with smoothed channels. Smoothing needs later rows, so the readings of
-/// all rows are computed first.
+/// Does the same as for_each_reading() for fits with smoothed channels. Smoothing needs later rows,
+/// so the readings of all rows are computed first.
 template <class Visit>
 void for_each_smoothed_reading(const LogModel& model, const FitWindow& window,
                                const SimulatedVehicle& vehicle, std::size_t columns, Visit visit) {
@@ -70,10 +71,10 @@ void for_each_smoothed_reading(const LogModel& model, const FitWindow& window,
 }
 
 /// Calls visit(i, error, row) for every sample i in order. `error` is model + bias - measured.
-/// `row` has the derivatives of the error, one per column (empty if `columns` is 0); `visit` may
-/// overwrite them. The model value is the output of the sensor model: with latency, the state one
-/// delay earlier; with a filter, the output of the filter; with smoothing, a mean over earlier and
-/// later rows.
+/// `row`: derivatives of the error with respect to the columns of the fit (empty if `columns` is
+/// 0); `visit` may overwrite them. The model value is the output of the sensor model: with latency,
+/// the state one delay earlier; with a filter, the output of the filter; with smoothing, a mean
+/// over earlier and later rows.
 template <class Visit>
 void for_each_error(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
                     std::size_t columns, Visit visit) {
@@ -98,7 +99,8 @@ double pull(const InitialComponent& component, const FitWindow& window, double i
   return (initial - channel_of(window.measured, component.channel)) / component.prior_std;
 }
 
-/// Whitening filters of the errors of one channel and of their derivatives.
+/// Whitening filters for the errors of one channel, and for the derivatives of these errors with
+/// respect to the columns of the fit.
 struct RowWhitener {
   RowWhitener(const ChannelNoise& noise, std::size_t columns)
       : gains(noise), states(noise.is_white() ? 0 : columns) {}

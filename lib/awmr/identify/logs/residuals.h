@@ -1,9 +1,10 @@
-/// Residuals of one window (about 10 s of a log, with its own initial state), with derivatives.
-/// Private to identify/.
+/// Residuals of one window (about 10 s of a log, with its own initial state), and their derivatives
+/// with respect to the unknowns of the fit. Private to identify/.
 ///
-/// The model is simulated with the logged commands and compared with all measurements. Correlated
-/// errors of a channel are whitened. The Jacobian J has a row per sample, but only J^T J is stored.
-/// (If a channel is smoothed, also the readings of a window and their derivatives are stored.)
+/// Simulates the model with the logged commands and compares it with all measurements. If the
+/// errors of a channel are correlated in time, a filter makes them independent (whitening). The
+/// Jacobian J has a row per sample, but only J^T J is stored. (If a channel is smoothed, also the
+/// readings of a window and their derivatives are stored.)
 #pragma once
 
 #include <Eigen/Core>
@@ -48,13 +49,13 @@ struct WindowSums {
   /// likeliest times (WindowErrors::change_times). Each column before it has the amounts by which
   /// these times decrease if one unknown (quantity or initial state) increases by 1.
   Eigen::MatrixXd change_times;
-  bool finite = false;  ///< false if the simulation or its derivatives are not finite
+  bool finite = false;  ///< false if a number of the simulation or of J is not finite
 
   /// Half of r^T r.
   double cost() const { return 0.5 * products(products.rows() - 1, products.rows() - 1); }
 };
 
-/// Computes the sums of one window. If `block_s` > 0, also computes the gradients J^T r of blocks
+/// Computes the sums of one window. If `block_s` > 0, also computes `block_gradients`, for blocks
 /// of about `block_s` seconds.
 WindowSums sums_of(const LogModel& model, const FitWindow& window, const double* coordinates,
                    const double* initial_state, double block_s = 0.0);

@@ -1,5 +1,5 @@
-/// The two inner loops of a log fit: a Runge-Kutta step of the derivatives of the state, and the
-/// product J^T J of the Jacobian. Private to identify/.
+/// The two inner loops of a log fit: a Runge-Kutta step of the derivatives of the state with
+/// respect to the columns of the fit, and the product J^T J of the Jacobian. Private to identify/.
 ///
 /// Both are compiled for several instruction sets, and the program selects the best one that the
 /// processor supports. All give the same bits: none uses fused multiply-add, and sums have a fixed

@@ -16,11 +16,12 @@ namespace awmr {
 /// of the fit, and the smoothing of both.
 class ReadingSeries {
  public:
-  /// Adds the reading at the next row. `row`: its derivatives.
+  /// Adds the reading at the next row. `row`: its derivatives, one per column of the fit.
   void add(double value, const std::vector<double>& row);
-  /// Returns the reading at the row with the index i, and sets `row` to its derivatives. If
-  /// `smoothing` is present, the reading is a weighted mean over pairs of rows i - n and i + n
-  /// (SmoothingKernel). If one row of a pair is outside of the window, row i replaces both.
+  /// Returns the reading at the row with the index i, and sets `row` to its derivatives with
+  /// respect to the columns. If `smoothing` is present, the reading is a weighted mean over pairs
+  /// of rows i - n and i + n (SmoothingKernel). If one row of a pair is outside of the window, row
+  /// i replaces both.
   double read(std::size_t i, const std::optional<Smoothing>& smoothing,
               std::vector<double>& row) const;
 
@@ -33,7 +34,7 @@ class ReadingSeries {
 /// smoothing and bias.
 class LogSensors {
  public:
-  /// All arguments must outlive the object. `columns`: number of derivatives.
+  /// All arguments must outlive the object. `columns`: number of columns of the fit.
   LogSensors(const LogSignals& signals, const SensorTerms& terms, const CommandPath& path,
              const Plant<double>& plant, const std::vector<ParameterColumn>& parameters,
              std::size_t columns);
@@ -58,7 +59,7 @@ class LogSensors {
 /// include latency and filters, but not symmetric smoothing, which needs later rows.
 class SensorReadings {
  public:
-  /// The arguments must outlive the object. `columns`: number of derivatives.
+  /// The arguments must outlive the object. `columns`: number of columns of the fit.
   SensorReadings(const LogModel& model, const FitWindow& window, const SimulatedVehicle& vehicle,
                  std::size_t columns);
   /// Advances to the next row of the window (first call: to the first row). `now`: simulated motion

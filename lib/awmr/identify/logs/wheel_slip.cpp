@@ -11,13 +11,13 @@ struct Side {
   double share;     ///< change of the reading per slip speed of this side
 };
 
-/// Force F' that a wheel of one side exerts on the ground, with derivatives.
+/// Force F' that a wheel of one side exerts on the ground, and its derivatives.
 struct GroundForce {
   double value = 0.0;
-  double by_command = 0.0;
-  double by_dead_zone = 0.0;
-  double by_speed = 0.0;
-  double by_back_emf = 0.0;
+  double by_command = 0.0;    ///< with respect to the command of the side
+  double by_dead_zone = 0.0;  ///< with respect to the dead zone F'0
+  double by_speed = 0.0;      ///< with respect to the speed w of the side over ground
+  double by_back_emf = 0.0;   ///< with respect to the back-EMF k_e
 };
 
 GroundForce ground_force(double command, double w, const Plant<double>& plant) {
@@ -31,9 +31,10 @@ GroundForce ground_force(double command, double w, const Plant<double>& plant) {
           .by_back_emf = -w};
 }
 
-/// Adds the derivatives of the reading that are due to the slip of one side. `size` and `by_speed`:
-/// derivatives of the slip with respect to the wheel force F' and the speed w of the side over
-/// ground, each multiplied by Side::share.
+/// Adds to `by_column` the derivatives of the reading with respect to the columns of the fit, as
+/// far as they are due to the slip of one side. `size`, `by_speed`: derivatives of the slip speed
+/// with respect to the wheel force F' and to the speed w of the side over ground, each multiplied
+/// by Side::share.
 void add_columns(const Side& side, const SlippingWheels& wheels, const DelayedCommand& command,
                  const GroundForce& f, double size, double by_speed, const LinearMotion& motion,
                  std::size_t columns, double* by_column) {

@@ -1,10 +1,10 @@
-/// Slip of wheels whose rotation measures the speed or the yaw rate, with derivatives. Private to
-/// identify/.
+/// Slip of wheels whose rotation measures the speed or the yaw rate, and the derivatives of the
+/// readings with respect to the columns of the fit. Private to identify/.
 ///
 /// A wheel that drives the vehicle rolls faster than it moves over ground. The wheels of a side
 /// move over ground with w = u - d r (left) or u + d r (right), with half of the track width d. F'
-/// is the wheel force after motor lag, dead zone and back-EMF. The slip s has two forms, with which
-/// the wheels roll at one of these speeds:
+/// is the wheel force after motor lag, dead zone and back-EMF. The slip s has two forms. With each
+/// form, the wheels of a side roll at this speed:
 ///
 ///     w + s F'        s in m/s; no slip if w = 0
 ///     w + s F' |w|    s: slip ratio at F' = 1 (WheelSlip::is_ratio)
@@ -20,7 +20,8 @@
 
 namespace awmr {
 
-/// Slip s of the wheels that measure a channel, and the column of the derivatives by s.
+/// Slip s of the wheels that measure a channel, and the column of the derivatives with respect to
+/// s.
 struct WheelSlip {
   LogChannel channel;  ///< speed or yaw rate
   OffsetColumn slip;
@@ -34,8 +35,8 @@ struct SlippingWheels {
   CommandColumns columns;
 };
 
-/// Returns the change of a channel's reading due to the slip. Adds its derivatives to `by_column`,
-/// an array of `columns` numbers.
+/// Returns the change of a channel's reading due to the slip. Adds the derivatives of this change
+/// to `by_column`, which has one number for each of the `columns` columns of the fit.
 double add_wheel_slip(const WheelSlip& slip, const SlippingWheels& wheels,
                       const DelayedCommand& command, const LinearMotion& motion,
                       std::size_t columns, double* by_column);

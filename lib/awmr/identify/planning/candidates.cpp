@@ -212,9 +212,9 @@ std::vector<CandidateTrial> candidates_of(const Model& model, const SuggestOptio
 
 namespace {
 
-/// Range in which the scrub moment may be, m. If the scrub was measured: its 95 % interval without
-/// negative values. Otherwise: from the largest moment at which the vehicle did not turn (0 if none
-/// is known) to the moment of sliding tyres.
+/// Range in which the scrub moment may be, divided by F_max, m. If the scrub was measured: its 95 %
+/// interval without negative values. Otherwise: from the largest moment at which the vehicle did
+/// not turn (0 if none is known) to the moment of sliding tyres.
 Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   const double held_m = model.yaw_held_m.value_or(0.0);
   if (const auto& scrub = model.yaw_scrub) {
@@ -224,8 +224,8 @@ Interval possible_scrub_m(const Model& model, const Plant<double>& plant) {
   return {held_m, std::max(held_m, sliding_moment_m(plant))};
 }
 
-/// Left and right wheel forces F'L and F'R with the mean `straight` and a given yaw moment (d: half
-/// of the track width):
+/// Returns the left and right wheel forces F'L and F'R that have the mean `straight` and make a
+/// given yaw moment, divided by F_max, m (d: half of the track width):
 ///   2 d (F'R - F'L) = moment                                                        [paper (41)]
 /// Empty if a force is outside `range`, the limits of the wheel forces.
 std::optional<SideForces<double>> forces_for(double moment_m, double straight,
@@ -261,12 +261,15 @@ std::optional<double> fastest_surge_mps(const Model& model) {
 std::string purpose_of(const Model& model) {
   if (const auto& scrub = model.yaw_scrub) {
     return fmt::format(
-        "the tyre scrub, measured in {} turns, is {:.3g} to {:.3g} m (95 % interval). Four times "
-        "as many turns halve the interval; compare --break-even shows whether this is needed",
+        "the tyre scrub (yaw moment divided by F_max), measured in {} turns, is {:.3g} to {:.3g} m "
+        "(95 % interval). Four times as many turns halve the interval; compare --break-even shows "
+        "whether this is needed",
         scrub->rows, scrub->ci95_m.lo, scrub->ci95_m.hi);
   }
-  return model.yaw_held_m ? fmt::format("the tyre scrub is at least {:.3g} m", *model.yaw_held_m)
-                          : std::string("the tyre scrub is not known yet");
+  return model.yaw_held_m
+             ? fmt::format("the tyre scrub (yaw moment divided by F_max) is at least {:.3g} m",
+                           *model.yaw_held_m)
+             : std::string("the tyre scrub is not known yet");
 }
 
 }  // namespace

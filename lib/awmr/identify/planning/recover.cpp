@@ -79,9 +79,9 @@ Result<RowError> row_error(const Model& model, FitSubject subject, const Recover
                                               option_text("error"))));
 }
 
-/// Left and right wheel forces that give a yaw moment, m, without steering. The two forces are
-/// opposite and equal. If the left wheels cannot push back so strongly, the left force is the lower
-/// limit of the wheel force, or 0 if that limit is positive.
+/// Returns the left and right wheel forces that make a yaw moment (divided by F_max, m) without
+/// steering. The two forces are equal and opposite. If the left wheels cannot push back so
+/// strongly, the left force is the lower limit of the wheel force, or 0 if that limit is positive.
 ///   tau_turn = 2 d (F'R - F'L)                                                        [paper (41)]
 SideForces<double> sides_for(const Vehicle& vehicle, double tau_turn_m) {
   const double difference = tau_turn_m / (2.0 * vehicle.half_track_m);
@@ -296,9 +296,9 @@ Status check_drive(const DrivePlan& drive) {
 }
 
 /// Adapts the options to the model. If the model has only parameters of straight motion, a
-/// simulated log drives straight, and the fit estimates a1, b1 and m'. If the model's back-EMF was
-/// fitted, the fit to a simulated log estimates all fitted parameters of the model. Parameters that
-/// the user requested take precedence.
+/// simulated log drives straight, and the fit estimates only the surge law (a1, b1) and the mass
+/// m'. If the model's back-EMF was fitted, the fit to a simulated log estimates all fitted
+/// parameters of the model. Parameters that the user requested take precedence.
 RecoverOptions options_for(const Model& model, RecoverOptions options) {
   const bool log = options.plan == RecoverPlan::kLog;
   if (log && options.identify.requested.empty() && !is_absent_term(model, ParameterId::kBackEmf) &&

@@ -70,11 +70,12 @@ struct Recovery {
 };
 
 /// Runs the self-test. `progress` is called on the calling thread with the number of completed
-/// runs. If the model has only parameters of straight motion, the log drives straight and only a1,
-/// b1 and m' are fitted. Errors (input): the model lacks a parameter that a trial of the plan
-/// needs, or has no trials for the plan; fewer than 2 runs; a simulated log of fewer than 20 or
-/// more than a million rows; a time constant that is too short to simulate (check_replay()). Errors
-/// (refused): no run estimates a requested parameter, or any parameter.
+/// runs. If the model has only parameters of straight motion, the simulated log drives straight,
+/// and the fit estimates only the surge law (a1, b1) and the mass m'. Errors (input): the model
+/// lacks a parameter that a trial of the plan needs, or has no trials for the plan; fewer than 2
+/// runs; a simulated log of fewer than 20 or more than a million rows; a time constant that is too
+/// short to simulate (check_replay()). Errors (refused): no run estimates a requested parameter, or
+/// any parameter.
 Result<Recovery> recover(const Model& model, const RecoverOptions& options,
                          const std::function<void(int)>& progress);
 

@@ -50,9 +50,9 @@ Uncertainty uncertainty_of(const Model& model) {
   for (std::size_t i = known.size(); i < ids.size(); ++i) {
     covariance(eigen_index(i), eigen_index(i)) = kUnknownStd * kUnknownStd;
   }
-  // I'z from a coast-down is m' times a constant, so the covariance is singular. A small
-  // independent error of each parameter makes it invertible. A trial that measures I'z can then
-  // improve I'z without m'.
+  // Standard deviation of a small independent error that is added to each coordinate. The yaw
+  // inertia I'z from a coast-down is the mass m' times a constant, so the covariance is singular;
+  // the added errors make it invertible. A trial that measures I'z can then improve I'z without m'.
   constexpr double kIndependentStd = 1e-4;
   covariance.diagonal().array() += kIndependentStd * kIndependentStd;
   return {std::move(ids), std::move(covariance)};
@@ -75,9 +75,9 @@ Plant<double> moved(Model model, ParameterId id, double step) {
   return model.plant_as_known();
 }
 
-/// Derivatives of values by the coordinates of the parameters (model/transform.h), by central
-/// differences: one row per value, one column per parameter. The backward step is limited so that
-/// no term of a resistance becomes negative.
+/// Computes the derivatives of the numbers `values_at(plant)` with respect to the coordinates of
+/// the parameters `ids` (model/transform.h), by central differences: one row per number, one column
+/// per parameter. The backward step is limited so that no term of a resistance becomes negative.
 template <class Values>
 Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& ids,
                             const Values& values_at) {
@@ -98,7 +98,7 @@ Eigen::MatrixXd jacobian_of(const Model& model, const std::vector<ParameterId>& 
 /// Target of the ranking: m linear combinations of the n parameter coordinates. The standard error
 /// of the target is the root of the sum of the variances of these combinations, times `scale`.
 struct Target {
-  Eigen::MatrixXd gradient;  ///< m x n, a combination in each row
+  Eigen::MatrixXd gradient;  ///< m x n: each row has the coefficients of one combination
   double scale = 1.0;        ///< converts the standard error to the unit of the target
   std::string name;          ///< SuggestedTrial::parameter
   std::string criterion;     ///< description of the target

@@ -14,8 +14,9 @@ namespace awmr {
 /// A closed-loop metric whose uncertainty is to be reduced.
 struct SuggestTarget {
   std::string name;  ///< name of the metric
-  /// Computes the metric for a plant. The variance of the metric is grad^T C grad, with the
-  /// covariance C of the parameters' coordinates and the gradient `grad` by finite differences.
+  /// Computes the metric for a plant. The variance of the metric is grad^T C grad. C is the
+  /// covariance of the parameters' coordinates (their values or logarithms). grad is the gradient
+  /// of the metric with respect to these coordinates, computed by finite differences.
   std::function<double(const Plant<double>&)> value;
 };
 
@@ -92,11 +93,11 @@ struct Suggestion {
 /// Ranks the candidate trials by the standard error that the target would have after the trial. A
 /// trial changes the covariance C of the parameters' coordinates (model/transform.h) to
 ///   C_after = (C^-1 + J^T W J)^-1
-/// with the derivatives J of the trial's measurements by the coordinates, and the inverse variances
-/// W of their errors. Parameters without a value go to `missing`, and trials that measure them are
-/// not ranked. Errors (input): every parameter of the model was given, so that no trial can improve
-/// it; the target is unknown or has no value; the effect of a trial is not finite; a time constant
-/// that is too short to simulate (check_replay()).
+/// J: derivatives of the trial's measurements with respect to the coordinates. W: inverse variances
+/// of the measurements' errors. Parameters without a value go to `missing`, and trials that measure
+/// them are not ranked. Errors (input): every parameter of the model was given, so that no trial
+/// can improve it; the target is unknown or has no value; the effect of a trial is not finite; a
+/// time constant that is too short to simulate (check_replay()).
 Result<Suggestion> suggest(const Model& model, const SuggestOptions& options);
 
 /// Content of suggest.json.

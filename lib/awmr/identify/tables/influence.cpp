@@ -12,7 +12,8 @@
 namespace awmr {
 namespace {
 
-/// A run is influential if a parameter changes by more than this without it, in standard errors.
+/// A run is influential if a fit without this run changes a parameter by more than this number of
+/// standard errors. Such a single run changes the result by more than its reported error.
 constexpr double kInfluential = 1.0;
 
 std::optional<TransformedParameters> refit_without(std::size_t row, const Subject& subject,

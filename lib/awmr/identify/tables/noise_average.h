@@ -11,9 +11,9 @@
 /// error, and the covariance C_k of the fit. Up to a factor, p_k is the likelihood with the
 /// parameters and s_k integrated out, under priors that are flat in the parameters and in ln s_k.
 /// The likelihood is a density of ln w_i under every error model, so that error models with
-/// different units can be compared. g is the resistance curve, g' its derivative, z the dead zone
-/// and t the time. |d e/d ln w| is then w g'/(g + z) for a relative error of the force, w g' for an
-/// absolute one, w for the rate and t for the time.
+/// different units can be compared. g is the resistance, g' its derivative with respect to the rate
+/// w, z the dead zone and t the time of the run. |d e/d ln w| is then w g'/(g + z) for a relative
+/// error of the force, w g' for an absolute one, w for the rate and t for the time.
 #pragma once
 
 #include <vector>

@@ -55,10 +55,10 @@ std::vector<Finding> bound_findings(const Subject& subject, const SteadyFit& fit
   }
   for (const TransformedParameter c : fit.at_bound) {
     if (c == TransformedParameter::kBeta) continue;
-    findings.push_back(
-        {subject.file, 0, Severity::kNote, "term-at-zero",
-         fmt::format("{} is 0, the lower end of its range: these runs do not need this term",
-                     info(parameter_of(subject, c)).name)});
+    findings.push_back({subject.file, 0, Severity::kNote, "term-at-zero",
+                        fmt::format("{} is 0, the lower end of its range: these runs are described "
+                                    "as well without this term, so a family without it suffices",
+                                    info(parameter_of(subject, c)).name)});
   }
   return findings;
 }

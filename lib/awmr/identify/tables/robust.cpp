@@ -36,8 +36,9 @@ double m_estimate_variance(const ceres::LossFunction& loss, const Eigen::VectorX
   double jacobian_sum = 0.0;
   double jacobian_squares = 0.0;
   for (const double e : residuals) {
-    // rho, rho' and rho'' at e^2. The cost of a residual e is rho(e^2)/2, so its derivatives are
-    // psi = e rho' and psi' = rho' + 2 e^2 rho''.
+    // The loss rho and its first two derivatives with respect to its argument, at e^2. The cost of
+    // a residual e is rho(e^2)/2, so its first and second derivatives with respect to e are psi = e
+    // rho' and psi' = rho' + 2 e^2 rho''.
     double rho[3];
     loss.Evaluate(e * e, rho);
     const double psi = e * rho[1];

@@ -20,7 +20,8 @@ double median_scale(const Eigen::VectorXd& residuals);
 
 /// Variance that multiplies (J^T J)^-1 in the covariance of an M-estimate [Huber 1981, 7.6]:
 ///   kappa^2 [sum psi^2/(n - p)] / [mean psi']^2,  kappa = 1 + (p/n) var(psi')/mean(psi')^2
-/// for n residuals and p parameters; psi is the derivative of the loss by the residual.
+/// for n residuals and p parameters. psi: derivative of the loss with respect to the residual;
+/// psi': its second derivative.
 double m_estimate_variance(const ceres::LossFunction& loss, const Eigen::VectorXd& residuals,
                            int parameters);
 

@@ -173,12 +173,13 @@ void note_standing(Model& model, const TrialSet<TurningRow>& turning,
     lines += fmt::format("{}{}", lines.empty() ? "" : ", ", turn.line);
   }
   note(model, turning, "scrub-holds",
-       fmt::format("the vehicle did not turn in {} of {} differential turns (line{} {}). The "
-                   "largest moment among them is {:.3g} m, so the tyre scrub (moment to drag the "
-                   "tyres sideways) is at least that. Use a larger force difference; awmr "
-                   "suggest lists forces",
-                   standing.size(), standing.size() + turning.by_sides.size(),
-                   standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
+       fmt::format(
+           "the vehicle did not turn in {} of {} differential turns (line{} {}). The largest yaw "
+           "moment in these turns is {:.3g} m (divided by F_max), so the tyre scrub (moment to "
+           "drag the tyres sideways) is at least as large. Repeat the turns with a larger "
+           "difference between the left and right forces; awmr suggest lists forces",
+           standing.size(), standing.size() + turning.by_sides.size(),
+           standing.size() == 1 ? "" : "s", lines, *model.yaw_held_m));
 }
 
 void note_limits(Model& model, const TrialSet<TurningRow>& turning, const ScrubMoments& met) {
@@ -231,12 +232,11 @@ void measure_scrub(const TrialSet<TurningRow>& turning, Model& model) {
   if (!scrub) return;
   if (scrub->ci95_m.hi < 0.0) {
     note(model, turning, "negative-scrub",
-         fmt::format(
-             "the tyre scrub of the differential turns is negative, {:.3g} m ({:.3g} to {:.3g}), "
-             "but tyres that are dragged sideways cannot drive a turn; "
-             "check the unit of the yaw rates, the forces of these rows, half_track_m, and whether "
-             "something brakes the steered turns",
-             scrub->moment_m, scrub->ci95_m.lo, scrub->ci95_m.hi));
+         fmt::format("the tyre scrub of the differential turns (yaw moment divided by F_max) is "
+                     "negative, {:.3g} m (95 %: {:.3g} to {:.3g}), but tyres that are dragged "
+                     "sideways cannot drive a turn; check the unit of the yaw rates, the forces of "
+                     "these rows, half_track_m, and whether something brakes the steered turns",
+                     scrub->moment_m, scrub->ci95_m.lo, scrub->ci95_m.hi));
     return;
   }
   scrub->changing_m = changing_scrub(met, model);

@@ -7,9 +7,9 @@
 ///
 ///     c_i = tau_i - g3(r_i),   tau_i = 2 d (F'R - F'L),   c = mean c_i,   var c = s^2/n + h' C h
 ///
-/// with s the standard deviation of the n moments c_i, C the covariance of g3's parameters and h
-/// the mean gradient of g3 by its parameters. The interval uses Student's t with the effective
-/// degrees of freedom of Welch and Satterthwaite.
+/// with s the standard deviation of the n moments c_i, and C the covariance of g3's parameters. h
+/// is the gradient of g3(r_i) with respect to these parameters, averaged over the turns. The
+/// interval uses Student's t with the effective degrees of freedom of Welch and Satterthwaite.
 #pragma once
 
 #include <vector>

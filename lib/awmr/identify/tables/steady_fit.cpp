@@ -26,8 +26,9 @@ double condition_of(const Eigen::MatrixXd& jacobian) {
   return least > 0.0 ? singular(0) / least : std::numeric_limits<double>::infinity();
 }
 
-/// Sets rank, condition number, leverages and covariance of `fit` at the end of `search`. Returns
-/// false if a residual, a derivative or one of the results is not finite.
+/// Sets rank, condition number, leverages and covariance of `fit` at the point where `search`
+/// ended. Returns false if a residual, an element of its Jacobian or one of the results is not
+/// finite.
 bool add_uncertainty(const SteadyProblem& problem, SteadySearch& search, SteadyFit& fit) {
   const Eigen::Index n = rows_of(problem.points);
   fit.condition_number = std::numeric_limits<double>::infinity();

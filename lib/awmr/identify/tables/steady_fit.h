@@ -122,13 +122,14 @@ std::optional<SteadyProblem> by_time(SteadyProblem problem);
 /// True if all parameters of the law are finite and alpha > 0.
 bool is_physical(const Resistance<double>& law);
 
-/// Residuals of a table and their derivatives, without the weights of a robust loss.
+/// Residuals of a table and their derivatives with respect to coordinates of the law
+/// (TransformedParameter), without the weights of a robust loss.
 struct SteadyRows {
   Eigen::VectorXd residuals;  ///< one per point
   Eigen::MatrixXd jacobian;   ///< points x coordinates
 };
-/// Residuals at the coordinates `theta`, and their derivatives by the coordinates `by`. Empty if a
-/// residual or a derivative is not finite.
+/// Computes the residuals at the coordinates `theta`, and their derivatives with respect to the
+/// coordinates in `by`. Empty if any of these numbers is not finite.
 std::optional<SteadyRows> steady_rows(const SteadyProblem& problem,
                                       const TransformedParameters& theta,
                                       const std::vector<TransformedParameter>& by);

@@ -19,9 +19,9 @@ namespace {
 /// of the curve, which does not exist for beta = 0.
 constexpr double kMinimumInvertibleBeta = 1e-3;
 
-/// Steady rate g^-1(force) at a force, with its derivatives; 0 if the force is below Coulomb
-/// friction. Finds the root in double precision. One Newton step from the root in the type T, which
-/// has derivatives, then gives the derivatives of the implicit function.
+/// Returns the steady rate w at a force, the root of g(w) = force. 0 if the force is below Coulomb
+/// friction. Finds the root in double precision. One Newton step from the root in the type T (a
+/// ceres::Jet) then adds the derivatives of w with respect to the coordinates of the law.
 template <class T>
 T inverse(const Resistance<T>& law, const T& force) {
   const Resistance<double> plain = value_of(law);

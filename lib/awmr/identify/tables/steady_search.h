@@ -33,10 +33,11 @@ class SteadySearch {
   void solve_robustly();
 
   /// Residuals, one per point, in the unit of the noise, without the weights of the robust loss.
-  /// Empty if one is not finite.
+  /// Empty if one of them is not finite.
   std::optional<Eigen::VectorXd> residuals();
-  /// Derivatives of the residuals, points x `columns`, without the weights of the robust loss.
-  /// Empty if one is not finite.
+  /// Derivatives of the residuals with respect to the coordinates `columns`: a row per point, a
+  /// column per coordinate, without the weights of the robust loss. Empty if one of them is not
+  /// finite.
   std::optional<Eigen::MatrixXd> jacobian(const std::vector<TransformedParameter>& columns);
 
   const TransformedParameters& theta() const { return theta_; }

@@ -90,8 +90,8 @@ Choice choose_nonlinear(const Subject& subject, const SubjectOptions& options, E
   const bool tried = std::ranges::any_of(
       candidates, [&](const FamilyCandidate& c) { return c.problem.noise == wanted; });
   if (!chosen && !options.family.family && subject.points.size() < kMinToCompare) {
-    // With so few runs, no family has an AICc. The power law has as few parameters as any other
-    // family.
+    // If there are so few runs, no family has an AICc. The power law has as few parameters as any
+    // other family.
     chosen = candidate_of(candidates, Family::kPower, wanted);
     choice.findings.push_back(not_compared(subject));
   }
@@ -130,8 +130,9 @@ std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wante
   const bool power_used = used == Family::kPower;
   const std::string_view better = name_of(best->problem.family);
   return {about(subject, power_used ? Severity::kWarning : Severity::kNote, "power-law-inadequate",
-                fmt::format("a power law does not describe these runs: the AICc of {} is lower by "
-                            "{:.1f} (residual standard deviation {:.3g}, power law {:.3g}){}",
+                fmt::format("a power law does not describe these runs. The family {} fits better: "
+                            "its AICc (a measure of the error) is lower by {:.1f}, its residual "
+                            "standard deviation is {:.3g} (power law: {:.3g}){}",
                             better, difference, best->fit.residual_std, power->fit.residual_std,
                             power_used ? fmt::format(". The values that follow from these runs get "
                                                      "no intervals; use {}",

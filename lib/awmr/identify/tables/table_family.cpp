@@ -12,8 +12,8 @@
 namespace awmr {
 namespace {
 
-/// Largest number of runs with profile intervals, each of which takes about a hundred fits. With
-/// more runs, the interval from the standard error is nearly the same.
+/// Largest number of runs with profile intervals, each of which takes about a hundred fits. If
+/// there are more runs, the interval from the standard error is nearly the same.
 constexpr Eigen::Index kMaximumProfileRows = kExactRows;
 
 /// Adds to the report the profile-likelihood interval of every parameter that has a standard error.

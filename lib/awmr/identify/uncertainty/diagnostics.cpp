@@ -84,7 +84,9 @@ std::optional<Diagnostic> whiteness(std::span<const double> residuals, int lags)
   const double p = chi_squared_tail(q, lags);
   return Diagnostic{
       "whiteness", q, p,
-      verdict(p, "no significant correlation", "neighbouring residuals are correlated")};
+      verdict(
+          p, "no significant correlation",
+          "successive residuals are correlated, so the model or the noise model is incomplete")};
 }
 
 std::optional<Diagnostic> curvature(std::span<const double> forces,
@@ -137,10 +139,11 @@ std::optional<Diagnostic> lack_of_fit(std::span<const double> forces,
   const double f = (between / between_dof) / (pure / pure_dof);
   if (!std::isfinite(f)) return std::nullopt;
   const double p = fisher_f_tail(f, between_dof, pure_dof);
-  return Diagnostic{"lack of fit", f, p,
-                    verdict(p, "no significant lack of fit",
-                            "lack of fit: the runs are farther from the curve than repeated "
-                            "runs are from each other")};
+  return Diagnostic{
+      "lack of fit", f, p,
+      verdict(p, "no significant lack of fit",
+              "lack of fit: the runs are farther from the curve than repeated runs are from each "
+              "other, so the curve has a wrong shape: compare other families (family auto)")};
 }
 
 Eigen::VectorXd studentised(const Eigen::VectorXd& residuals, const Eigen::VectorXd& leverages,

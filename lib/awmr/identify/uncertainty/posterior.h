@@ -35,8 +35,9 @@ struct Posterior {
 };
 
 /// Sets standard error, quantiles and 95 % interval (2.5 % to 97.5 % quantile) of an estimate whose
-/// value is already set. `to_value` converts number `i` of the posterior to the estimate's unit and
-/// is increasing; `slope` is its derivative at the value. If the posterior is not proper, the
+/// value is already set. `to_value` converts the number x_i of the posterior to the estimate's unit
+/// (for example, a logarithm to its value), and must be increasing. `slope`: derivative of this
+/// conversion with respect to x_i, at the estimate's value. If the posterior is not proper, the
 /// standard error is infinite and there is no interval. An empty posterior changes nothing.
 void set_uncertainty(const Posterior& posterior, Eigen::Index i, double slope,
                      const std::function<double(double)>& to_value, Estimate& estimate);

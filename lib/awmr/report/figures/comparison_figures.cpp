@@ -18,7 +18,7 @@ std::optional<double> number_in(const Json& json, const char* key) {
 
 /// Returns the name of a scenario in file names, so that figures of runs and of comparisons have
 /// the same name. It is SCENARIO if a file scenario_SCENARIO.json has this `name` in its key
-/// `name`. Without such a file, it is `name` itself.
+/// `name`. If there is no such file, it is `name` itself.
 std::string stem_of(const Json& data, const std::string& name) {
   for (const auto& [stem, scenario] : data.at("scenarios").items()) {
     if (scenario.value("name", "") == name) return stem;
@@ -100,8 +100,8 @@ void add_differences(const Json& scenario, const std::string& stem, FiguresOfRes
 }
 
 /// Figure of the distribution of a metric. Each mode has a row, with the value in each sample
-/// (simulated vehicle), the median and the range from the 5 to the 95 % quantile. Without samples,
-/// a row has the value of the nominal run.
+/// (simulated vehicle), the median and the range from the 5 to the 95 % quantile. If there are no
+/// samples, a row has the value of the nominal run.
 Figure spread_figure(const std::string& stem, const std::string& metric, const Json& scenario,
                      const Json& samples) {
   const MetricWords words = metric_words(metric);
