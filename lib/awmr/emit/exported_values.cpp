@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "awmr/control/yaw_mode.h"
 #include "awmr/model/si_units.h"
+#include "friction_widths.h"
 
 namespace awmr {
 namespace {
@@ -78,33 +78,12 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
   add("sample_time_s", vehicle.sample_time_s, "s", "T_s: time between two steps of the controller");
 }
 
-/// Adds the friction widths of `mode`, or of steering and combined mode if `mode` is absent, except
-/// those at the smallest possible width. `add(name, value, unit, meaning)` adds a value.
-template <class Add>
-void add_friction_widths(const Gains<double>& gains, std::optional<YawMode> mode, const Add& add) {
-  const auto add_width = [&](const char* name, double width_radps, const char* meaning) {
-    if (width_radps > feed_forward_rest_speed<double>()) add(name, width_radps, "rad/s", meaning);
-  };
-  if (mode) {
-    return add_width("heading_friction_width",
-                     gains.friction_width_at(steering_share<double>(*mode)),
-                     "w0: the controller compensates friction in proportion to s = psi_d_dot + "
-                     "lambda e (psi_d: desired heading, e: heading error) while |s| is below w0");
-  }
-  add_width("heading_friction_width", gains.heading.friction_width_radps,
-            "w0: in steering mode, the controller compensates friction in proportion to s = "
-            "psi_d_dot + lambda e (psi_d: desired heading, e: heading error) while |s| is below "
-            "w0; in differential mode this limit is 0.02 rad/s, with an observer w0");
-  add_width("heading_combined_friction_width", gains.friction_width_at(0.5),
-            "w0 of the combined mode");
-}
-
 /// Adds the gains of one mode (`mode`, which becomes part of the names). Without `mode`: the gains
 /// of all modes without gains of their own. `has_observer`: also adds the observer, with zeros if
 /// these gains have none. `has_widths`: also adds the friction widths.
 void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool has_observer,
                   bool has_widths, std::vector<ExportedValue>& values) {
-  const auto add = [&](const char* name, double value, const char* unit, const char* meaning) {
+  const auto add = [&](std::string name, double value, const char* unit, std::string meaning) {
     values.push_back(
         {.name = name + (mode ? fmt::format("_{}", name_of(*mode)) : ""),
          .value = value,
@@ -116,7 +95,13 @@ void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool 
   add("heading_mu", gains.heading.mu, "rad/s^2", "mu: largest corrective yaw acceleration");
   add("heading_epsilon", gains.heading.epsilon, "rad/s",
       "epsilon: half width of the heading law's boundary layer");
-  if (has_widths) add_friction_widths(gains, mode, add);
+  if (has_widths) {
+    for (const FrictionWidth& width : friction_widths(gains, mode)) {
+      add(width.is_second ? "heading_combined_friction_width" : "heading_friction_width",
+          width.width_radps, "rad/s",
+          fmt::format("{}{}{}", width.symbol, width.symbol.empty() ? "" : ": ", width.meaning));
+    }
+  }
   add("speed_mu", gains.speed.mu, "m/s^2", "mu_s: largest corrective acceleration");
   add("speed_epsilon", gains.speed.epsilon, "m/s",
       "eps_s: half width of the speed law's boundary layer");

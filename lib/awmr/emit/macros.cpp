@@ -12,6 +12,7 @@
 
 #include "awmr/core/units.h"
 #include "awmr/model/gains_file.h"
+#include "friction_widths.h"
 
 namespace awmr {
 namespace {
@@ -89,28 +90,22 @@ std::string of_mode(std::optional<YawMode> mode) {
   return mode ? fmt::format(", in {} mode", name_of(*mode)) : "";
 }
 
-/// Adds the friction widths of the modes steering and combined, except those at the smallest
-/// possible width.
+/// Adds the friction widths of one mode (`mode`), or of the modes steering and combined.
 void add_friction_widths(std::vector<Macro>& macros, const ModeGains& gains,
-                         const std::string& file) {
-  const auto add = [&](std::string name, YawMode mode, double value, std::string_view comment,
-                       std::string_view pointer) {
-    if (!(value > feed_forward_rest_speed<double>())) return;
-    macros.push_back({std::move(name), value, fmt::format("{}; gains", comment),
-                      place_of(gains, mode, file) + std::string(pointer), MacroRange::kPositive});
-  };
-  const Gains<double>& combined = gains.in(YawMode::kCombined);
-  add("AWMR_HEADING_FRICTION_WIDTH_RADPS", YawMode::kSteering,
-      gains.in(YawMode::kSteering).heading.friction_width_radps,
-      "w0, rad/s: in steering mode, the controller compensates friction in proportion to s = "
-      "psi_d_dot + lambda e (psi_d: desired heading, e: heading error) while |s| is below w0; in "
-      "differential mode this limit is 0.02 rad/s, with an observer w0",
-      "/heading/friction_width_radps");
-  add("AWMR_HEADING_COMBINED_FRICTION_WIDTH_RADPS", YawMode::kCombined,
-      combined.friction_width_at(0.5), "rad/s: w0 of the combined mode",
-      combined.heading.combined_friction_width_radps > 0.0
-          ? "/heading/combined_friction_width_radps"
-          : "/heading/friction_width_radps");
+                         std::optional<YawMode> mode, const std::string& file) {
+  for (const FrictionWidth& width : friction_widths(gains, mode)) {
+    const HeadingGains<double>& heading = gains.in(width.mode).heading;
+    const bool has_own_key = width.is_second && heading.combined_friction_width_radps > 0.0;
+    macros.push_back(
+        {fmt::format("AWMR_HEADING{}_FRICTION_WIDTH_RADPS{}", width.is_second ? "_COMBINED" : "",
+                     mode ? mode_suffix(*mode) : ""),
+         width.width_radps,
+         fmt::format("{}{}rad/s: {}{}; gains", width.symbol, width.symbol.empty() ? "" : ", ",
+                     width.meaning, of_mode(mode)),
+         fmt::format("{}/heading/{}friction_width_radps", place_of(gains, width.mode, file),
+                     has_own_key ? "combined_" : ""),
+         MacroRange::kPositive});
+  }
 }
 
 /// Adds the gains of both laws for one mode (`mode`), or for all modes without gains of their own.
@@ -128,15 +123,7 @@ void add_laws(std::vector<Macro>& macros, const ModeGains& gains, std::optional<
   add("AWMR_HEADING_MU", set.heading.mu, "mu, rad/s^2: corrective yaw acceleration", "/heading/mu");
   add("AWMR_HEADING_EPSILON", set.heading.epsilon,
       "epsilon, rad/s: half width of the boundary layer of S", "/heading/epsilon");
-  if (!mode) {
-    add_friction_widths(macros, gains, file);
-  } else if (const double width_radps = set.friction_width_at(steering_share<double>(*mode));
-             width_radps > feed_forward_rest_speed<double>()) {
-    add("AWMR_HEADING_FRICTION_WIDTH_RADPS", width_radps,
-        "w0, rad/s: the controller compensates friction in proportion to s = psi_d_dot + lambda e "
-        "(psi_d: desired heading, e: heading error) while |s| is below w0",
-        "/heading/friction_width_radps");
-  }
+  add_friction_widths(macros, gains, mode, file);
   add("AWMR_SPEED_MU", set.speed.mu, "mu_s, m/s^2: corrective surge acceleration", "/speed/mu");
   add("AWMR_SPEED_EPSILON", set.speed.epsilon,
       "epsilon_s, m/s: half width of the boundary layer of the speed error u_d - u",
