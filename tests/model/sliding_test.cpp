@@ -17,7 +17,7 @@ State<double> after(State<double> s, double force, double moment, double h, int 
   constexpr double kInertia = 0.01;
   const FrictionRates<double> friction{kFriction / kMass, 0.005 / kInertia};
   for (int i = 0; i < steps; ++i) {
-    s = rk4_step_with_friction(friction, s, h, [&](const State<double>&) {
+    s = step_with_friction(friction, s, h, [&](const State<double>&) {
       State<double> rates{};
       rates.u_mps = force / kMass;
       rates.r_radps = moment / kInertia;
@@ -73,7 +73,7 @@ TEST(Sliding, WithoutFrictionIsARungeKuttaStep) {
     d.u_mps = -3.0 * s.u_mps;
     return d;
   };
-  EXPECT_EQ(rk4_step_with_friction({0.0, 0.0}, moving(1.0), 0.1, rates).u_mps,
+  EXPECT_EQ(step_with_friction(FrictionRates<double>{0.0, 0.0}, moving(1.0), 0.1, rates).u_mps,
             rk4_step(moving(1.0), 0.1, rates).u_mps);
 }
 

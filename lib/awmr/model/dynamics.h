@@ -46,37 +46,20 @@ struct Plant {
   /// 1 if all four wheels are driven, as in the paper; 0 if only the front wheels are. Given.
   T rear_driven = T(1.0);
   /// c, m, >= 0: Coulomb yaw moment divided by F_max that tyre scrub adds to g3 in a differential
-  /// turn, see scrub_moment_m(). 0: none, as in the paper. From trials with differential turns.
+  /// turn, see scrub_moment_m(). state_rates() does not include it: the integration adds it, as
+  /// friction (sliding.h). 0: none, as in the paper. From trials with differential turns.
   T yaw_scrub_m = T(0.0);
 };
 
-/// Returns an upper bound of the yaw resistance: the resistance g3 plus the largest moment of tyre
-/// scrub. The simulator uses this bound to choose its integration steps and the chord near rest
-/// (rest.h), because a larger resistance needs shorter steps.
+/// Fraction q of the yaw moment that comes from different left and right forces (tau_diff) and not
+/// from the steering (tau_steering):
+///   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
 template <class T>
-Resistance<T> yaw_with_scrub(const Plant<T>& p) {
-  Resistance<T> law = p.yaw;
-  law.coulomb = law.coulomb + p.yaw_scrub_m;
-  return law;
-}
-
-/// Yaw moment N_c of tyre scrub divided by F_max, m. It has the sign of the yaw rate r and resists
-/// the turn. In a differential turn, the straight wheels are dragged sideways; in a steered turn,
-/// they roll. c = yaw_scrub_m is the moment measured in differential turns. In other turns, c is
-/// multiplied by q, the fraction of the yaw moment that comes from different left and right forces
-/// (tau_diff) and not from the steering (tau_steering):
-///   N_c = c q sgn r,   q = |tau_diff|/(|tau_diff| + |tau_steering|),   q = 0 without a moment
-/// For |r| below p.yaw.rest_speed, N_c falls in proportion to r, as g3 does.
-template <class T>
-T scrub_moment_m(const Plant<T>& p, const T& yaw_rate_radps, const T& tau_steering_m,
-                 const T& tau_diff_m) {
+T differential_share(const T& tau_steering_m, const T& tau_diff_m) {
   using math::abs;
   using math::larger;
   const T differential = abs(tau_diff_m);
-  const T tiny = T(1e-30);
-  const T share = differential / larger(T(differential + abs(tau_steering_m)), tiny);
-  return p.yaw_scrub_m * share *
-         (yaw_rate_radps / larger(larger(T(abs(yaw_rate_radps)), p.yaw.rest_speed), tiny));
+  return differential / larger(T(differential + abs(tau_steering_m)), T(1e-30));
 }
 
 /// Number n of driven wheels. Straight ahead, with the force F' at each of them, tau_speed = n F'.
@@ -221,12 +204,6 @@ YawMoments<T> yaw_moments(const Plant<T>& p, const WheelForces<T>& e, const T& c
           p.half_track_m * (e.rear_right - e.rear_left)};
 }
 
-/// Moment of tyre scrub, scrub_moment_m(), in the state `s` with the yaw moments `tau`.
-template <class T>
-T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
-  return scrub_moment_m(p, s.r_radps, tau.steering_m, T(tau.front_diff_m + tau.rear_diff_m));
-}
-
 }  // namespace detail
 
 /// Rates of the state with an individual command for each motor, `f`. These commands, reduced by
@@ -234,14 +211,12 @@ T scrub_of(const Plant<T>& p, const State<T>& s, const YawMoments<T>& tau) {
 /// and S_r = F'RL + F'RR at the rear, the rates of u, v and r are
 ///   u_dot = (S_f cos d_r + S_r + m' r v - g1(u)) / m'
 ///   v_dot = (S_f sin d_r       - m' r u - g2(v)) / m'
-///   r_dot = (l_f S_f sin d_r + d cos d_r (F'FR - F'FL) + d (F'RR - F'RL) - g3(r) - N_c) / I'z
-/// with the moment N_c of tyre scrub, scrub_moment_m(). The rates of x, y and psi are those of
-/// detail::rates().                                                         [paper (39), corrected]
+///   r_dot = (l_f S_f sin d_r + d cos d_r (F'FR - F'FL) + d (F'RR - F'RL) - g3(r)) / I'z
+/// The rates of x, y and psi are those of detail::rates().                  [paper (39), corrected]
 /// Corrected: in the printed r_dot, the rear term repeats the forces of the front wheels.
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>& f,
                      const T& steering_command_rad) {
-  using math::any;
   using math::cos;
   using math::sin;
   const T cos_d = cos(s.steering_rad);
@@ -249,9 +224,7 @@ State<T> state_rates(const Plant<T>& p, const State<T>& s, const WheelForces<T>&
   const WheelForces<T> e = detail::wheel_forces(p, s, f);
   const T front = e.front_left + e.front_right;
   const T rear = e.rear_left + e.rear_right;
-  const detail::YawMoments<T> tau = detail::yaw_moments(p, e, cos_d, sin_d);
-  T moment = tau.sum_m();
-  if (any(p.yaw_scrub_m > T(0.0))) moment = moment - detail::scrub_of(p, s, tau);
+  const T moment = detail::yaw_moments(p, e, cos_d, sin_d).sum_m();
   return detail::rates(p, s, front * cos_d + rear, front * sin_d, moment,
                        steering_rate(p, s.steering_rad, steering_command_rad));
 }
@@ -350,25 +323,36 @@ const WheelForces<T>& by_wheel(const Plant<T>&, const WheelForces<T>& f) {
   return f;
 }
 
-/// Power N_c r that tyre scrub dissipates, divided by F_max, m/s, >= 0.
-template <class T>
-T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) {
+/// Largest yaw moment N_c of tyre scrub divided by F_max, m, >= 0, in the state `s` with the motor
+/// commands `f`, for each side or for each wheel. It resists the turn. In a differential turn,
+/// the straight wheels are dragged sideways; in a steered turn, they roll. c = yaw_scrub_m is the
+/// moment measured in differential turns. In other turns, c is multiplied by q, differential_share():
+///   N_c = c q
+template <class T, class Forces>
+T scrub_moment_m(const Plant<T>& p, const State<T>& s, const Forces& f) {
   using math::cos;
   using math::sin;
   const WheelForces<T> e = detail::wheel_forces(p, s, by_wheel(p, f));
   const detail::YawMoments<T> tau =
       detail::yaw_moments(p, e, T(cos(s.steering_rad)), T(sin(s.steering_rad)));
-  return detail::scrub_of(p, s, tau) * s.r_radps;
+  return p.yaw_scrub_m * differential_share(tau.steering_m, T(tau.front_diff_m + tau.rear_diff_m));
+}
+
+/// Power N_c |r| that tyre scrub dissipates, divided by F_max, m/s, >= 0.
+template <class T>
+T scrub_power_mps(const Plant<T>& p, const State<T>& s, const SideForces<T>& f) {
+  using math::abs;
+  return scrub_moment_m(p, s, f) * abs(s.r_radps);
 }
 
 /// Rates of the state if both motors of a side have the same command, `f`. The equations for
 /// individual wheels are used if front and rear forces can differ in spite of equal commands
-/// (back-EMF, undriven rear wheels), or if the vehicle has scrub.
+/// (back-EMF, undriven rear wheels).
 template <class T>
 State<T> state_rates(const Plant<T>& p, const State<T>& s, const SideForces<T>& f,
                      const T& steering_command_rad) {
   using math::any;
-  if (any(p.back_emf_s_per_m > T(0.0) || p.rear_driven < T(1.0) || p.yaw_scrub_m > T(0.0))) {
+  if (any(p.back_emf_s_per_m > T(0.0) || p.rear_driven < T(1.0))) {
     return state_rates(p, s, by_wheel(p, f), steering_command_rad);
   }
   return side_driven_rates(p, s, beyond_dead_zone(f, p.wheel_dead_zone), steering_command_rad);

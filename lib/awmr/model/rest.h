@@ -24,8 +24,7 @@ Resistance<double> value_of(const Resistance<T>& law) {
 template <class T>
 Plant<T> resolved_at_rest(Plant<T> plant, double step_s) {
   plant.surge.rest_speed = T(rest_speed(value_of(plant.surge), value_of(plant.mass_norm), step_s));
-  plant.yaw.rest_speed =
-      T(rest_speed(value_of(yaw_with_scrub(plant)), value_of(plant.inertia_norm), step_s));
+  plant.yaw.rest_speed = T(rest_speed(value_of(plant.yaw), value_of(plant.inertia_norm), step_s));
   return plant;
 }
 

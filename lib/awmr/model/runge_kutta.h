@@ -33,4 +33,12 @@ State<T> rk4_step(const State<T>& s, const T& h, const Rates& rates) {
   return moved(next, k4, T(h / 6.0));
 }
 
+/// rk4_step() as a function object: an integrator that other functions take as an argument.
+struct RungeKutta4 {
+  template <class T, class Rates>
+  State<T> operator()(const State<T>& from, const T& h, const Rates& rates) const {
+    return rk4_step(from, h, rates);
+  }
+};
+
 }  // namespace awmr

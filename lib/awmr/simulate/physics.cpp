@@ -70,7 +70,7 @@ StepLimit step_limit(const Plant<double>& with_friction, bool on_tyres) {
   const double rolling = on_tyres ? rolling_inertia(plant) : plant.mass_norm;
   at_most(step_for_chord(plant.surge, rolling), ParameterId::kSurgeBeta);
   if (!on_tyres) {
-    at_most(step_for_chord(yaw_with_scrub(plant), plant.inertia_norm), ParameterId::kYawBeta);
+    at_most(step_for_chord(plant.yaw, plant.inertia_norm), ParameterId::kYawBeta);
   }
   return limit;
 }

@@ -16,7 +16,7 @@ struct VehicleSetup {
   bool is_by_wheel = false;  ///< true: front and rear wheel of a side can have different forces
   bool is_on_tyres = false;
   Tyres<double> tyres;            ///< valid if is_on_tyres
-  bool has_friction = false;      ///< any vehicle not on tyres has Coulomb friction
+  bool has_friction = false;      ///< any vehicle not on tyres has Coulomb friction (g1, g3)
   bool has_back_emf = false;      ///< any vehicle has back-EMF
   bool has_scrub = false;         ///< any vehicle has scrub
   bool is_front_driven = false;   ///< true: at least one vehicle has front-wheel drive
@@ -134,22 +134,13 @@ AWMR_WHOLE void actuate(const View& view, Vehicles<Row>& v) {
   view.store(force, v.arriving);
 }
 
-/// The integrator of the simulation: one Runge-Kutta step of order 4. tests/bench replaces it by
-/// others, for comparison.
-struct RungeKutta4 {
-  template <class T, class Rates>
-  State<T> operator()(const State<T>& from, const T& h, const Rates& rates) const {
-    return rk4_step(from, h, rates);
-  }
-};
-
-/// A step of another integrator with Coulomb friction added (sliding.h).
-template <class T, class Stepper>
+/// A step of another integrator with friction (FrictionRates or FrictionWithScrub) added.
+template <class Friction, class Stepper>
 struct WithFriction {
-  FrictionRates<T> friction;
+  Friction friction;
   Stepper stepper;
 
-  template <class Rates>
+  template <class T, class Rates>
   State<T> operator()(const State<T>& from, const T& h, const Rates& rates) const {
     return step_with_friction(friction, from, h, rates, stepper);
   }
@@ -204,9 +195,27 @@ void move_alone(const View& view, Vehicles<Row>& v, const SideForces<typename Vi
       stepper);
 }
 
+/// Integrates vehicles not on tyres of which at least one has Coulomb friction or tyre scrub.
+template <class View, class Row, class Stepper>
+void move_with_friction(const View& view, Vehicles<Row>& v, const Stepper& stepper) {
+  using T = typename View::Number;
+  using Wheels = WheelForces<T>;
+  const Wheels force = acting_forces(view, v);
+  const FrictionRates<T> coulomb = view(v.friction);
+  if (v.setup.has_scrub) {
+    using Friction = FrictionWithScrub<T, Wheels>;
+    const Plant<T>& plant = view(v.plant);
+    const WithFriction<Friction, Stepper> sliding{Friction{coulomb, plant, force}, stepper};
+    move_pushed<false>(view, v, force, sliding);
+  } else {
+    const WithFriction<FrictionRates<T>, Stepper> sliding{coulomb, stepper};
+    move_pushed<false>(view, v, force, sliding);
+  }
+}
+
 /// Integrates the vehicles by the function for the state's time derivatives that has the fewest
 /// terms of those that suffice. Tests for each term inside the derivatives would slow down every
-/// integration step.
+/// integration step. tests/bench replaces the integrator `stepper` by others, for comparison.
 template <class View, class Row, class Stepper = RungeKutta4>
 void move(const View& view, Vehicles<Row>& v, const Stepper& stepper = {}) {
   using T = typename View::Number;
@@ -218,13 +227,11 @@ void move(const View& view, Vehicles<Row>& v, const Stepper& stepper = {}) {
     } else {
       move_pushed<true>(view, v, force, stepper);
     }
-  } else if (setup.has_friction) {
-    const WithFriction<T, Stepper> sliding{view(v.friction), stepper};
-    move_pushed<false>(view, v, acting_forces(view, v), sliding);
+  } else if (setup.has_friction || setup.has_scrub) {
+    move_with_friction(view, v, stepper);
   } else if (setup.is_by_wheel) {
     move_pushed<false>(view, v, WheelForces<T>(view(v.wheels)), stepper);
-  } else if (setup.has_back_emf || setup.has_scrub || setup.is_front_driven ||
-             setup.push.is_loaded) {
+  } else if (setup.has_back_emf || setup.is_front_driven || setup.push.is_loaded) {
     move_pushed<false>(view, v, force, stepper);
   } else {
     move_alone(view, v, beyond_dead_zone(force, T(view(v.plant.wheel_dead_zone))), stepper);

@@ -137,8 +137,8 @@ Plant<T> without_stop_of_logged_angle(Plant<T> plant, const DrivingLog& log) {
   return plant;
 }
 
-/// Integration step of the 3-DOF model along a log. Does not smooth Coulomb friction near rest, so
-/// that the friction can hold the vehicle (sliding.h).
+/// Integration step of the 3-DOF model along a log. Does not smooth Coulomb friction and tyre scrub
+/// near rest, so that they can hold the vehicle (sliding.h).
 template <class T>
 class ModelStep {
  public:
@@ -154,16 +154,25 @@ class ModelStep {
   /// Time derivatives of the state, with Coulomb friction.
   State<T> rates(const State<T>& at, const SideForces<T>& force, const T& steering) const {
     const State<T> free = state_rates(plant_, at, force, steering);
-    return with_friction(friction_, sliding(friction_, at, free), free);
+    return under_friction(force, [&](const auto& friction) {
+      return with_friction<T>(friction.in(at), sliding(friction, at, free), free);
+    });
   }
   State<T> operator()(const State<T>& from, const T& h, const SideForces<T>& force,
                       const T& steering) const {
-    return rk4_step_with_friction(friction_, from, h, [&](const State<T>& at) {
-      return state_rates(plant_, at, force, steering);
-    });
+    const auto free = [&](const State<T>& at) { return state_rates(plant_, at, force, steering); };
+    return under_friction(
+        force, [&](const auto& friction) { return step_with_friction(friction, from, h, free); });
   }
 
  private:
+  /// Returns result(friction), with the friction of the vehicle at these forces.
+  template <class ResultOf>
+  State<T> under_friction(const SideForces<T>& force, const ResultOf& result) const {
+    if (!(plant_.yaw_scrub_m > T(0.0))) return result(friction_);
+    return result(FrictionWithScrub<T, SideForces<T>>{friction_, plant_, force});
+  }
+
   Plant<T> plant_;
   FrictionRates<T> friction_;
 };

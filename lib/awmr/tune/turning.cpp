@@ -74,7 +74,7 @@ TurningMoment turning_moment(const DrawnVehicle& vehicle, double speed_mps, YawM
           ? 0.0
           : 0.5 * driven_wheels(plant) * plant.half_track_m * (force.hi - force.lo);
   const double all = steering + differential;
-  const double scrub = all > 0.0 ? plant.yaw_scrub_m * differential / all : 0.0;
+  const double scrub = plant.yaw_scrub_m * differential_share(steering, differential);
   return {.mode = mode,
           .speed_mps = speed_mps,
           .available_m = all,

@@ -43,8 +43,7 @@ class LinearStepper {
                 const std::vector<ParameterColumn>& parameters,
                 const CommandColumns& command_columns, double longest_step_s = 0.0,
                 const ExtraForces& extra = {});
-  /// Makes one classical Runge-Kutta step of h_s seconds with friction, like
-  /// rk4_step_with_friction().
+  /// Makes one classical Runge-Kutta step of h_s seconds with friction, like step_with_friction().
   void step(const DelayedCommand& command, double h_s, LinearMotion& motion);
   /// Makes one Euler step of h_s seconds (of either sign). Returns the rates before the step.
   State<double> step_along_tangent(const DelayedCommand& command, double h_s, LinearMotion& motion);
