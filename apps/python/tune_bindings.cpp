@@ -99,9 +99,7 @@ py::list goals_of(const Tuning& tuning) {
   return all;
 }
 
-}  // namespace
-
-void bind_tune(py::module_& module) {
+void bind_tuning(py::module_& module) {
   py::class_<Tuning>(module, "Tuning", "Result of tune(): the gains and how they perform.")
       .def_readonly("gains", &Tuning::gains)
       .def_property_readonly("mode_gains", &Tuning::mode_gains,
@@ -131,6 +129,12 @@ void bind_tune(py::module_& module) {
           "number of runs (`runs`), number of runs that meet the goal (`held`), "
           "95 % interval of their fraction (`ci95`), and `verdict`: \"met\", "
           "\"missed\" or \"open\" (undecided)");
+}
+
+}  // namespace
+
+void bind_tune(py::module_& module) {
+  bind_tuning(module);
   module.def(
       "tune", tuned, py::arg("model"), py::kw_only(), py::arg("config") = py::none(),
       py::arg("nominal") = false, py::arg("draws") = py::none(), py::arg("observer") = py::none(),

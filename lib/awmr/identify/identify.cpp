@@ -46,6 +46,23 @@ Status check_back_emf(const Vehicle& vehicle, const TrialData& data,
           option_text("log")));
 }
 
+/// Checks that the requested method can fit the data with the other options.
+Status check_method(const TrialData& data, const IdentifyOptions& options) {
+  const bool other_family = asks_for_other_family(options);
+  if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
+    return input_error(ErrorCode::kConflict, option_text("method"),
+                       fmt::format("log-linear supports only the power law and the squared loss; "
+                                   "with {} use the method nonlinear",
+                                   option_text(other_family ? "family" : "loss")));
+  }
+  if (options.method == Method::kTrajectory && data.logs.empty()) {
+    return input_error(ErrorCode::kMissing, option_text("method"),
+                       fmt::format("the method trajectory needs a driving log; give one with {}",
+                                   option_text("log")));
+  }
+  return {};
+}
+
 Status check_options(const Vehicle& vehicle, const TrialData& data,
                      const IdentifyOptions& options) {
   for (const ParameterId id : options.requested) {
@@ -65,18 +82,7 @@ Status check_options(const Vehicle& vehicle, const TrialData& data,
                     "\"{}\"; choose another family",
                     name_in(kDriveNames, vehicle.drive)));
   }
-  const bool other_family = asks_for_other_family(options);
-  if (options.method == Method::kLogLinear && (other_family || options.loss != Loss::kSquared)) {
-    return input_error(ErrorCode::kConflict, option_text("method"),
-                       fmt::format("log-linear supports only the power law and the squared loss; "
-                                   "with {} use the method nonlinear",
-                                   option_text(other_family ? "family" : "loss")));
-  }
-  if (options.method == Method::kTrajectory && data.logs.empty()) {
-    return input_error(ErrorCode::kMissing, option_text("method"),
-                       fmt::format("the method trajectory needs a driving log; give one with {}",
-                                   option_text("log")));
-  }
+  AWMR_RETURN_IF_ERROR(check_method(data, options));
   if (!options.terms.empty() && data.logs.empty()) {
     return input_error(ErrorCode::kMissing, option_text("fit"),
                        fmt::format("{} needs a driving log; give one with {}",

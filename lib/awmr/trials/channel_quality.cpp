@@ -274,6 +274,29 @@ void find_stuck(std::span<const double> t_s, std::span<const double> value,
   }
 }
 
+/// Distinct values of a channel.
+struct Levels {
+  std::size_t count = 0;
+  /// Largest number of rows with one value, apart from the smallest and the largest value, and from
+  /// values up to `rest` in magnitude.
+  std::size_t most_elsewhere = 0;
+};
+
+Levels levels_of(std::vector<double> value, double rest) {
+  Levels levels;
+  std::sort(value.begin(), value.end());
+  for (std::size_t i = 0; i < value.size();) {
+    std::size_t end = i;
+    while (end < value.size() && value[end] == value[i]) ++end;
+    ++levels.count;
+    if (value[i] != value.front() && value[i] != value.back() && std::abs(value[i]) > rest) {
+      levels.most_elsewhere = std::max(levels.most_elsewhere, end - i);
+    }
+    i = end;
+  }
+  return levels;
+}
+
 /// Finds saturation of the sensor. Criterion: the largest or the smallest value of the channel
 /// occurs at least four times as often as any value between these two. It must occur in at least 8
 /// rows and 0.5 % of the rows. Leaves out rows without a command, because a vehicle at rest also
@@ -288,28 +311,16 @@ void find_saturation(std::span<const double> all, std::span<const double> activi
   if (value.empty()) return;
   const double rest = kRestShare * largest_size(value);
   const auto [low, high] = std::minmax_element(value.begin(), value.end());
-  std::vector<double> sorted(value.begin(), value.end());
-  std::sort(sorted.begin(), sorted.end());
-  std::size_t most_elsewhere = 0;
-  std::size_t levels = 0;
-  for (std::size_t i = 0; i < sorted.size();) {
-    std::size_t end = i;
-    while (end < sorted.size() && sorted[end] == sorted[i]) ++end;
-    ++levels;
-    if (sorted[i] != *low && sorted[i] != *high && std::abs(sorted[i]) > rest) {
-      most_elsewhere = std::max(most_elsewhere, end - i);
-    }
-    i = end;
-  }
+  const Levels levels = levels_of(value, rest);
   // A signal with few distinct values repeats each of them often. A repeated largest value then
   // does not show saturation.
   constexpr std::size_t kMinLevels = 20;
-  if (levels < kMinLevels) return;
+  if (levels.count < kMinLevels) return;
   for (const double bound : {*high, *low}) {
     if (std::abs(bound) <= rest) continue;
     const auto count = static_cast<std::size_t>(std::count(value.begin(), value.end(), bound));
     if (count < std::max<std::size_t>(8, value.size() / 200)) continue;
-    if (count < 4 * most_elsewhere) continue;
+    if (count < 4 * levels.most_elsewhere) continue;
     if (count > quality.saturated) {
       quality.saturated = count;
       quality.saturated_at = bound;

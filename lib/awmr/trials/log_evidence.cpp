@@ -181,18 +181,35 @@ std::optional<RobustRatio> robust_ratio(std::span<const double> x, std::span<con
   return RobustRatio{ratio, spread, static_cast<int>(ratios.size())};
 }
 
-MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
-                           double (*rate)(const EvidenceWindow&)) {
+namespace {
+
+/// Sums of products over the windows: s, d: the moments tau_steering and tau_diff, m; r: the mean
+/// yaw rate, rad/s.
+struct MomentSums {
   double ss = 0.0, sd = 0.0, dd = 0.0, sr = 0.0, dr = 0.0, rr = 0.0;
+};
+
+MomentSums moment_sums(const std::vector<EvidenceWindow>& windows,
+                       double (*rate)(const EvidenceWindow&)) {
+  MomentSums sums;
   for (const EvidenceWindow& w : windows) {
     const double y = rate(w) / w.span_s;
-    ss += w.tau_steering_m * w.tau_steering_m;
-    sd += w.tau_steering_m * w.tau_diff_m;
-    dd += w.tau_diff_m * w.tau_diff_m;
-    sr += w.tau_steering_m * y;
-    dr += w.tau_diff_m * y;
-    rr += y * y;
+    sums.ss += w.tau_steering_m * w.tau_steering_m;
+    sums.sd += w.tau_steering_m * w.tau_diff_m;
+    sums.dd += w.tau_diff_m * w.tau_diff_m;
+    sums.sr += w.tau_steering_m * y;
+    sums.dr += w.tau_diff_m * y;
+    sums.rr += y * y;
   }
+  return sums;
+}
+
+}  // namespace
+
+MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
+                           double (*rate)(const EvidenceWindow&)) {
+  const MomentSums sums = moment_sums(windows, rate);
+  const auto [ss, sd, dd, sr, dr, rr] = sums;
   const double n = static_cast<double>(windows.size());
   const double determinant = ss * dd - sd * sd;
   const bool steering_only = dd < 1e-6 * ss;
@@ -204,7 +221,7 @@ MomentShares moment_shares(const std::vector<EvidenceWindow>& windows,
   if (n < 10.0 || rr <= 0.0) return {};
   constexpr double kSignificant = 5.0;  // smallest significant coefficient, in standard errors
   const auto shown = [&](double coefficient, double variance_factor, double explained) {
-    const double noise = std::max(0.0, rr - explained) / std::max(1.0, n - 2.0);
+    const double noise = std::max(0.0, sums.rr - explained) / std::max(1.0, n - 2.0);
     return std::abs(coefficient) > kSignificant * std::sqrt(noise * variance_factor) ? coefficient
                                                                                      : 0.0;
   };

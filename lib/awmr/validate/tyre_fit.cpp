@@ -249,6 +249,18 @@ Status check_vehicle(const Model& model) {
                   name_in(kDriveNames, model.vehicle.drive)));
 }
 
+/// Adds the note `plants-compared`, and the warning `inertia-of-logs` if I'z was fitted to logs.
+void note_comparison(const DrivingLog& log, const Model& model, const TyreFit& tyres,
+                     std::vector<Finding>& findings) {
+  if (model[ParameterId::kInertiaNorm].source == Source::kFitted) {
+    findings.push_back(finding(
+        log, Severity::kWarning, "inertia-of-logs",
+        "I'z of the model was fitted to logs with the 3-DOF model and can include yaw moments of "
+        "the tyres. For the four-wheel plant, use a model identified from tables (I'z = m' Iz/m)"));
+  }
+  findings.push_back(finding(log, Severity::kNote, "plants-compared", comparison_text(tyres)));
+}
+
 }  // namespace
 }  // namespace awmr::tyre_fit
 
@@ -286,13 +298,7 @@ Result<std::optional<TyreFit>> fit_tyres(const std::vector<DrivingLog>& logs, co
       .windows = static_cast<int>(windows.size()),
       .held_out = errors_by_channel(*sums),
       .better = better_plant(*sums)};
-  if (model[ParameterId::kInertiaNorm].source == Source::kFitted) {
-    findings.push_back(finding(
-        first, Severity::kWarning, "inertia-of-logs",
-        "I'z of the model was fitted to logs with the 3-DOF model and can include yaw moments of "
-        "the tyres. For the four-wheel plant, use a model identified from tables (I'z = m' Iz/m)"));
-  }
-  findings.push_back(finding(first, Severity::kNote, "plants-compared", comparison_text(tyres)));
+  note_comparison(first, model, tyres, findings);
   return std::optional(std::move(tyres));
 }
 

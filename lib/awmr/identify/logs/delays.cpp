@@ -180,6 +180,19 @@ void consider_angle_beyond_stop(const NoiseIteration& settled, const CandidateTe
   lowest.consider(tried(settled, {term}, loss));
 }
 
+/// If the candidate is slip of the speed, also tries slip of speed and yaw rate together, because
+/// the same wheel encoders often measure both.
+void consider_slip_of_both(const NoiseIteration& settled, const std::vector<CandidateTerm>& terms,
+                           const CandidateTerm& candidate, Loss loss, LowestAic& lowest) {
+  const FreeQuantity& quantity = candidate.quantity;
+  if (quantity.kind != FreeQuantity::Kind::kWheelSlip || quantity.channel != LogChannel::kSpeed) {
+    return;
+  }
+  if (const auto both = with_slip_of_yaw(terms, candidate)) {
+    lowest.consider(tried(settled, *both, loss));
+  }
+}
+
 /// Makes a short fit (one round) with each candidate term, and returns the fit with the lowest AIC.
 /// If no term lowers AIC, returns the fit with the most significant candidate if its score test
 /// exceeds 20 standard errors (kBeyondDoubt), else empty. Reason: in one round, AIC may rise
@@ -207,12 +220,7 @@ std::optional<NoiseIteration> likeliest_with_one_more(const NoiseIteration& sett
       strongest = fit;
     }
     has_sensor |= lowest.consider(std::move(fit)) && is_sensor;
-    // The same wheel encoders often measure both speed and yaw rate, so slip of both is one trial.
-    if (more.kind == FreeQuantity::Kind::kWheelSlip && more.channel == LogChannel::kSpeed) {
-      if (const auto both = with_slip_of_yaw(terms, candidate_term)) {
-        lowest.consider(tried(settled, *both, loss));
-      }
-    }
+    consider_slip_of_both(settled, terms, candidate_term, loss, lowest);
     if (more.kind == FreeQuantity::Kind::kDelay) consider_motor_lag(settled, found_s, loss, lowest);
     if (found_s > 0.0 && is_sensor && is_often_filtered(more.channel)) {
       filters.emplace_back(more.channel, found_s);

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <string_view>
 
 #include "awmr/core/index.h"
 #include "awmr/identify/logs/log_fit_options.h"
@@ -98,6 +101,40 @@ Interval range_of(const FreeQuantity& quantity) {
   return {};
 }
 
+/// Name of a kind of quantities. `is_of_channel`: there is one for each channel, and the name of
+/// the channel follows.
+struct NamedKind {
+  FreeQuantity::Kind kind;
+  std::string_view name;
+  bool is_of_channel = false;
+};
+
+/// All kinds except kParameter and kExtraForce. kWheelSlip: see also FreeQuantity::is_ratio.
+constexpr NamedKind kNamedKinds[] = {
+    {FreeQuantity::Kind::kDelay, kInputDelayName},
+    {FreeQuantity::Kind::kSteeringDelay, kSteeringDelayName},
+    {FreeQuantity::Kind::kMotorLag, kMotorLagName},
+    {FreeQuantity::Kind::kSteeringTrim, kSteeringTrimName},
+    {FreeQuantity::Kind::kSteeringDeadBand, kSteeringDeadBandName},
+    {FreeQuantity::Kind::kSteeringAsymmetry, kSteeringAsymmetryName},
+    {FreeQuantity::Kind::kSteeringCurve, kSteeringCurveName},
+    {FreeQuantity::Kind::kSteeringScale, kSteeringScaleName},
+    {FreeQuantity::Kind::kServoRate, kServoRateName},
+    {FreeQuantity::Kind::kForceImbalance, kForceImbalanceName},
+    {FreeQuantity::Kind::kForceExponent, kForceExponentName},
+    {FreeQuantity::Kind::kForceSaturation, kForceSaturationName},
+    {FreeQuantity::Kind::kSaturationSharpness, kSaturationSharpnessName},
+    {FreeQuantity::Kind::kSensorDelay, kSensorDelayPrefix, true},
+    {FreeQuantity::Kind::kSensorLag, kSensorLagPrefix, true},
+    {FreeQuantity::Kind::kSmoothing, kSmoothingPrefix, true},
+    {FreeQuantity::Kind::kSensorScale, kSensorScalePrefix, true},
+    {FreeQuantity::Kind::kWheelSlip, kSlipPrefix, true},
+    {FreeQuantity::Kind::kSwayOffset, kSwayOffsetName},
+    {FreeQuantity::Kind::kSwayAngle, kSwayAngleName},
+    {FreeQuantity::Kind::kBias, kBiasPrefix, true},
+};
+static_assert(std::size(kNamedKinds) + 2 == at(FreeQuantity::Kind::kSwayAngle) + 1);
+
 Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   if (quantity.kind == FreeQuantity::Kind::kParameter) {
     return parameter_bounds(quantity, initial, vehicle);
@@ -109,55 +146,13 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
 }  // namespace
 
 std::string FreeQuantity::name() const {
-  switch (kind) {
-    case Kind::kParameter:
-      return std::string(info(id).name);
-    case Kind::kDelay:
-      return std::string(kInputDelayName);
-    case Kind::kSteeringDelay:
-      return std::string(kSteeringDelayName);
-    case Kind::kMotorLag:
-      return std::string(kMotorLagName);
-    case Kind::kSteeringTrim:
-      return std::string(kSteeringTrimName);
-    case Kind::kSteeringDeadBand:
-      return std::string(kSteeringDeadBandName);
-    case Kind::kSteeringAsymmetry:
-      return std::string(kSteeringAsymmetryName);
-    case Kind::kSteeringCurve:
-      return std::string(kSteeringCurveName);
-    case Kind::kSteeringScale:
-      return std::string(kSteeringScaleName);
-    case Kind::kServoRate:
-      return std::string(kServoRateName);
-    case Kind::kForceImbalance:
-      return std::string(kForceImbalanceName);
-    case Kind::kForceExponent:
-      return std::string(kForceExponentName);
-    case Kind::kForceSaturation:
-      return std::string(kForceSaturationName);
-    case Kind::kSaturationSharpness:
-      return std::string(kSaturationSharpnessName);
-    case Kind::kExtraForce:
-      return std::string(kExtraForceNames[at(force)]);
-    case Kind::kSensorDelay:
-      return fmt::format("{}{}", kSensorDelayPrefix, info(channel).name);
-    case Kind::kSensorLag:
-      return fmt::format("{}{}", kSensorLagPrefix, info(channel).name);
-    case Kind::kSmoothing:
-      return fmt::format("{}{}", kSmoothingPrefix, info(channel).name);
-    case Kind::kSensorScale:
-      return fmt::format("{}{}", kSensorScalePrefix, info(channel).name);
-    case Kind::kWheelSlip:
-      return fmt::format("{}{}", is_ratio ? kSlipRatioPrefix : kSlipPrefix, info(channel).name);
-    case Kind::kSwayOffset:
-      return std::string(kSwayOffsetName);
-    case Kind::kSwayAngle:
-      return std::string(kSwayAngleName);
-    case Kind::kBias:
-      return fmt::format("{}{}", kBiasPrefix, info(channel).name);
-  }
-  return {};
+  if (kind == Kind::kParameter) return std::string(info(id).name);
+  if (kind == Kind::kExtraForce) return std::string(kExtraForceNames[at(force)]);
+  const auto named = std::ranges::find(kNamedKinds, kind, &NamedKind::kind);
+  assert(named != std::end(kNamedKinds));
+  const bool is_slip_ratio = kind == Kind::kWheelSlip && is_ratio;
+  return fmt::format("{}{}", is_slip_ratio ? kSlipRatioPrefix : named->name,
+                     named->is_of_channel ? info(channel).name : std::string_view());
 }
 
 double FreeQuantity::value(double coordinate) const { return from_coordinate(scale, coordinate); }
