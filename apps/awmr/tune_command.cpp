@@ -36,11 +36,12 @@ Result<Tuning> tune_with_progress(const Model& model, TuneOptions options) {
 }
 
 /// Checks that no option contradicts tune.json. Errors (input, `conflict`): those of
-/// check_observer_choice(); `--draws`, with the key `nominal`.
+/// check_observer_choice() and check_mode_choice(); `--draws`, with the key `nominal`.
 Status check_against(const TuneConfig& config, const TuneCommand& command) {
   const TuneOptions& options = config.options;
   AWMR_RETURN_IF_ERROR(check_observer_choice(
       command.observer, options, command.observer == false ? "--no-observer" : "--observer"));
+  AWMR_RETURN_IF_ERROR(check_mode_choice(command.mode, command.one_set, options));
   if (command.draws && options.nominal) {
     return input_error(
         ErrorCode::kConflict, "--draws",
@@ -65,6 +66,14 @@ std::vector<Finding> overridden_keys(const TuneConfig& config, const TuneCommand
     note("mode", std::string(options.mode ? name_of(*options.mode) : ""),
          std::string(name_of(*command.mode)));
   }
+  const auto note_flag = [&](const char* option, bool is_given, const char* key) {
+    if (!is_given || !config.keys.contains(key)) return;
+    findings.push_back({command.config->string(), 0, Severity::kNote, "option-overrides",
+                        fmt::format("{} replaces {} of this file", option_text(option), key)});
+  };
+  note_flag("one_set", command.one_set && !options.one_set, "one_set");
+  note_flag("nominal", command.nominal && !options.nominal, "nominal");
+  note_flag("no_observer", command.observer == false && options.adds_observer, "no_observer");
   if (command.draws)
     note("draws", fmt::format("{}", options.draws), fmt::format("{}", *command.draws));
   if (command.baseline) {

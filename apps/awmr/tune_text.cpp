@@ -35,23 +35,19 @@ std::string described(const std::string& name, const std::vector<ConstraintRepor
                      report->meaning);
 }
 
-/// An active constraint is printed only if it matters: widening its limit by 10 % would improve the
-/// objective by at least this fraction.
-constexpr double kLeastGain = 0.001;
-
-/// Describes the active constraints that keep the search from a better objective. For each, it
-/// gives the improvement by a wider limit, the key that sets the limit, and what is limited.
-/// Constraints with less effect than kLeastGain are left out (gains.json has them). Also gives the
-/// ranges of the gains mu and mu_s in which the objective is practically the same.
+/// Describes the active constraints, those of `/search/active` of gains.json. For each, it gives
+/// the improvement of the objective by a wider limit, the key that sets the limit, and what is
+/// limited. Also gives the ranges of the gains mu and mu_s in which the objective is practically
+/// the same.
 std::string active_text(const Tuning& tuning) {
   constexpr std::size_t kTextIndent = 12;
   constexpr std::size_t kTextWidth = 98;
   std::string held;
   for (const ActiveConstraint& one : tuning.active) {
-    if (one.wider_gains < kLeastGain) continue;
     const std::string text = described(one.name, tuning.constraints);
-    held += fmt::format("  {:>6.1f} %  {}\n", 100.0 * one.wider_gains,
-                        wrapped(text, kTextIndent, kTextWidth));
+    const std::string percent =
+        one.wider_gains < 0.001 ? "< 0.1" : fmt::format("{:.1f}", 100.0 * one.wider_gains);
+    held += fmt::format("  {:>6} %  {}\n", percent, wrapped(text, kTextIndent, kTextWidth));
   }
   return fmt::format(
       "  active limits  {}\n{}"

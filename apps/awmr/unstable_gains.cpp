@@ -22,10 +22,10 @@ std::vector<Finding> unstable_findings(const Model& model, const ModeGains& gain
   for (const UnstableLoop& loop : unstable_loops(model, gains, conditions, mode)) {
     findings.push_back(
         {gains_file.string(), 0, Severity::kWarning, "unstable-gains",
-         fmt::format("the {}{} is unstable: {} is {:.3g} 1/s, too fast for the sample time of {:g} "
+         fmt::format("the {}{} is unstable: {} is {:.3g} {}, too fast for the sample time of {:g} "
                      "s with the latency and the lag of sensors, servo and motors. Tune again for "
                      "this model (awmr tune)",
-                     loop.name, place, loop.rate_name, loop.rate_per_s,
+                     loop.name, place, loop.rate_name, loop.rate, loop.unit,
                      model.vehicle.sample_time_s)});
   }
   return findings;

@@ -101,13 +101,22 @@ TEST(GainsFile, ReadsTheGainsOfSingleModes) {
   EXPECT_EQ(read_mode_gains(both.path()).error().faults.front().code, ErrorCode::kConflict);
 }
 
-TEST(GainsFile, IgnoresTheOtherKeysOfTheFormat) {
+TEST(GainsFile, IgnoresTheContentOfTheOtherKeysOfTheFormat) {
   Json json = Json::parse(kText);
-  for (const char* key : {"command", "version", "options", "inputs", "time_constants",
-                          "constraints", "objective", "metrics", "search", "baseline"}) {
+  for (const char* key : {"command", "version", "options", "inputs", "time_constants", "objective",
+                          "metrics", "search", "baseline"}) {
     json[key] = Json::object({{"anything", 1}});
   }
+  json["constraints"] = Json::array({Json::object({{"anything", 1}})});
   EXPECT_THAT(faults_of(read_gains, json.dump()), IsEmpty());
+}
+
+TEST(GainsFile, RefusesResultsOfAnotherType) {
+  for (const char* key : {"limits", "certificate", "metrics", "robust", "constraints"}) {
+    Json json = Json::parse(kText);
+    json[key] = 3;
+    EXPECT_EQ(faults_of(read_gains, json.dump()).size(), 1U) << key;
+  }
 }
 
 TEST(GainsFile, HasThePapersGainsWithTheirTimeConstants) {

@@ -238,12 +238,37 @@ TEST(Certificate, OfAModelWithoutACovarianceIsThatOfItsOwnValues) {
   for (const ModeCertificate& one : certificate.modes) {
     EXPECT_EQ(one.damping.parameters.front().second, 0.3028);
     double least = 1.0;
-    for (const double rate : {certificate.yaw_rate_radps.lo, certificate.yaw_rate_radps.hi}) {
+    for (const double rate : {one.yaw_rate_radps.lo, one.yaw_rate_radps.hi}) {
       least = std::min(least, damping_ratio(certified_loop(kPaperGains, context, context.plant,
                                                            rate, one.mode)));
     }
     EXPECT_LE(one.damping.value, least);
   }
+}
+
+TEST(Certificate, CoversTheYawRatesOfTheRunsOfEachMode) {
+  const Model model = paper_model();
+  const ConstraintContext context = context_of(model);
+  const Interval examined = examined_rates_radps(context);
+  std::vector<ModeScore> runs(3);
+  runs[0].mode = YawMode::kDifferential;
+  runs[0].metrics.yaw_rate_max_degps = 150.0;
+  runs[1].mode = YawMode::kSteering;
+  runs[1].metrics.yaw_rate_max_degps = 20.0;
+  runs[2].mode = YawMode::kCombined;
+  runs[2].metrics.yaw_rate_max_degps = 1e4;
+  runs[2].has_failed = true;
+  const Certificate certificate = certify(model, context, {}, kPaperGains, runs).value();
+  for (const ModeCertificate& one : certificate.modes) {
+    EXPECT_EQ(one.yaw_rate_radps.lo, examined.lo);
+    const bool is_faster = one.mode == YawMode::kDifferential;
+    EXPECT_EQ(one.yaw_rate_radps.hi, is_faster ? radians(150.0) : examined.hi);
+    const SampledHeadingLoop loop =
+        certified_loop(kPaperGains, context, context.plant, one.yaw_rate_radps.hi, one.mode);
+    EXPECT_LE(one.damping.value, damping_ratio(loop));
+    EXPECT_LE(one.delay_margin_s.value, delay_margin_s(loop));
+  }
+  EXPECT_EQ(certificate.yaw_rate_radps().hi, radians(150.0));
 }
 
 TEST(Certificate, CoversTheMassesThatAreOpen) {

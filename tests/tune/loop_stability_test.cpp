@@ -105,11 +105,31 @@ TEST(UnstableLoops, CountTheResistanceOfTheVehicle) {
   const auto unstable = unstable_loops(model, faster, kIdealConditions);
   ASSERT_THAT(unstable, SizeIs(1));
   EXPECT_THAT(unstable.front().name, HasSubstr("heading loop in mode"));
-  EXPECT_NEAR(unstable.front().rate_per_s, 150.4849, 1e-9);
+  EXPECT_NEAR(unstable.front().rate, 150.4849, 1e-9);
   const Gains<double> fast_speed{{0.4849, 5.0, 1.0}, {150.0, 1.0}};
   const auto speed = unstable_loops(model, fast_speed, kIdealConditions);
   ASSERT_THAT(speed, SizeIs(1));
   EXPECT_THAT(speed.front().name, HasSubstr("speed loop at"));
+}
+
+TEST(UnstableLoops, NameTheObserverIfTheLoopIsStableWithoutIt) {
+  LoopConditions late = kIdealConditions;
+  late.heading_latency_s = 0.1;
+  late.speed_latency_s = 0.1;
+  Gains<double> gains = kPaperGains;
+  EXPECT_THAT(unstable_loops(paper_model(), gains, late), IsEmpty());
+  // With a latency of 0.1 s, the observer alone is unstable above about (pi/2)/0.1 s = 16 rad/s.
+  gains.observer = {50.0, 1.0, 1.0};
+  const auto unstable = unstable_loops(paper_model(), gains, late);
+  ASSERT_THAT(unstable, SizeIs(2));
+  for (const UnstableLoop& loop : unstable) {
+    EXPECT_THAT(loop.rate_name, HasSubstr("observer")) << loop.name;
+    EXPECT_EQ(loop.rate, 50.0);
+    EXPECT_EQ(loop.unit, "rad/s");
+  }
+  // With these gains, the heading loop is unstable without observer, too.
+  gains.heading.mu = 40.0 * gains.heading.epsilon;
+  EXPECT_EQ(unstable_loops(paper_model(), gains, late).front().rate_name, "lambda + mu/epsilon");
 }
 
 TEST(UnstableLoops, CountTheLatencyOfTheSensors) {

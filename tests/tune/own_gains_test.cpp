@@ -32,6 +32,34 @@ Model truck_with_a_slow_servo() {
                    .measured_degps = 0.0});
 }
 
+/// Gains as in a file with gains by mode.
+ModeGains gains_by_mode() {
+  ModeGains gains(Gains<double>{{1.0, 5.0, 2.0}, {1.0, 0.5}});
+  gains.set(YawMode::kSteering, {{0.5, 3.0, 2.0}, {1.0, 0.5}});
+  return gains;
+}
+
+TEST(OwnGains, AreComparedWithTheBaselineOfEachMode) {
+  const Model model = truck_with_a_slow_servo();
+  TuneOptions options;
+  options.nominal = true;
+  options.baseline = Baseline{gains_by_mode(), "before.json"};
+  const Result<Tuning> tuning = tune(model, options);
+  ASSERT_TRUE(tuning) << to_text(tuning.error());
+  ASSERT_EQ(tuning->own.size(), 2U);
+  for (const Tuning& one : tuning->own) {
+    const Gains<double> expected = gains_by_mode().in(*one.mode);
+    EXPECT_EQ(one.baseline.gains.common().heading.lambda, expected.heading.lambda)
+        << name_of(*one.mode);
+    // The baseline's own scores are 1, those of the tuned gains are relative to them.
+    for (std::size_t i = 0; i < one.scores.size(); ++i) {
+      EXPECT_NEAR(one.baseline_scores[i].objective, 1.0, 1e-12);
+      EXPECT_NEAR(one.scores[i].objective,
+                  objective_of(one.scores[i], one.baseline_scores[i], options.weights), 1e-12);
+    }
+  }
+}
+
 TEST(OwnGains, OfEachModeSettleASlowServosOtherModesFaster) {
   const Model model = truck_with_a_slow_servo();
   TuneOptions options;

@@ -651,6 +651,7 @@ TEST(Search, RefusesGainsWithWhichNoRunSettles) {
   options.local_evaluations = 10;
   options.scenarios[0].guidance = HeadingSteps{{{0.0, radians(30.0)}}};
   options.scenarios[0].duration_s = 0.3;
+  options.file = "tune.json";
   const Result<Tuning> tuning = tune(paper_model(), options);
   ASSERT_FALSE(tuning);
   EXPECT_EQ(tuning.error().kind, ErrorKind::kRefused);
@@ -960,6 +961,8 @@ std::string refusal_of(const TuneOptions& options) {
 TEST(Refusal, NamesTheBoundAtFaultInsteadOfTheLimitThatItViolates) {
   TuneOptions options = short_options();
   options.bounds.lambda = Interval{20.0, 30.0};
+  EXPECT_THAT(refusal_of(options), ::testing::StartsWith("error: no gains"));
+  options.file = "tune.json";
   const std::string message = refusal_of(options);
   EXPECT_THAT(message, ::testing::StartsWith("error: tune.json:/"));
   EXPECT_THAT(message, ::testing::HasSubstr("no-gains"));

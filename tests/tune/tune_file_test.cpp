@@ -68,6 +68,21 @@ TEST_F(TuneFile, ReadsAnObserver) {
   EXPECT_EQ(given->options.observer->surge_max, 0.5);
 }
 
+TEST_F(TuneFile, RefusesOneSetTogetherWithAMode) {
+  EXPECT_TRUE(read(R"({"mode": "steering", "one_set": false})"));
+  EXPECT_EQ(read(R"({"mode": "steering", "one_set": true})").error().faults.front().code,
+            ErrorCode::kConflict);
+  const auto code = [&](const char* text, std::optional<YawMode> mode, bool one_set) {
+    const Status status = check_mode_choice(mode, one_set, read(text)->options);
+    return status ? std::nullopt : std::optional(status.error().faults.front().code);
+  };
+  EXPECT_EQ(code(R"({"one_set": true})", YawMode::kSteering, false), ErrorCode::kConflict);
+  EXPECT_EQ(code(R"({"mode": "steering"})", std::nullopt, true), ErrorCode::kConflict);
+  EXPECT_EQ(code(R"({"one_set": true})", std::nullopt, true), std::nullopt);
+  EXPECT_EQ(code(R"({"mode": "steering"})", YawMode::kCombined, false), std::nullopt);
+  EXPECT_EQ(code("{}", YawMode::kSteering, false), std::nullopt);
+}
+
 TEST_F(TuneFile, RefusesDrawsTogetherWithNominal) {
   for (const char* more : {R"("draws": 16)", R"("judged_draws": 10)", R"("tail_share": 0.5)"}) {
     const auto config = read(std::string(R"({"nominal": true, )") + more + "}");

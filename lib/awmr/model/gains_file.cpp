@@ -38,14 +38,16 @@ Gains<double> gains_from_json(JsonObject& root) {
 
 namespace {
 
-/// Reads one set of gains. The results of its tuning are ignored; other keys are rejected.
+/// Reads one set of gains. Of the results of its tuning, only the type is checked: an object, or a
+/// list of objects. Other keys are rejected.
 Gains<double> gains_with_results(JsonObject& json) {
   const Gains<double> gains = gains_from_json(json);
   for (const std::string_view key :
-       {"time_constants", "constraints", "limits", "certificate", "trade_off", "examined",
-        "objective", "metrics", "robust", "goals", "search", "baseline"}) {
-    json.ignore(key);
+       {"time_constants", "limits", "certificate", "trade_off", "examined", "objective", "metrics",
+        "robust", "search", "baseline"}) {
+    json.optional_object(key);
   }
+  for (const std::string_view key : {"constraints", "goals"}) json.optional_objects(key);
   json.reject_unknown_keys();
   return gains;
 }

@@ -10,6 +10,7 @@
 #include "awmr/core/distributions.h"
 #include "awmr/core/parallel.h"
 #include "awmr/core/random.h"
+#include "awmr/core/units.h"
 #include "awmr/tune/objective.h"
 
 namespace awmr {
@@ -179,6 +180,15 @@ double Certificate::delay_margin_s() const {
       .delay_margin_s.value;
 }
 
+Interval Certificate::yaw_rate_radps() const {
+  Interval all = modes.front().yaw_rate_radps;
+  for (const ModeCertificate& one : modes) {
+    all.lo = std::min(all.lo, one.yaw_rate_radps.lo);
+    all.hi = std::max(all.hi, one.yaw_rate_radps.hi);
+  }
+  return all;
+}
+
 Result<ConfidenceSet> ConfidenceSet::make(const Model& model) {
   ConfidenceSet set;
   AWMR_ASSIGN_OR_RETURN(set.own_, model.plant());
@@ -214,19 +224,15 @@ SampledHeadingLoop certified_loop(const Gains<double>& gains, const ConstraintCo
 
 namespace {
 
-/// Inputs that define the heading loops of certify(): a confidence set of plants, the factors of
-/// their mass, and the range of the yaw rate.
+/// Inputs that define the heading loops of certify(): a confidence set of plants, and the factors
+/// of their mass.
 struct CertifiedLoops {
   const Model& model;
   const ConstraintContext& context;
   const Gains<double>& gains;
   const ConfidenceSet& set;
-  Interval rates_radps;
   std::vector<double> mass_factors;
 
-  double rate_at(const SetPoint& point) const {
-    return rates_radps.lo * std::pow(rates_radps.hi / rates_radps.lo, point.back());
-  }
   std::optional<Plant<double>> plant_at(const SetPoint& point, double mass_factor) const {
     auto plant = set.plant_at(std::span(point).first(point.size() - 1));
     if (plant) plant->inertia_norm *= mass_factor;
@@ -235,53 +241,64 @@ struct CertifiedLoops {
 };
 
 /// Smallest value of `measure` (damping ratio or delay margin) over the heading loops in this mode.
-WorstCase worst_case(const CertifiedLoops& loops, YawMode mode,
+WorstCase worst_case(const CertifiedLoops& loops, const ModeCertificate& mode,
                      double (*measure)(const SampledHeadingLoop&)) {
+  const auto rate_at = [&rates = mode.yaw_rate_radps](const SetPoint& point) {
+    return rates.lo * std::pow(rates.hi / rates.lo, point.back());
+  };
   WorstCase worst{.value = std::numeric_limits<double>::infinity()};
   for (const double mass_factor : loops.mass_factors) {
     const ValuedPoint least = least_over_set(loops.set.dimension(), [&](const SetPoint& point) {
       const auto plant = loops.plant_at(point, mass_factor);
       if (!plant) return std::numeric_limits<double>::infinity();
-      return measure(
-          certified_loop(loops.gains, loops.context, *plant, loops.rate_at(point), mode));
+      return measure(certified_loop(loops.gains, loops.context, *plant, rate_at(point), mode.mode));
     });
     if (least.value >= worst.value && !worst.parameters.empty()) continue;
     const Plant<double> plant = loops.plant_at(least.point, mass_factor).value();
     worst = {.value = least.value,
-             .yaw_rate_radps = loops.rate_at(least.point),
+             .yaw_rate_radps = rate_at(least.point),
              .parameters = loop_parameters(loops.model, plant)};
   }
   return worst;
 }
 
+/// The yaw rates to examine in a mode: examined_rates_radps(), and up to the highest yaw rate in
+/// its runs. A run that broke off does not count.
+Interval rates_in(YawMode mode, const ConstraintContext& context, std::span<const ModeScore> runs) {
+  Interval rates = examined_rates_radps(context);
+  for (const ModeScore& run : runs) {
+    if (run.mode != mode || run.has_failed) continue;
+    rates.hi = std::max(rates.hi, radians(run.metrics.yaw_rate_max_degps));
+  }
+  return rates;
+}
+
 }  // namespace
 
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
-                            const UnmodelledVariation& open, const Gains<double>& gains) {
+                            const UnmodelledVariation& open, const Gains<double>& gains,
+                            std::span<const ModeScore> runs) {
   AWMR_ASSIGN_OR_RETURN(const ConfidenceSet set, ConfidenceSet::make(model));
-  const Interval rates = examined_rates_radps(context);
   Certificate certificate{.parameters = set.parameters(),
                           .degrees_of_freedom = set.rank(),
-                          .yaw_rate_radps = rates,
                           .latency_s = context.latency_s,
                           .motor_time_constant_s = context.motor_time_constant_s,
                           .modes = {}};
   for (const YawMode mode : tuned_modes(model.vehicle, context.mode)) {
-    certificate.modes.push_back({.mode = mode});
+    certificate.modes.push_back({.mode = mode, .yaw_rate_radps = rates_in(mode, context, runs)});
   }
   const CertifiedLoops loops{
       .model = model,
       .context = context,
       .gains = gains,
       .set = set,
-      .rates_radps = rates,
       .mass_factors = open.mass_factors.empty() ? std::vector<double>{1.0} : open.mass_factors};
   parallel_for(2 * certificate.modes.size(), 0, [&](std::size_t i) {
     ModeCertificate& one = certificate.modes[i / 2];
     if (i % 2 == 0) {
-      one.damping = worst_case(loops, one.mode, damping_ratio);
+      one.damping = worst_case(loops, one, damping_ratio);
     } else {
-      one.delay_margin_s = worst_case(loops, one.mode, delay_margin_s);
+      one.delay_margin_s = worst_case(loops, one, delay_margin_s);
     }
   });
   return certificate;

@@ -21,7 +21,8 @@ namespace awmr {
 ///     constant T. Plants with a negative exponent or resistance term are left out. In standard
 ///     normal coordinates n, the ellipsoid is |n| <= r, where r^2 is the 0.95 quantile of the
 ///     chi-squared distribution with PlantSampler::rank() degrees of freedom;
-///   - all yaw rates in examined_rates_radps();
+///   - all yaw rates in examined_rates_radps(), and up to the highest yaw rate in the `runs` of the
+///     mode, which can be higher;
 ///   - the mass factors of `open`.
 /// If the model has no covariance, only the identified plant is examined. The heading law always
 /// uses the identified plant, `context.plant`.
@@ -32,7 +33,8 @@ namespace awmr {
 /// (5,000 for the delay margin) is worse by more than kCertificateTolerance
 /// (tests/tune/certificate_test.cpp). Errors (input): those of PlantSampler::make().
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
-                            const UnmodelledVariation& open, const Gains<double>& gains);
+                            const UnmodelledVariation& open, const Gains<double>& gains,
+                            std::span<const ModeScore> runs = {});
 
 /// Accepted error of the minima that the search finds: absolute for a damping ratio, relative for a
 /// delay margin.

@@ -166,6 +166,11 @@ void check_late_limits(const TuneOptions& options, std::vector<Fault>& faults) {
 
 void check_mode(const TuneOptions& options, const Vehicle& vehicle, std::vector<Fault>& faults) {
   if (!options.mode) return;
+  if (options.one_set) {
+    faults.push_back({ErrorCode::kConflict, "",
+                      "one_set requests one set of gains for all modes, but \"mode\" tunes for one "
+                      "mode only; remove one of the two"});
+  }
   const std::span<const YawMode> modes = yaw_modes(vehicle);
   if (std::ranges::find(modes, *options.mode) == modes.end()) {
     faults.push_back(

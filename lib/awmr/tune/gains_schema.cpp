@@ -184,6 +184,7 @@ void describe_certificate(JsonObject json) {
   json.interval("yaw_rate_degps");
   JsonObject modes = json.object("modes");
   for (JsonObject& mode : modes.values()) {
+    mode.optional_interval("yaw_rate_degps");  // absent in older files: that of all modes
     describe_worst_case(mode.object("damping"), "min");
     describe_worst_case(mode.object("delay_margin"), "min_s");
     mode.reject_unknown_keys();

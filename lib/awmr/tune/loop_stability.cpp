@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "awmr/core/units.h"
 #include "awmr/model/steady.h"
@@ -22,15 +23,36 @@ bool is_stable(const SampledHeadingLoop& loop) {
   return damping_ratio(prompt) > 0.0 && loop.command_delay_s < delay_margin_s(prompt);
 }
 
+/// An unstable loop whose cause is the rate of its law.
+UnstableLoop unstable_by(std::string name, const char* rate_name, double rate) {
+  return {.name = std::move(name), .rate_name = rate_name, .rate = rate};
+}
+
+/// An unstable loop whose cause is its disturbance observer.
+UnstableLoop unstable_by_observer(std::string name, double bandwidth_radps) {
+  return {.name = std::move(name),
+          .rate_name = "the bandwidth of its disturbance observer",
+          .rate = bandwidth_radps,
+          .unit = "rad/s"};
+}
+
+SampledHeadingLoop without_observer(SampledHeadingLoop loop) {
+  loop.observer_radps = 0.0;
+  return loop;
+}
+
 std::optional<UnstableLoop> unstable_heading(const Gains<double>& gains,
                                              const ConstraintContext& context, YawMode mode) {
   for (const double share : kRateShares) {
     const double rate_radps = examined_rate_radps(share, context);
     const SampledHeadingLoop loop = certified_loop(gains, context, context.plant, rate_radps, mode);
     if (is_stable(loop)) continue;
-    return UnstableLoop{
-        fmt::format("heading loop in mode {} at {:.3g} deg/s", name_of(mode), degrees(rate_radps)),
-        "lambda + mu/epsilon", loop.lambda + loop.reaching_rate};
+    std::string name =
+        fmt::format("heading loop in mode {} at {:.3g} deg/s", name_of(mode), degrees(rate_radps));
+    return is_stable(without_observer(loop))
+               ? unstable_by_observer(std::move(name), loop.observer_radps)
+               : unstable_by(std::move(name), "lambda + mu/epsilon",
+                             loop.lambda + loop.reaching_rate);
   }
   return std::nullopt;
 }
@@ -62,8 +84,10 @@ std::optional<UnstableLoop> unstable_speed(const Gains<double>& gains,
                                            const ConstraintContext& context, double latency_s) {
   const SampledHeadingLoop loop = sampled_speed_loop(gains, context, latency_s);
   if (speed_damping_ratio(loop) > 0.0) return std::nullopt;
-  return UnstableLoop{fmt::format("speed loop at {:.3g} m/s", context.speed_mps), "mu_s/epsilon_s",
-                      loop.reaching_rate};
+  std::string name = fmt::format("speed loop at {:.3g} m/s", context.speed_mps);
+  return speed_damping_ratio(without_observer(loop)) > 0.0
+             ? unstable_by_observer(std::move(name), loop.observer_radps)
+             : unstable_by(std::move(name), "mu_s/epsilon_s", loop.reaching_rate);
 }
 
 }  // namespace

@@ -16,8 +16,11 @@ namespace awmr {
 struct UnstableLoop {
   /// Name and operating point, such as "heading loop in mode steering at 12 deg/s".
   std::string name;
-  std::string rate_name;    ///< formula of the rate of its law, such as "mu/epsilon"
-  double rate_per_s = 0.0;  ///< value of this formula, 1/s
+  /// The cause: formula of the rate of its law, such as "mu/epsilon", or the bandwidth of the
+  /// disturbance observer if the loop is stable without observer.
+  std::string rate_name;
+  double rate = 0.0;  ///< value of the cause
+  std::string unit = "1/s";
 };
 
 /// Returns the unstable loops of the identified vehicle: at most one heading loop and the speed

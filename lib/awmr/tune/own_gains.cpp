@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "awmr/model/gains_json.h"
 #include "awmr/tune/settling.h"
 
 namespace awmr {
@@ -40,40 +41,70 @@ bool is_better(const Gains<double>& own, const Gains<double>& common, const Obje
          settled_share(runs, own) >= settled_share(runs, common);
 }
 
-/// Replaces the objectives of `tuning` (over all modes) by the objectives in the runs of one mode.
+/// Replaces the objectives and scores of `tuning` (over all modes) by those in the runs of one mode.
+/// They are relative to the baseline of `objective`, which is Tuning::baseline.
 void evaluate_in(const Objective& objective, const Scenario& held_out, Tuning& tuning) {
-  tuning.objective = objective(tuning.gains).objective;
+  const Evaluation evaluation = objective(tuning.gains);
+  tuning.objective = evaluation.objective;
+  tuning.scores = evaluation.scores;
   tuning.baseline_objective = objective.baseline().objective;
+  tuning.baseline_scores = objective.baseline().scores;
   ObjectiveSetting elsewhere = objective.setting();
   elsewhere.scenarios = {held_out};
   const Objective of_held_out(std::move(elsewhere), tuning.baseline.gains.common());
-  tuning.held_out_objective = of_held_out(tuning.gains).objective;
+  const Evaluation held_out_evaluation = of_held_out(tuning.gains);
+  tuning.held_out_objective = held_out_evaluation.objective;
+  tuning.held_out_scores = held_out_evaluation.scores;
+}
+
+/// Returns the results for a mode that keeps the gains for all modes, `common`. `objective`: of the
+/// runs of the mode, relative to its `baseline`.
+Result<Tuning> kept(const Tuning& common, const Objective& objective, const Scenario& held_out,
+                    Baseline baseline, const ModeTuning& steps) {
+  const bool is_other =
+      gains_to_json(baseline.gains.common()) != gains_to_json(common.baseline.gains.common());
+  Tuning tuning = in_mode(common, *objective.setting().mode);
+  tuning.baseline = std::move(baseline);
+  evaluate_in(objective, held_out, tuning);
+  if (!is_other) return tuning;
+  // The trade-off is that of all modes, with the baseline of combined mode.
+  std::erase_if(tuning.trade_off.named,
+                [](const NamedTradeOff& one) { return one.gains == "baseline"; });
+  AWMR_RETURN_IF_ERROR(steps.compare_with_baseline(tuning));
+  return tuning;
 }
 
 }  // namespace
 
-std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Scenario& held_out,
-                                     const Tuning& common,
-                                     const std::function<Result<Tuning>(YawMode)>& search) {
+Result<std::optional<Tuning>> with_own_gains(const ObjectiveSetting& setting,
+                                             const Scenario& held_out, const Tuning& common,
+                                             const std::optional<Baseline>& requested,
+                                             const ModeTuning& steps) {
   bool is_any_better = false;
   std::vector<Tuning> all;
   std::vector<ModeCertificate> certified;
   for (const YawMode mode : setting.modes()) {
-    Result<Tuning> own = search(mode);
-    const Objective objective(runs_in(setting, {}, mode), common.baseline.gains.common());
+    Result<Tuning> own = steps.search(mode);
+    Baseline baseline = requested ? requested->in(mode) : common.baseline;
+    const Objective objective(runs_in(setting, {}, mode), baseline.gains.common());
     const bool is_used = own && is_better(own->gains, common.gains, objective);
     is_any_better = is_any_better || is_used;
-    all.push_back(is_used ? *std::move(own) : in_mode(common, mode));
-    if (!is_used) evaluate_in(objective, held_out, all.back());
+    if (is_used) {
+      all.push_back(*std::move(own));
+    } else {
+      AWMR_ASSIGN_OR_RETURN(Tuning same,
+                            kept(common, objective, held_out, std::move(baseline), steps));
+      all.push_back(std::move(same));
+    }
     if (all.back().gains.observer.is_on()) all.back().observer_added |= common.observer_added;
     certified.push_back(all.back().certificate->modes.front());
   }
-  if (!is_any_better) return std::nullopt;
+  if (!is_any_better) return std::optional<Tuning>();
   Tuning tuning = std::move(all.back());  // combined is the last mode
   all.pop_back();
   tuning.certificate->modes = std::move(certified);
   tuning.own = std::move(all);
-  return tuning;
+  return std::optional(std::move(tuning));
 }
 
 }  // namespace awmr

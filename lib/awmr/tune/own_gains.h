@@ -10,15 +10,27 @@
 
 namespace awmr {
 
+/// Steps for one mode, in the setting of the search for all modes.
+struct ModeTuning {
+  /// Tunes for the mode alone.
+  std::function<Result<Tuning>(YawMode)> search;
+  /// Computes again those results for a mode (Tuning::mode) that depend on its baseline,
+  /// Tuning::baseline: the limits that it violates, and the runs of newly drawn vehicles.
+  std::function<Status(Tuning&)> compare_with_baseline;
+};
+
 /// Searches gains for each mode alone. A mode keeps the gains of `common` if its search fails, if
 /// its objective falls by less than 5 %, or if fewer of its runs settle. Returns one Tuning with
 /// all modes: the gains of combined mode in Tuning::gains, those of the other modes in Tuning::own,
 /// and a certificate for all modes. Empty if all modes keep the gains of `common`.
 ///
-/// `setting`: the setting in which `common` was tuned for all modes. `search`: tunes for one mode
-/// in that setting. `held_out`: a scenario that the searches do not use.
-std::optional<Tuning> with_own_gains(const ObjectiveSetting& setting, const Scenario& held_out,
-                                     const Tuning& common,
-                                     const std::function<Result<Tuning>(YawMode)>& search);
+/// `setting`: the setting in which `common` was tuned for all modes. `held_out`: a scenario that
+/// the searches do not use. `requested`: TuneOptions::baseline; if the file of the baseline has
+/// gains by mode, a mode that keeps `common` is compared with those of this mode. Errors: those of
+/// ModeTuning::compare_with_baseline.
+Result<std::optional<Tuning>> with_own_gains(const ObjectiveSetting& setting,
+                                             const Scenario& held_out, const Tuning& common,
+                                             const std::optional<Baseline>& requested,
+                                             const ModeTuning& steps);
 
 }  // namespace awmr

@@ -17,10 +17,11 @@
 namespace awmr {
 namespace {
 
+/// Error at a place in tune.json; without a place if the options are not from a file.
 tl::unexpected<Error> refused_at(const TuneOptions& requested, const std::string& pointer,
                                  ErrorCode code, std::string message) {
-  return tl::unexpected(
-      Error{ErrorKind::kRefused, {{code, requested.file + ":" + pointer, std::move(message)}}});
+  const std::string place = requested.file.empty() ? "" : requested.file + ":" + pointer;
+  return tl::unexpected(Error{ErrorKind::kRefused, {{code, place, std::move(message)}}});
 }
 
 std::string in_words(const Gains<double>& g) {

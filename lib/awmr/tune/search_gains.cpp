@@ -41,9 +41,7 @@ ObjectiveSetting searched(ObjectiveSetting setting, const TuneOptions& options) 
 /// The baseline of one search: the given gains for its mode (for all modes: the gains of combined
 /// mode), or gains by pole placement.
 Baseline baseline_of(const TuneOptions& options, const Gains<double>& poles) {
-  if (!options.baseline) return {poles, kPolePlacement};
-  const auto& [gains, source] = *options.baseline;
-  return {gains.in(options.mode.value_or(YawMode::kCombined)), source};
+  return options.baseline ? options.baseline->in(options.mode) : Baseline{poles, kPolePlacement};
 }
 
 Status check_baseline(const Objective& objective, const Baseline& baseline) {
@@ -236,7 +234,7 @@ Result<Tuning> tuning_of(const Searched& s, const Scenario& held_out) {
   const Evaluation tuned = all(settled.gains);
   AWMR_RETURN_IF_ERROR(check_settling(s, tuned.scores));
   AWMR_ASSIGN_OR_RETURN(Certificate certificate,
-                        certify(model, context, options.open, settled.gains));
+                        certify(model, context, options.open, settled.gains, tuned.scores));
   const Evaluation evaluated = evaluated_in(s, held_out);
   ModesAlone alone = modes_alone(s);
   return Tuning{

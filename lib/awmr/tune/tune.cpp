@@ -14,6 +14,7 @@
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/scenario.h"
+#include "awmr/tune/baseline_limits.h"
 #include "awmr/tune/check_options.h"
 #include "awmr/tune/constraints.h"
 #include "awmr/tune/goals.h"
@@ -177,6 +178,20 @@ Result<Tuning> tune_for(std::optional<YawMode> mode, const Model& model, TuningP
   return tuning;
 }
 
+/// ModeTuning::compare_with_baseline: computes again the results of `tuning` for one mode that
+/// depend on its baseline.
+Status compare_with_baseline(const Model& model, TuningProblem problem, const TuneOptions& options,
+                             Tuning& tuning) {
+  auto& [setting, context, robust] = problem;
+  setting.mode = context.mode = tuning.mode;
+  if (robust) limit_steering_rate(context);
+  const Gains<double>& baseline = tuning.baseline.gains.common();
+  tuning.baseline_violates =
+      violated_by_baseline(baseline, Objective(setting, baseline), context, options);
+  if (!tuning.robust) return {};
+  return evaluate_candidates(model, setting, options, candidates_of(tuning), *tuning.robust);
+}
+
 /// Largest number of RK4 steps of a search. This many steps take some hours.
 constexpr double kMaxSearchSteps = 1e11;
 
@@ -238,6 +253,51 @@ Status check_search_work(const TuneOptions& options, const std::vector<Scenario>
           std::floor(kMaxSearchSteps / steps)));
 }
 
+/// The problem of a search in these scenarios, for all modes or for TuneOptions::mode. Fills in
+/// default limits of the observer in `options`.
+Result<TuningProblem> problem_of(const Model& model, const DrawnVehicle& nominal,
+                                 std::vector<Scenario> scenarios, TuneOptions& options) {
+  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
+  TuningProblem problem{.setting = {.vehicles = {nominal},
+                                    .vehicle = model.vehicle,
+                                    .weights = options.weights,
+                                    .scenarios = std::move(scenarios),
+                                    .tail_share = options.tail_share,
+                                    .seed = options.seed,
+                                    .arithmetic = arithmetic},
+                        .context = {},
+                        .robust = {}};
+  problem.context = context_of(options, nominal.plant, model.vehicle, problem.setting.scenarios);
+  AWMR_RETURN_IF_ERROR(limit_observer(problem.context, options.observer));
+  if (!options.nominal) AWMR_RETURN_IF_ERROR(add_draws(model, options, problem));
+  return problem;
+}
+
+/// Tunes for each mode alone, too, and returns the result by mode; `common`, the result for all
+/// modes, if no mode gets gains of its own.
+Result<Tuning> tune_by_mode(const Model& model, const TuningProblem& problem,
+                            const TuneOptions& options, const Scenario& held_out, Tuning common) {
+  if (options.notice) {
+    options.notice(
+        "a mode may settle much faster with its own gains, so gains are also searched for each "
+        "mode, which takes one to three times as long as the first search");
+  }
+  // If the gains for all modes have an observer, the gains of each mode need an observer, too.
+  // Otherwise, a mode would not reject constant disturbances.
+  TuneOptions of_modes = options;
+  if (common.gains.observer.is_on() && !of_modes.observer) {
+    of_modes.observer.emplace();
+    AWMR_RETURN_IF_ERROR(limit_observer(problem.context, of_modes.observer));
+  }
+  const ModeTuning steps{
+      .search = [&](YawMode mode) { return tune_for(mode, model, problem, of_modes, held_out); },
+      .compare_with_baseline =
+          [&](Tuning& tuning) { return compare_with_baseline(model, problem, options, tuning); }};
+  AWMR_ASSIGN_OR_RETURN(std::optional<Tuning> own,
+                        with_own_gains(problem.setting, held_out, common, options.baseline, steps));
+  return own ? *std::move(own) : std::move(common);
+}
+
 }  // namespace
 
 void choose_observer(std::optional<bool> observer, TuneOptions& options) {
@@ -258,7 +318,6 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   TuneOptions options = requested;
   AWMR_RETURN_IF_ERROR(check_options(options, model.vehicle));
   AWMR_ASSIGN_OR_RETURN(const Plant<double> plant, model.plant());
-  AWMR_ASSIGN_OR_RETURN(const BatchArithmetic arithmetic, batch_arithmetic());
   AWMR_ASSIGN_OR_RETURN(const Scenario held_out, held_out_scenario(model));
   std::vector<Scenario> scenarios = options.scenarios;
   if (scenarios.empty()) {
@@ -268,37 +327,12 @@ Result<Tuning> tune(const Model& model, const TuneOptions& requested) {
   AWMR_RETURN_IF_ERROR(
       check_turning(nominal, tuned_modes(model.vehicle, options.mode), scenarios, model.file));
   AWMR_RETURN_IF_ERROR(check_search_work(options, scenarios, plant, model));
-  TuningProblem problem{.setting = {.vehicles = {nominal},
-                                    .vehicle = model.vehicle,
-                                    .weights = options.weights,
-                                    .scenarios = std::move(scenarios),
-                                    .tail_share = options.tail_share,
-                                    .seed = options.seed,
-                                    .arithmetic = arithmetic},
-                        .context = {},
-                        .robust = {}};
-  problem.context = context_of(options, plant, model.vehicle, problem.setting.scenarios);
-  AWMR_RETURN_IF_ERROR(limit_observer(problem.context, options.observer));
-  if (!options.nominal) AWMR_RETURN_IF_ERROR(add_draws(model, options, problem));
+  AWMR_ASSIGN_OR_RETURN(const TuningProblem problem,
+                        problem_of(model, nominal, std::move(scenarios), options));
   AWMR_ASSIGN_OR_RETURN(Tuning common, tune_for(options.mode, model, problem, options, held_out));
   const bool may_be_faster = !common.alone.empty() || common.is_mode_better_alone;
   if (options.one_set || !may_be_faster) return common;
-  if (options.notice) {
-    options.notice(
-        "a mode may settle much faster with its own gains, so gains are also searched for each "
-        "mode, which takes one to three times as long as the first search");
-  }
-  // If the gains for all modes have an observer, the gains of each mode need an observer, too.
-  // Otherwise, a mode would not reject constant disturbances.
-  TuneOptions of_modes = options;
-  if (common.gains.observer.is_on() && !of_modes.observer) {
-    of_modes.observer.emplace();
-    AWMR_RETURN_IF_ERROR(limit_observer(problem.context, of_modes.observer));
-  }
-  auto own = with_own_gains(problem.setting, held_out, common, [&](YawMode mode) {
-    return tune_for(mode, model, problem, of_modes, held_out);
-  });
-  return own ? *std::move(own) : std::move(common);
+  return tune_by_mode(model, problem, options, held_out, std::move(common));
 }
 
 }  // namespace awmr

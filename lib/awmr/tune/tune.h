@@ -103,6 +103,11 @@ struct Baseline {
   ModeGains gains{};
   /// kPolePlacement, kPaperSource or the file from which the gains were read.
   std::string source;
+
+  /// The baseline of a search for one mode; for all modes if `mode` is absent.
+  Baseline in(std::optional<YawMode> mode) const {
+    return {gains.in(mode.value_or(YawMode::kCombined)), source};
+  }
 };
 inline constexpr const char* kPolePlacement = "pole-placement";
 inline constexpr const char* kPaperSource = "paper";
@@ -165,8 +170,8 @@ inline constexpr std::size_t kMaxGoals = 20;
 inline constexpr int kGoalDraws = 500;
 
 struct TuneOptions {
-  /// Path of the options' file, for error messages.
-  std::string file = "tune.json";
+  /// Path of the options' file, for the places of errors. Empty: the options are not from a file.
+  std::string file = {};
   /// true: tune on the identified plant only, with ideal sensors (no noise, no latency) and motors
   /// (no lag). false (robust): tune also on `draws` plants from the model's covariance, with the
   /// noise, latency and lag of LoopConditions. The gains then meet every constraint on all plants.
@@ -220,7 +225,7 @@ struct TuneOptions {
   std::vector<TuningGoal> goals = {};  ///< robust search only
   /// true: tune() returns one set of gains for all modes. false: if one mode alone may be much
   /// faster (Tuning::alone, Tuning::is_mode_better_alone), tune() also searches gains for each mode
-  /// (with_own_gains() in own_gains.h). Not used if `mode` is present.
+  /// (with_own_gains() in own_gains.h). Must be false if `mode` is present.
   bool one_set = false;
   /// Called with the number of evaluated sets of gains and with the budget, which is
   /// global_evaluations + local_evaluations. The last stage of the search, on all draws, is not
@@ -383,6 +388,7 @@ struct ModeCertificate {
   WorstCase damping = {};  ///< smallest damping ratio; <= 0: unstable
   /// Smallest additional delay, s, that makes the loop unstable; infinity if no delay does.
   WorstCase delay_margin_s = {};
+  Interval yaw_rate_radps{};  ///< examined yaw rates
 };
 /// Smallest damping ratio and delay margin of the heading loop that a search found in the model's
 /// 95 % confidence set (tune/certificate.h). The sampled loop includes hold, servo, latency and
@@ -391,13 +397,13 @@ struct Certificate {
   /// Number of parameters in the model's covariance. 0: only the model's own values were examined.
   int parameters = 0;
   int degrees_of_freedom = 0;  ///< degrees of freedom of the confidence ellipsoid
-  Interval yaw_rate_radps;     ///< examined yaw rates
   double latency_s = 0.0;      ///< latency of the sensor readings
   double motor_time_constant_s = 0.0;
   std::vector<ModeCertificate> modes;
 
   double damping_min() const;
   double delay_margin_s() const;
+  Interval yaw_rate_radps() const;  ///< the smallest interval with the yaw rates of all modes
 };
 inline constexpr double kCertifiedShare = 0.95;  ///< probability of the confidence set
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "awmr/core/json.h"
+#include "awmr/core/option_text.h"
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/objective.h"
@@ -49,6 +50,11 @@ void read_search(JsonObject& json, TuneOptions& options) {
   if (json.has("mode")) options.mode = json.choice("mode", kYawModeNames);
   if (json.has("form")) options.form = json.choice("form", kReachingFormNames);
   options.one_set = json.optional_boolean("one_set").value_or(options.one_set);
+  if (options.one_set && options.mode) {
+    json.fault(ErrorCode::kConflict, "one_set",
+               "one set of gains for all modes, but `mode` tunes for one mode only; remove one of "
+               "the two");
+  }
   options.nominal = json.optional_boolean("nominal").value_or(options.nominal);
   options.adds_observer = !json.optional_boolean("no_observer").value_or(!options.adds_observer);
   if (json.has("goals")) options.evaluation_draws = kGoalDraws;
@@ -187,6 +193,20 @@ Status check_observer_choice(std::optional<bool> observer, const TuneOptions& op
     return input_error(ErrorCode::kConflict, place,
                        "forbids an observer, but the configuration requests one (observer); remove "
                        "one of the two");
+  }
+  return {};
+}
+
+Status check_mode_choice(std::optional<YawMode> mode, bool one_set, const TuneOptions& options) {
+  if (mode && options.one_set) {
+    return input_error(ErrorCode::kConflict, option_text("mode"),
+                       "tunes for one mode only, but the configuration requests one set of gains "
+                       "for all modes (one_set); remove one of the two");
+  }
+  if (one_set && options.mode) {
+    return input_error(ErrorCode::kConflict, option_text("one_set"),
+                       "requests one set of gains for all modes, but the configuration tunes for "
+                       "one mode only (mode); remove one of the two");
   }
   return {};
 }

@@ -26,8 +26,8 @@ struct TuneConfig {
 Result<std::optional<Baseline>> baseline_named(const std::filesystem::path& name);
 
 /// Reads tune.json (`awmr.tune/1`). Unknown keys are errors, and every key is optional:
-///   schema, mode (the only mode to tune for), one_set (true: one set of gains for all modes),
-///   form ("paper" | "strict"), margin,
+///   schema, form ("paper" | "strict"), margin,
+///   mode (the only mode to tune for) or one_set (true: one set of gains for all modes),
 ///   weights {settling, itae, overshoot, control_variation, effort, speed_itae},
 ///   bounds {lambda, mu, epsilon, speed_mu, speed_epsilon: [lo, hi]},
 ///   observer {bandwidth_radps [lo, hi], yaw_max_m, surge_max},
@@ -51,6 +51,11 @@ Result<TuneConfig> read_tune_config(const std::filesystem::path& path);
 /// observer and the file has `observer`.
 Status check_observer_choice(std::optional<bool> observer, const TuneOptions& options,
                              const std::string& place);
+
+/// Checks that the user's choice of a mode, or of one set of gains for all modes, does not
+/// contradict tune.json. `options`: as read from the file. Errors (input, `conflict`): the choice
+/// is a mode and the file has `one_set`, or the choice is one set and the file has `mode`.
+Status check_mode_choice(std::optional<YawMode> mode, bool one_set, const TuneOptions& options);
 
 /// The JSON Schema of tune.json, generated from the code that reads tune.json.
 std::string tune_schema();

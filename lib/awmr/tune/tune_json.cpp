@@ -142,6 +142,10 @@ Json worst_case_json(const char* name, const WorstCase& worst) {
   return json;
 }
 
+Json rates_json(const Interval& rates_radps) {
+  return {degrees(rates_radps.lo), degrees(rates_radps.hi)};
+}
+
 }  // namespace
 
 Json certificate_json(const Certificate& certificate) {
@@ -157,12 +161,12 @@ Json certificate_json(const Certificate& certificate) {
        "point of each orthant"},
       {"parameters", certificate.parameters},
       {"degrees_of_freedom", certificate.degrees_of_freedom},
-      {"yaw_rate_degps",
-       {degrees(certificate.yaw_rate_radps.lo), degrees(certificate.yaw_rate_radps.hi)}},
+      {"yaw_rate_degps", rates_json(certificate.yaw_rate_radps())},
       {"latency_s", certificate.latency_s},
       {"motor_time_constant_s", certificate.motor_time_constant_s}};
   for (const ModeCertificate& one : certificate.modes) {
     json["modes"][std::string(name_of(one.mode))] = {
+        {"yaw_rate_degps", rates_json(one.yaw_rate_radps)},
         {"damping", worst_case_json("min", one.damping)},
         {"delay_margin", worst_case_json("min_s", one.delay_margin_s)}};
   }

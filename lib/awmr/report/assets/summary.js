@@ -6,7 +6,7 @@ function gainsTable(parent, gains) {
     digits(set.heading.epsilon), digits(set.speed.mu), digits(set.speed.epsilon),
       digits(1 / set.heading.lambda),
     digits(set.heading.epsilon / (2 * set.heading.mu)), digits(objective)];
-  const {objective, robust, baseline, observer} = gains;
+  const {objective, robust, baseline} = gains;
   const own = Object.entries(gains.modes || {});
   const rows = own.map(([mode, set]) => row(`tuned, ${mode}`, set, (set.objective || {}).value));
   rows.push(row((objective ? "tuned" : "given") + (own.length ? ", combined" : ""), gains,
@@ -23,9 +23,10 @@ function gainsTable(parent, gains) {
     "lambda: slope of the sliding surface, T1 = 1/lambda. mu: largest corrective acceleration. " +
     "epsilon: half width of the boundary layer, T2 = epsilon/(2 mu). mu_s, epsilon_s: the same for " +
     "the speed law.");
-  if (observer) {
-    small(parent, `With a disturbance observer of ${digits(observer.bandwidth_radps)} rad/s, ` +
-      `which compensates up to ` +
+  for (const [mode, {observer}] of own.length ? [...own, ["combined", gains]] : [["", gains]]) {
+    if (!observer) continue;
+    small(parent, `${mode ? `In ${mode} mode, with` : "With"} a disturbance observer of ` +
+      `${digits(observer.bandwidth_radps)} rad/s, which compensates up to ` +
       `${digits(observer.yaw_max_m)} m and ${digits(observer.surge_max)} of F_max. It works in ` +
       `the firmware, too.`);
   }
