@@ -86,7 +86,9 @@ TEST(Scrub, StopsATurningVehicleUnderASmallerMoment) {
     // The moment of the resistances against the motion is at least c/2, so the vehicle stops
     // within 0.3 rad/s I'z/(c/2) = 0.4 s.
     for (const RunRow& row : run.rows) {
-      if (row.t_s > 0.4) EXPECT_EQ(row.state.r_radps, 0.0) << row.t_s;
+      if (row.t_s > 0.4) {
+        EXPECT_EQ(row.state.r_radps, 0.0) << row.t_s;
+      }
     }
   }
 }
