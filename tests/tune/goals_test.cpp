@@ -166,6 +166,7 @@ TEST(Goal, ThatIsHardHoldsOnTheDrawsOfTheSearchAndMovesTheGains) {
 
 TEST(Goal, ThatNoGainsReachIsRefusedByItsName) {
   TuneOptions options = options_with({.at_most = {{"settling_time_s", 0.05}}, .mode = {}});
+  options.one_set = false;
   options.mode = YawMode::kDifferential;
   const Result<Tuning> tuning = tune(uncertain_model(), options);
   ASSERT_FALSE(tuning);

@@ -127,8 +127,10 @@ TEST(UnstableLoops, NameTheObserverIfTheLoopIsStableWithoutIt) {
     EXPECT_EQ(loop.rate, 50.0);
     EXPECT_EQ(loop.unit, "rad/s");
   }
-  // With these gains, the heading loop is unstable without observer, too.
-  gains.heading.mu = 40.0 * gains.heading.epsilon;
+  // lambda + mu/epsilon of 63 1/s is unstable without observer, too, at high yaw rates: there, the
+  // rate of the yaw resistance is less than half of it. At 1 deg/s, the loop is stable without
+  // observer.
+  gains.heading.mu = 60.0 * gains.heading.epsilon;
   EXPECT_EQ(unstable_loops(paper_model(), gains, late).front().rate_name, "lambda + mu/epsilon");
 }
 

@@ -825,6 +825,7 @@ TuneOptions one_step_options() {
   options.evaluation_draws = 2;
   options.global_evaluations = 10;
   options.local_evaluations = 0;
+  options.one_set = false;
   options.mode = YawMode::kSteering;
   options.scenarios.front().guidance = HeadingSteps{{{0.0, radians(30.0)}}};
   return options;
@@ -907,6 +908,7 @@ TEST(Turning, RefusesAVehicleThatItsMotorsCannotTurnBeforeTheSearch) {
 
 TEST(Turning, NamesTheNumbersWithWhichTheSteeringTurnsTheVehicle) {
   TuneOptions options = short_options();
+  options.one_set = false;
   options.mode = YawMode::kSteering;
   Model model = with_friction(0.2);
   const Result<Tuning> tuning = tune(model, options);
@@ -938,6 +940,7 @@ TEST(Robust, DrawsOnlyNoiseWithoutACovariance) {
   options.nominal = false;
   options.draws = 2;
   options.evaluation_draws = 0;
+  options.one_set = false;
   options.mode = YawMode::kCombined;
   options.global_evaluations = 40;
   options.local_evaluations = 10;

@@ -41,20 +41,23 @@ SampledHeadingLoop without_observer(SampledHeadingLoop loop) {
   return loop;
 }
 
+/// Returns the heading loop in a mode if it is unstable. The observer is the cause only if the loop
+/// is stable without it at every examined yaw rate.
 std::optional<UnstableLoop> unstable_heading(const Gains<double>& gains,
                                              const ConstraintContext& context, YawMode mode) {
+  std::optional<UnstableLoop> by_observer;
   for (const double share : kRateShares) {
     const double rate_radps = examined_rate_radps(share, context);
     const SampledHeadingLoop loop = certified_loop(gains, context, context.plant, rate_radps, mode);
     if (is_stable(loop)) continue;
     std::string name =
         fmt::format("heading loop in mode {} at {:.3g} deg/s", name_of(mode), degrees(rate_radps));
-    return is_stable(without_observer(loop))
-               ? unstable_by_observer(std::move(name), loop.observer_radps)
-               : unstable_by(std::move(name), "lambda + mu/epsilon",
-                             loop.lambda + loop.reaching_rate);
+    if (!is_stable(without_observer(loop))) {
+      return unstable_by(std::move(name), "lambda + mu/epsilon", loop.lambda + loop.reaching_rate);
+    }
+    if (!by_observer) by_observer = unstable_by_observer(std::move(name), loop.observer_radps);
   }
-  return std::nullopt;
+  return by_observer;
 }
 
 /// Slope, with respect to the speed u, of the force that overcomes the surge resistance and the
