@@ -99,7 +99,8 @@ TEST_F(TunedGains, NoteKeysThatAFlagReplaces) {
            " --one-set --nominal --no-observer -o " + path("gains.json"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   std::string replaced;
-  for (const Json& finding : gains().at("findings")) {
+  const Json written = gains();
+  for (const Json& finding : written.at("findings")) {
     if (finding.at("code") != "option-overrides") continue;
     replaced += finding.at("message").get<std::string>();
   }
@@ -142,7 +143,8 @@ TEST_F(TunedGains, ExplainEachActiveLimit) {
   const ProcessResult run = tune("--mode differential");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   std::size_t shown = 0;
-  for (const Json& one : gains().at("search").at("active")) {
+  const Json written = gains();
+  for (const Json& one : written.at("search").at("active")) {
     const double percent = 100.0 * one.at("wider_gains").get<double>();
     const std::string name = one.at("name");
     EXPECT_THAT(run.out, HasSubstr((percent < 0.1 ? "< 0.1 %  " : " %  ") + name + " ("))
