@@ -64,6 +64,18 @@ std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::p
   return std::nullopt;
 }
 
+/// Returns a vehicle with only the drive of the file, if it has a valid one. Messages need the drive
+/// to describe the trials, before the other values of the vehicle are filled in.
+Vehicle vehicle_with_drive(const fs::path& path) {
+  Vehicle vehicle;
+  const auto document = read_json_file(path);
+  if (!document || !document->is_object()) return vehicle;
+  const auto drive = document->find("drive");
+  if (drive == document->end() || !drive->is_string()) return vehicle;
+  vehicle.drive = value_in(kDriveNames, drive->get<std::string>()).value_or(vehicle.drive);
+  return vehicle;
+}
+
 /// True if the table or log has at least one row. Adds a fault if the file cannot be read.
 bool has_rows(const fs::path& path, Check& check) {
   const auto sample = sample_of(path);
@@ -119,19 +131,20 @@ TrialFiles recorded(const Project& project, const Vehicle& vehicle, Check& check
 
 /// Adds the error `missing-trial` for each parameter that no trial of the project identifies. (A
 /// driving log identifies all parameters.) Adds the note `assumed-sway` if nothing gives the sway
-/// resistance.
-void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Check& check) {
+/// resistance. `is_complete`: false if the file gives only the drive of `vehicle`.
+void check_what_nothing_shows(const Project& project, const Vehicle& vehicle, bool is_complete,
+                              Check& check) {
   if (!project.logs.empty()) return;
   const auto nothing_shows = [&](ParameterId id) {
     check.missing.push_back(
         {"", 0, Severity::kError, "missing-trial",
          fmt::format("no trial determines {} ({}), which awmr tune needs; record {}", info(id).name,
-                     info(id).meaning, vehicle ? trial_of(*vehicle, id) : info(id).trial)});
+                     info(id).meaning, trial_of(vehicle, id))});
   };
   if (!project.surge) nothing_shows(ParameterId::kSurgeAlpha);
   if (!project.turning) nothing_shows(ParameterId::kYawAlpha);
   if (project.coastdowns.empty()) nothing_shows(ParameterId::kMassNorm);
-  if (vehicle == nullptr || vehicle->sway_alpha) return;
+  if (!is_complete || vehicle.sway_alpha) return;
   check.notes.push_back(
       {project.vehicle.string() + ":/sway_alpha", 0, Severity::kNote, "assumed-sway",
        fmt::format(
@@ -142,9 +155,9 @@ void check_what_nothing_shows(const Project& project, const Vehicle* vehicle, Ch
 }
 
 /// If the list has a fault of the file `path`, adds a fault that suggests column mappings, guessed
-/// from the file's column names.
+/// from the file's column names. `track_m`: as in guess_columns().
 void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& options,
-                      std::vector<Fault>& faults) {
+                      double track_m, std::vector<Fault>& faults) {
   const std::string place = path.string() + ":";
   if (std::none_of(faults.begin(), faults.end(),
                    [&](const Fault& fault) { return fault.place.starts_with(place); })) {
@@ -155,7 +168,7 @@ void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& 
   std::set<std::string> known(sample->names.begin(), sample->names.end());
   for (const ColumnMapping& mapping : options.columns) known.insert(mapping.name);
   std::vector<std::string> pairs;
-  for (const ColumnGuess& guess : guess_columns(*sample, kind)) {
+  for (const ColumnGuess& guess : guess_columns(*sample, kind, track_m)) {
     if (guess.expression.empty() || !known.insert(guess.column).second) continue;
     pairs.push_back(fmt::format("\"{}\": \"{}\"", guess.column, guess.expression));
   }
@@ -170,7 +183,7 @@ void add_mapping_hint(const fs::path& path, TrialKind kind, const TrialOptions& 
 
 void add_mapping_hints(const TrialFiles& files, std::vector<Fault>& faults) {
   const auto add = [&](const fs::path& path, TrialKind kind) {
-    add_mapping_hint(path, kind, files.options, faults);
+    add_mapping_hint(path, kind, files.options, 2.0 * files.vehicle.half_track_m, faults);
   };
   if (files.surge) add(*files.surge, TrialKind::kSurge);
   if (files.turning) add(*files.turning, TrialKind::kTurning);
@@ -214,12 +227,13 @@ void check_trials(TrialFiles files, bool all_recorded, Check& check) {
 Result<Check> check_project(const Project& project) {
   Check check;
   const auto vehicle = read_filled<Vehicle>(project.vehicle, read_vehicle, check);
-  const TrialFiles files = recorded(project, vehicle.value_or(Vehicle{}), check);
+  const Vehicle described = vehicle ? *vehicle : vehicle_with_drive(project.vehicle);
+  const TrialFiles files = recorded(project, described, check);
   for (const fs::path& path : project.scenarios) {
     read_filled<Scenario>(path, read_scenario, check);
   }
   if (project.tune) read_filled<TuneConfig>(*project.tune, read_tune_config, check);
-  check_what_nothing_shows(project, vehicle ? &*vehicle : nullptr, check);
+  check_what_nothing_shows(project, described, vehicle.has_value(), check);
   if (vehicle && check.faults.empty()) {
     check.implausible = plausibility_findings(*vehicle, Severity::kError, project.vehicle.string());
     const bool all_recorded = files.surge == project.surge && files.turning == project.turning &&

@@ -207,6 +207,7 @@ void add_pil(CLI::App& app, Session& session);
 
 struct MapCommand {
   fs::path file;
+  std::optional<fs::path> vehicle;
   TrialKind trial = TrialKind::kLog;
   std::optional<fs::path> output;
 };

@@ -11,6 +11,7 @@
 #include "awmr/core/file.h"
 #include "awmr/core/json.h"
 #include "awmr/core/text.h"
+#include "awmr/model/vehicle_file.h"
 #include "awmr/trials/column_guess.h"
 #include "awmr/trials/log_files.h"
 #include "awmr/trials/trial_columns.h"
@@ -123,8 +124,17 @@ Result<Outcome> execute(const MapCommand& command) {
   AWMR_ASSIGN_OR_RETURN(const std::vector<fs::path> files, files_of(command.file));
   if (command.output) AWMR_RETURN_IF_ERROR(check_output(*command.output, files));
   AWMR_ASSIGN_OR_RETURN(const FileSample sample, sample_of(command.file));
-  const std::vector<ColumnGuess> guesses = guess_columns(sample, command.trial);
+  std::optional<double> track_m;
+  if (command.vehicle) {
+    AWMR_ASSIGN_OR_RETURN(const Vehicle vehicle, read_vehicle(*command.vehicle));
+    track_m = 2.0 * vehicle.half_track_m;
+  }
+  const std::vector<ColumnGuess> guesses = guess_columns(sample, command.trial, track_m);
   AWMR_ASSIGN_OR_RETURN(std::vector<InputFile> inputs, input_files({command.file}));
+  if (command.vehicle) {
+    AWMR_ASSIGN_OR_RETURN(const std::vector<InputFile> more, input_files({*command.vehicle}));
+    inputs.insert(inputs.end(), more.begin(), more.end());
+  }
   std::vector<std::pair<std::string, std::string>> options{
       {"trial", std::string(name_in(kTrialKindNames, command.trial))}};
   Outcome outcome{.summary = summary_of(command, guesses, sample),
@@ -145,6 +155,8 @@ void add_map(CLI::App& app, Session& session) {
   add_file(*sub, "FILE", command->file,
            "A log: CSV, ULog, DataFlash, SysId's JSON, a ROS 2 bag, or a directory of tables")
       ->required();
+  add_file(*sub, "--vehicle", command->vehicle,
+           "Vehicle file, whose track gives the yaw rate from the speeds of left and right wheels");
   add_choice(*sub, "--trial", command->trial, kTrialKindNames,
              "Kind of the file: log (default), or the kind of a table with one row per run");
   add_file(

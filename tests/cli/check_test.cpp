@@ -143,6 +143,18 @@ TEST_F(Check, ListsWhatIsMissingInOrder) {
   EXPECT_THAT(result.err, Not(HasSubstr("yaw_inertia_kgm2"))) << "optional: the box is used";
 }
 
+TEST_F(Check, DescribesTheTrialsOfTheDriveBeforeTheVehicleIsFilledIn) {
+  const std::string fresh = (directory_.path() / "fresh").string();
+  ASSERT_EQ(awmr("init " + fresh + " --drive differential").exit_code, 0);
+  const ProcessResult result = awmr("check --quiet " + fresh);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("vehicle.json:/mass_kg: to be filled in"));
+  const std::size_t turning = result.err.find("turning.csv: ");
+  ASSERT_NE(turning, std::string::npos) << result.err;
+  const std::string message = result.err.substr(turning, result.err.find('\n', turning) - turning);
+  EXPECT_THAT(message, AllOf(HasSubstr("force_left"), Not(HasSubstr("steering"))));
+}
+
 TEST_F(Check, NamesParametersWithoutATrial) {
   nlohmann::ordered_json json = read("project.json");
   json["trials"].erase("coastdown");

@@ -404,6 +404,55 @@ TEST(CoastDown, DoesNotTakeASpeedCutOffForAStop) {
   EXPECT_FALSE(reports(whole->model, "speed-cut-off"));
 }
 
+/// Timed surge runs and two coast-down curves of a vehicle with m' = 0.42 and g1 = 0.1 + 0.75 u. The
+/// times have errors of 0.1 s, so that the AICc of the power law and of Coulomb and linear friction
+/// differ by less than 1.
+TrialData undecided_runs_and_curves() {
+  constexpr double kCoulomb = 0.1;
+  constexpr double kLinear = 0.75;
+  constexpr double kMassNorm = 0.42;
+  constexpr double kDistance_m = 10.0;
+  TrialData data;
+  data.surge = TrialSet<SurgeRow>{"surge.csv", {}, 0};
+  double force = 0.8;
+  for (const double elapsed_s : {10.47, 6.95, 4.88, 3.85, 3.2, 2.77, 2.51, 1.97, 1.96}) {
+    data.surge->rows.push_back({static_cast<int>(data.surge->rows.size()) + 2, force,
+                                kDistance_m / elapsed_s, kDistance_m, elapsed_s});
+    force += 0.4;
+  }
+  for (const double u0 : {5.2, 4.68}) {
+    const auto speed = [u0](double s) {
+      const double rest = kCoulomb / kLinear;
+      return std::max(0.0, (u0 + rest) * std::exp(-kLinear / kMassNorm * s) - rest);
+    };
+    data.curves.push_back(recorded(speed, 1.8, {}, data.curves.size()));
+  }
+  return data;
+}
+
+TEST(CoastDown, DecidesBetweenFamiliesThatTheSurgeRunsLeaveOpen) {
+  IdentifyOptions options;
+  options.surge_family = {.family = std::nullopt, .requested = true};
+  const auto result = identify(vehicle(), undecided_runs_and_curves(), options, {});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->model.surge_family, Family::kCoulombLinear);
+  EXPECT_TRUE(reports(result->model, "family-by-coastdown"));
+  EXPECT_FALSE(reports(result->model, "model-inadequate"));
+  const Estimate& mass = result->model[ParameterId::kMassNorm];
+  ASSERT_TRUE(mass.value && mass.ci95);
+  EXPECT_LT(mass.ci95->lo, 0.42);
+  EXPECT_GT(mass.ci95->hi, 0.42);
+}
+
+TEST(CoastDown, WithdrawsTheIntervalsOfAPowerLawThatTheCurvesReject) {
+  const auto result = identify(vehicle(), undecided_runs_and_curves(), {}, {});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->model.surge_family, Family::kPower);
+  EXPECT_TRUE(reports(result->model, "family-by-coastdown"));
+  EXPECT_FALSE(result->model[ParameterId::kMassNorm].ci95);
+  EXPECT_FALSE(result->model[ParameterId::kSurgeAlpha].ci95);
+}
+
 TEST(CoastDown, WithdrawsTheIntervalOfCurvesThatTheLawDoesNotDescribe) {
   // The speed falls along a straight line, as with a brake.
   TrialData data = surge_only(kTruths[1], 0.01, 4);

@@ -314,6 +314,35 @@ TEST_P(LateLogs, AllowsForSpeedAndYawRateThatWereSmoothedAfterTheDrive) {
   expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
 }
 
+/// The log with a speed measured by a wheel that is `left_m` to the left of the centre line.
+DrivingLog with_speed_of_wheel(DrivingLog log, const Truth& t, double left_m) {
+  Random random(4, 9);
+  replay<double>(LogSignals(log), 0, log.rows(), plant(t), nullptr, 0.002, {},
+                 [&](std::size_t row, const State<double>& s) {
+                   log[LogChannel::kSpeed]->value[row] =
+                       s.u_mps - left_m * s.r_radps + 0.01 * random.normal();
+                 });
+  return log;
+}
+
+TEST_P(LateLogs, FindsTheSpeedOfOneWheel) {
+  const Truth& t = kTruths[1];
+  const double half_track_m = robot().half_track_m;
+  for (const double left_m : {half_track_m, -half_track_m}) {
+    TrialData data;
+    data.logs = {with_speed_of_wheel(precise_drive(t), t, left_m)};
+    const auto result = identify(robot(), data, options(), {});
+    ASSERT_TRUE(result);
+    const auto offset = estimated(*result, "speed.offset_m");
+    ASSERT_TRUE(offset && offset->std_error);
+    EXPECT_NEAR(offset->value, left_m, 4.5 * *offset->std_error);
+    EXPECT_TRUE(has_finding(*result, "speed-sensor", left_m > 0.0 ? "left" : "right"));
+    EXPECT_FALSE(has_finding(*result, "force-imbalance"));
+    expect_recovered(*result, ParameterId::kMassNorm, t.mass_norm, 4.5);
+    expect_recovered(*result, ParameterId::kInertiaNorm, 0.16 * t.mass_norm, 4.5);
+  }
+}
+
 /// The log with the readings of a sway sensor that sits `ahead_m` ahead of the centre of gravity
 /// and is turned to the left by `turned_rad`.
 DrivingLog with_sway_sensor(DrivingLog log, double ahead_m, double turned_rad) {

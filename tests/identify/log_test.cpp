@@ -609,15 +609,15 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-/// A log with another a1 in its last fifth: a drive of 48 s, a pause in the recording, and a drive
-/// of 12 s of a vehicle with a1 multiplied by `factor`.
-DrivingLog log_with_change(double factor, std::uint64_t seed) {
+/// A log with a change of the vehicle: a drive of `first_s` seconds of the vehicle kTruths[0], a
+/// pause in the recording, and a drive of `last_s` seconds of the vehicle `changed`.
+DrivingLog log_with_change(const Truth& changed, double first_s, double last_s,
+                           std::uint64_t seed) {
   constexpr double kPause_s = 2.0;
-  Truth changed = kTruths[0];
-  changed.a1 *= factor;
-  DrivingLog log = drive(kTruths[0], seed, {.duration_s = 48.0, .rate_hz = 50.0}, kPreciseSensors);
+  DrivingLog log =
+      drive(kTruths[0], seed, {.duration_s = first_s, .rate_hz = 50.0}, kPreciseSensors);
   DrivingLog last =
-      drive(changed, seed + 100, {.duration_s = 12.0, .rate_hz = 50.0}, kPreciseSensors);
+      drive(changed, seed + 100, {.duration_s = last_s, .rate_hz = 50.0}, kPreciseSensors);
   for (double& t_s : last.t_s) t_s += log.t_s.back() + kPause_s;
   for (int& line : last.line) line += log.line.back();
   append(log.t_s, last.t_s);
@@ -635,10 +635,12 @@ DrivingLog log_with_change(double factor, std::uint64_t seed) {
   return log;
 }
 
-/// The model identified from log_with_change().
+/// The model identified from a log in whose last fifth a1 is multiplied by `factor`.
 Identification identified_with_change(double factor, std::uint64_t seed) {
+  Truth changed = kTruths[0];
+  changed.a1 *= factor;
   TrialData data;
-  data.logs = {log_with_change(factor, seed)};
+  data.logs = {log_with_change(changed, 48.0, 12.0, seed)};
   return identify(robot(), data, options_of_instance(), {}).value();
 }
 
@@ -663,7 +665,9 @@ class HeldOut : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(HeldOut, AChangeInTheLastFifthIsReportedAndWithdrawsTheIntervals) {
   const Identification result = identified_with_change(1.02, GetParam());
-  EXPECT_TRUE(has_finding(result, "held-out-misses", "surge.alpha"));
+  // A clear change gives a model error, so that its time is searched.
+  EXPECT_TRUE(has_finding(result, "held-out-misses", "surge.alpha") ||
+              has_finding(result, "changed-in-log", "surge.alpha"));
   EXPECT_FALSE(result.model[ParameterId::kSurgeAlpha].ci95);
 }
 

@@ -14,12 +14,13 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// Returns the text `CONFIDENCE COLUMN=EXPRESSION` for each guess.
-std::vector<std::string> guesses_of(const std::string& text, TrialKind kind = TrialKind::kLog) {
+std::vector<std::string> guesses_of(const std::string& text, TrialKind kind = TrialKind::kLog,
+                                    std::optional<double> track_m = std::nullopt) {
   const ScratchFile file("a.csv", text);
   const auto sample = sample_of(file.path());
   if (!sample) return {to_text(sample.error())};
   std::vector<std::string> all;
-  for (const ColumnGuess& guess : guess_columns(*sample, kind)) {
+  for (const ColumnGuess& guess : guess_columns(*sample, kind, track_m)) {
     all.push_back(std::string(name_in(kConfidenceNames, guess.confidence)) + " " + guess.column +
                   "=" + guess.expression);
     EXPECT_FALSE(guess.why.empty());
@@ -47,6 +48,30 @@ TEST(GuessColumns, AChannelThatIsConstantWhileOthersMoveIsNotProposed) {
   EXPECT_THAT(guesses_of(at_rest),
               ElementsAre("sure t_s=t_s", "likely speed_mps=odom.twist.twist.linear.x",
                           "likely sway_mps=odom.twist.twist.linear.y"));
+}
+
+TEST(GuessColumns, ComputesSpeedAndYawRateFromLeftAndRightWheels) {
+  EXPECT_THAT(guesses_of("t_s,vl,vr\n0,1,2\n", TrialKind::kLog, 0.26),
+              ElementsAre("sure t_s=t_s", "unsure speed_mps=(vl+vr)/2",
+                          "unsure yaw_rate_radps=(vr-vl)/0.26"));
+  EXPECT_THAT(
+      guesses_of("t_s,left_wheel_speed_kmh,right_wheel_speed_kmh\n0,1,2\n", TrialKind::kLog, 0.5),
+      ElementsAre("sure t_s=t_s",
+                  "likely speed_mps=(left_wheel_speed_kmh+right_wheel_speed_kmh)/"
+                  "2*0.2777778",
+                  "likely yaw_rate_radps=(right_wheel_speed_kmh-left_wheel_speed_kmh)/"
+                  "0.5*0.2777778"));
+  EXPECT_THAT(
+      guesses_of("t_s,speed_mps,gyro_radps,vl,vr\n0,1,2,1,2\n", TrialKind::kLog, 0.26),
+      ElementsAre("sure t_s=t_s", "sure speed_mps=speed_mps", "likely yaw_rate_radps=gyro_radps"))
+      << "columns of their own come first";
+  EXPECT_THAT(guesses_of("t_s,vl,vr\n0,1,2\n"),
+              ElementsAre("sure t_s=t_s", "unsure speed_mps=(vl+vr)/2", "unsure yaw_rate_radps="))
+      << "without a track there is only the formula, in the reason";
+  EXPECT_THAT(guesses_of("t_s,vl_cmd,vr_cmd,wheel_rpm_left,wheel_rpm_right\n0,1,2,3,4\n",
+                         TrialKind::kLog, 0.26),
+              ElementsAre("sure t_s=t_s"))
+      << "neither set-points nor numbers of revolutions are speeds";
 }
 
 TEST(GuessColumns, ReadsUnitsInNames) {

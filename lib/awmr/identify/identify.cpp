@@ -16,6 +16,7 @@
 #include "awmr/identify/tables/scrub.h"
 #include "awmr/identify/tables/turn_sides.h"
 #include "awmr/identify/trials_as_used.h"
+#include "awmr/identify/uncertainty/akaike.h"
 #include "awmr/model/plausibility.h"
 
 namespace awmr {
@@ -141,12 +142,45 @@ void record(Step& step, Model& model) {
   std::move(step.findings.begin(), step.findings.end(), std::back_inserter(model.record.findings));
 }
 
-/// Fits the surge or yaw law and, if the runs determine the law, sets it in the model.
-/// `contradiction`: finding that no such law agrees with the runs; the parameters then get no
-/// intervals.
-SubjectFit identify_law(const Subject& subject, const SubjectOptions& options,
-                        std::optional<Finding> contradiction, MainValues& values) {
+/// The finding `family-by-coastdown`. `is_used`: true if the fit uses the family of the curves.
+Finding family_by_coastdown(const std::string& file, Family by_runs, const FamilyOfCurves& found,
+                            bool is_used) {
+  const std::string_view family = name_of(found.family);
+  return {file, 0, is_used ? Severity::kNote : Severity::kWarning, "family-by-coastdown",
+          fmt::format("the surge runs do not decide between the resistance families {} and {}, but "
+                      "the coast-downs do: with {} the AICc of both together is lower by {}{}",
+                      name_of(by_runs), family, family, aic_decrease_text(found.decrease),
+                      is_used ? ", so it is used"
+                              : fmt::format(". The values that follow from these runs get no "
+                                            "intervals; use {}",
+                                            option_text(fmt::format("family surge={}", family))))};
+}
+
+/// Fits the surge law. If the runs do not decide between families of resistance, the coast-down
+/// curves do (family_of_curves()). Their family is used if the user did not select one by name;
+/// without a selection, the power law stays and is reported as inadequate.
+SubjectFit fit_surge(const Subject& subject, SubjectOptions options,
+                     const std::vector<CoastCurve>& curves) {
   SubjectFit fit = fit_subject(subject, options);
+  if (!fit.chosen || (options.family.requested && options.family.family)) return fit;
+  const auto found = family_of_curves(fit, curves);
+  if (!found) return fit;
+  const bool is_used = !options.family.family;
+  const Finding finding =
+      family_by_coastdown(curves.front().file, fit.problem.family, *found, is_used);
+  if (is_used) {
+    options.family.family = found->family;
+    fit = fit_subject(subject, options);
+  }
+  fit.is_inadequate = fit.is_inadequate || !is_used;
+  fit.findings.push_back(finding);
+  return fit;
+}
+
+/// Sets the surge or yaw law in the model, if the runs determine it. `contradiction`: finding that
+/// the runs do not agree with any such law, so that its parameters get no intervals.
+SubjectFit identify_law(const Subject& subject, SubjectFit fit,
+                        std::optional<Finding> contradiction, MainValues& values) {
   if (contradiction) {
     fit.is_inadequate = true;
     fit.findings.push_back(*std::move(contradiction));
@@ -162,17 +196,20 @@ SubjectFit identify_laws(const Vehicle& vehicle, const TrialData& data,
   const Method method = method_of(data, options);
   SubjectFit surge;
   if (data.surge) {
-    surge =
-        identify_law(surge_subject(vehicle, *data.surge),
-                     subject_options(options, method, options.surge_family), std::nullopt, values);
+    const Subject subject = surge_subject(vehicle, *data.surge);
+    surge = identify_law(
+        subject,
+        fit_surge(subject, subject_options(options, method, options.surge_family), data.curves),
+        std::nullopt, values);
     reasons.surge = surge.refusal_reason;
   }
   if (data.turning) {
     const double dead_zone = *values.model[ParameterId::kWheelDeadZone].value;
     const Subject yaw = yaw_subject(vehicle, *data.turning, dead_zone);
-    reasons.turning = identify_law(yaw, subject_options(options, method, yaw_family(options)),
-                                   compare_sides(yaw, *data.turning), values)
-                          .refusal_reason;
+    reasons.turning =
+        identify_law(yaw, fit_subject(yaw, subject_options(options, method, yaw_family(options))),
+                     compare_sides(yaw, *data.turning), values)
+            .refusal_reason;
   }
   return surge;
 }

@@ -49,7 +49,8 @@ inline constexpr std::string_view kSensorScalePrefix =
 inline constexpr std::string_view kSlipPrefix = "slip.";  ///< followed by the channel's column name
 inline constexpr std::string_view kSlipRatioPrefix =
     "slip_ratio.";  ///< followed by the channel's column name
-inline constexpr std::string_view kSwayOffsetName = "sway.offset_m";  ///< of the sway sensor
-inline constexpr std::string_view kSwayAngleName = "sway.angle_rad";  ///< of the sway sensor
+inline constexpr std::string_view kSwayOffsetName = "sway.offset_m";    ///< of the sway sensor
+inline constexpr std::string_view kSwayAngleName = "sway.angle_rad";    ///< of the sway sensor
+inline constexpr std::string_view kSpeedOffsetName = "speed.offset_m";  ///< of the speed sensor
 
 }  // namespace awmr

@@ -369,6 +369,59 @@ ChannelQuality find_repeats(std::span<const double> value) {
   return quality;
 }
 
+namespace {
+
+/// True if all values are multiples of their smallest magnitude above 0, and this is at least 1 % of
+/// the largest magnitude.
+bool is_on_coarse_grid(std::span<const double> value) {
+  constexpr double kCoarse = 0.01;
+  // The file may give the values with few digits.
+  constexpr double kOffGrid = 0.05;
+  double smallest = 0.0;
+  for (const double v : value) {
+    const double size = std::abs(v);
+    if (size > 0.0 && (smallest == 0.0 || size < smallest)) smallest = size;
+  }
+  if (!(smallest > 0.0) || smallest < kCoarse * largest_size(value)) return false;
+  return std::ranges::all_of(value, [&](double v) {
+    const double times = v / smallest;
+    return std::abs(times - std::round(times)) < kOffGrid;
+  });
+}
+
+/// First row of the end of a rest (leave_out_rest()).
+std::size_t end_of_rest(std::span<const double> t_s, std::span<const double> activity,
+                        const RowSpan& run) {
+  constexpr double kEnd_s = 0.3;
+  std::size_t row = run.end;
+  while (row > run.begin + 1 && t_s[run.end - 1] - t_s[row - 1] < kEnd_s) {
+    --row;
+    if (activity[row] != activity[row - 1]) break;
+  }
+  return row;
+}
+
+}  // namespace
+
+void leave_out_rest(std::span<const double> t_s, std::span<const double> value,
+                    std::span<const double> activity, ChannelQuality& quality) {
+  constexpr std::size_t kFirst = 3;
+  constexpr double kEvery_s = 1.0;
+  if (!is_on_coarse_grid(value)) return;
+  for (const RowSpan& run : equal_runs(value)) {
+    if (value[run.begin] != 0.0 || run.end - run.begin < kRestRows) continue;
+    const std::size_t end = end_of_rest(t_s, activity, run);
+    double last_s = t_s[run.begin + kFirst - 1];
+    for (std::size_t i = run.begin + kFirst; i < end; ++i) {
+      if (t_s[i] - last_s >= kEvery_s) {
+        last_s = t_s[i];
+      } else {
+        quality.fresh[i] = false;
+      }
+    }
+  }
+}
+
 ChannelQuality channel_quality(std::span<const double> t_s, std::span<const double> value,
                                std::span<const double> activity) {
   ChannelQuality quality = find_repeats(value);

@@ -259,8 +259,74 @@ Words with_body_velocity(Words words) {
   return words;
 }
 
+/// Columns with the speeds of a left and a right wheel, and their unit.
+struct WheelSpeeds {
+  std::string left;   ///< name as it is written in an expression
+  std::string right;  ///< as `left`
+  std::optional<NamedUnit> unit;
+};
+
+/// Returns all pairs of columns whose names differ only in the side.
+std::vector<WheelSpeeds> wheel_speeds_in(const FileSample& sample) {
+  std::vector<WheelSpeeds> pairs;
+  for (const std::string& left : sample.names) {
+    const auto of_left = wheel_speed_in(words_of(left));
+    if (!of_left || !of_left->is_left) continue;
+    for (const std::string& right : sample.names) {
+      const auto of_right = wheel_speed_in(words_of(right));
+      if (!of_right || of_right->is_left || of_right->rest != of_left->rest) continue;
+      pairs.push_back({quoted(left), quoted(right), unit_in(of_left->rest, Dimension::kSpeed)});
+    }
+  }
+  return pairs;
+}
+
+/// Text that states how the unit of the wheel speeds is known.
+std::string unit_reason(const WheelSpeeds& wheels) {
+  return wheels.unit ? fmt::format("the names have the unit {}", wheels.unit->spelling)
+                     : "the names have no unit, and the values fit several units";
+}
+
+/// Adds the speed as the mean of the speeds of a left and a right wheel.
+void add_mean_of_wheels(const FileSample& sample, std::vector<ColumnGuess>& guesses) {
+  for (const WheelSpeeds& wheels : wheel_speeds_in(sample)) {
+    guesses.push_back({"speed_mps",
+                       times(fmt::format("({}+{})/2", wheels.left, wheels.right),
+                             wheels.unit ? wheels.unit->factor : 1.0),
+                       wheels.unit ? Confidence::kLikely : Confidence::kUnsure,
+                       "the mean of a left and a right wheel; " + unit_reason(wheels)});
+  }
+}
+
+/// Adds the yaw rate r = (v_R - v_L)/track of the wheel speeds v_L and v_R. Without a track, the
+/// guess has no expression, and its reason gives the formula.
+void add_difference_of_wheels(const FileSample& sample, std::optional<double> track_m,
+                              std::vector<ColumnGuess>& guesses) {
+  for (const WheelSpeeds& wheels : wheel_speeds_in(sample)) {
+    const double factor = wheels.unit ? wheels.unit->factor : 1.0;
+    const auto formula = [&](const std::string& track) {
+      return times(fmt::format("({}-{})/{}", wheels.right, wheels.left, track), factor);
+    };
+    if (!track_m) {
+      guesses.push_back(
+          {"yaw_rate_radps", "", Confidence::kUnsure,
+           fmt::format("{}, with the distance TRACK of the left from the right wheels in m; a "
+                       "vehicle file gives it (option --vehicle)",
+                       formula("TRACK"))});
+      continue;
+    }
+    guesses.push_back({"yaw_rate_radps", formula(fmt::format("{:.7g}", *track_m)),
+                       wheels.unit ? Confidence::kLikely : Confidence::kUnsure,
+                       "the difference of a right and a left wheel over the track; wheels that "
+                       "slide sideways make it too large, a gyroscope does not; " +
+                           unit_reason(wheels)});
+  }
+}
+
+/// Guesses which columns of the sample provide awmr's column `column`. `track_m`: as in
+/// guess_columns().
 std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample& sample,
-                                    TrialKind kind) {
+                                    TrialKind kind, std::optional<double> track_m) {
   std::vector<ColumnGuess> guesses;
   const bool by_letters = kind == TrialKind::kLog && has_body_velocities(sample);
   for (std::size_t i = 0; i < sample.names.size(); ++i) {
@@ -278,13 +344,18 @@ std::vector<ColumnGuess> guesses_of(const std::string& column, const FileSample&
                        first_of(sample.values[i])});
   }
   if (column == "heading_deg") add_quaternions(sample, guesses);
-  if (column == kTimeName && guesses.empty()) add_time(sample, guesses);
+  if (!guesses.empty()) return guesses;
+  if (column == kTimeName) add_time(sample, guesses);
+  if (kind != TrialKind::kLog) return guesses;
+  if (column == "speed_mps") add_mean_of_wheels(sample, guesses);
+  if (column == "yaw_rate_radps") add_difference_of_wheels(sample, track_m, guesses);
   return guesses;
 }
 
 }  // namespace
 
-std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind) {
+std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind,
+                                       std::optional<double> track_m) {
   std::vector<ColumnGuess> all;
   const auto has = [&](std::string_view name) {
     return std::find(sample.names.begin(), sample.names.end(), name) != sample.names.end();
@@ -292,7 +363,7 @@ std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind)
   for (const CsvColumn& column : columns_of(kind)) {
     // Among coast-down files, only a table of speed bins (column from_mps) needs elapsed_s.
     if (kind == TrialKind::kCoastdown && column.name == "elapsed_s" && !has("from_mps")) continue;
-    const std::vector<ColumnGuess> guesses = guesses_of(column.name, sample, kind);
+    const std::vector<ColumnGuess> guesses = guesses_of(column.name, sample, kind, track_m);
     all.insert(all.end(), guesses.begin(), guesses.end());
   }
   if (kind == TrialKind::kLog) withdraw_constants(sample, all);

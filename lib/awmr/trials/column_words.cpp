@@ -129,6 +129,21 @@ const std::vector<Unit>& units() {
   return kUnits;
 }
 
+/// Splits a word that names speed and side together: vl and vr, vleft and vright.
+Words with_side_apart(const Words& words) {
+  static const std::set<std::string> kTogether{"vl", "vr", "vleft", "vright"};
+  Words apart;
+  for (const std::string& word : words) {
+    if (kTogether.contains(word)) {
+      apart.emplace_back("v");
+      apart.push_back(word.substr(1));
+    } else {
+      apart.push_back(word);
+    }
+  }
+  return apart;
+}
+
 /// True if the name is only a unit that identifies the quantity: `kmh` and `km/h` are speeds, `dps`
 /// is a yaw rate.
 bool is_unit_alone(const Rule& rule, const Words& words) {
@@ -159,6 +174,22 @@ Words words_of(std::string_view name) {
 bool has_any(const Words& words, const std::set<std::string>& any) {
   return std::any_of(words.begin(), words.end(),
                      [&](const std::string& word) { return any.count(word) != 0; });
+}
+
+std::optional<WheelSpeedName> wheel_speed_in(const Words& words) {
+  static const std::set<std::string> kOther{
+      "cmd", "command",  "setpoint", "sp",    "desired", "target",       "ref",  "reference",
+      "acc", "accel",    "rpm",      "motor", "angular", "acceleration", "jerk", "pwm",
+      "yaw", "throttle", "angle",    "time",  "w",       "covariance",   "tau",  "duty"};
+  WheelSpeedName name{false, with_side_apart(words)};
+  if (has_any(name.rest, kOther) || !has_any(name.rest, kSpeedWords)) return std::nullopt;
+  if (unit_in(name.rest, Dimension::kAngularRate)) return std::nullopt;
+  const auto is_side = [](const std::string& word) { return kSideWords.contains(word); };
+  if (std::ranges::count_if(name.rest, is_side) != 1) return std::nullopt;
+  const auto side = std::ranges::find_if(name.rest, is_side);
+  name.is_left = side->front() == 'l';
+  name.rest.erase(side);
+  return name;
 }
 
 std::optional<NamedUnit> unit_in(const Words& words, Dimension dimension) {

@@ -28,6 +28,15 @@ enum class Dimension { kForce, kAngle, kAngularRate, kSpeed, kLength, kGeographi
 std::optional<Dimension> dimension_as(TrialKind kind, const std::string& column,
                                       const Words& words);
 
+/// Name of a column with the speed of a left or right wheel.
+struct WheelSpeedName {
+  bool is_left = false;
+  Words rest;  ///< words without the side; equal for the left and the right wheel of a pair
+};
+/// Returns the side in a name such as vl, left_speed_mps or wheel_vel_r. Empty if the words are not
+/// those of a measured speed of one side.
+std::optional<WheelSpeedName> wheel_speed_in(const Words& words);
+
 /// Unit in the name of a column.
 struct NamedUnit {
   /// Words of the unit, with a space between two: "kmh", "m s" for m/s.

@@ -154,6 +154,9 @@ Measured measured_of(LogChannel channel, const DrivingLog& log,
                        held_between(rows, std::move(values)), findings);
   }
   ChannelQuality quality = quality_in(rows, channel, log, values);
+  if (channel == LogChannel::kSpeed || channel == LogChannel::kYawRate) {
+    leave_out_rest(log.t_s, values, activity_for(channel, log), quality);
+  }
   note_quality(channel, log, quality, findings);
   const auto fresh = static_cast<int>(std::count(quality.fresh.begin(), quality.fresh.end(), true));
   return {std::move(values), std::move(quality.fresh), fresh, quality.repeats == Repeats::kSlow,

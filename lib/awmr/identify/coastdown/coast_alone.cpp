@@ -95,11 +95,11 @@ void compare_with_other_families(const std::vector<CoastFit>& fits, const std::s
   if (!power.aicc || !best.aicc || *power.aicc - *best.aicc < kFamilyAicThreshold) return;
   result.findings.push_back(
       {file, 0, Severity::kWarning, "power-law-inadequate",
-       fmt::format(
-           "a power law does not describe these coast-downs: the AICc of {} is lower by {:.1f} "
-           "(residual standard deviation {:.3g}, power law {:.3g} m/s); use {}",
-           name_of(best.family), *power.aicc - *best.aicc, best.residual_std_mps,
-           power.residual_std_mps, option_text(fmt::format("family {}", name_of(best.family))))});
+       fmt::format("a power law does not describe these coast-downs: the AICc of {} is lower by {} "
+                   "(residual standard deviation {:.3g}, power law {:.3g} m/s); use {}",
+                   name_of(best.family), aic_decrease_text(*power.aicc - *best.aicc, 1),
+                   best.residual_std_mps, power.residual_std_mps,
+                   option_text(fmt::format("family {}", name_of(best.family))))});
 }
 
 }  // namespace

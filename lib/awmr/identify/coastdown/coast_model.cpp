@@ -8,6 +8,7 @@
 
 #include "awmr/identify/coastdown/coast_noise.h"
 #include "awmr/identify/coastdown/derived.h"
+#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {
@@ -28,6 +29,9 @@ struct CoastCandidate {
   CoastStart at;
   ChannelNoise noise;
   double aicc = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd residuals;  ///< m/s, curve after curve
+  /// CoastProblem::law_distance() plus 2 for each free parameter of the curves.
+  double penalty = 0.0;
 };
 
 /// Standard deviation of the speed noise, m/s: the root mean square of the curves' noise_of(), over
@@ -67,7 +71,7 @@ CoastCandidate fit_once(const CoastData& data, const CoastStart& start, double p
                        law.coulomb > 0.0 || law.quadratic > 0.0);
   free_within_errors(data, prior_mps, problem);
   problem.solve();
-  CoastCandidate fit{{*problem.log_mass(), *problem.lag_s()}, {}};
+  CoastCandidate fit{.at = {*problem.log_mass(), *problem.lag_s()}, .noise = {}, .residuals = {}};
   const std::optional<Eigen::VectorXd> e = problem.residuals();
   if (!e || !problem.summary().IsSolutionUsable()) return fit;
   const auto n = static_cast<double>(e->size());
@@ -75,6 +79,8 @@ CoastCandidate fit_once(const CoastData& data, const CoastStart& start, double p
   fit.noise = noise_of_residuals(*e, data.curves, problem.free_count(), data.sensor_mps);
   const double k = problem.free_count() + fit.noise.numbers();
   if (n <= k + 1.0) return fit;
+  fit.residuals = *e;
+  fit.penalty = problem.law_distance() + 2.0 * problem.free_count();
   fit.aicc =
       fit.noise.cost + problem.law_distance() + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
   return fit;
@@ -194,18 +200,78 @@ bool is_described(const CoastData& data, const CoastCandidate& given) {
          !(fit_once(data, fast_filter(data, given.at), 0.0).aicc < given.aicc);
 }
 
+/// Speed below which a residual is an integration error, m/s.
+double exact_mps(const std::vector<CoastCurve>& curves) { return 1e-4 * highest_speed_mps(curves); }
+
+/// The data of the curves for one surge law.
+CoastData data_of(const CoastReadings& readings, const SteadyFit& surge) {
+  return {
+      readings.curves, surge,
+      std::max({pooled_noise(readings.curves), readings.quantum_mps, exact_mps(readings.curves)})};
+}
+
+/// The best model of the curves for one surge law, which may vary within its covariance: without a
+/// filter or, if AICc is lower, with one.
+CoastCandidate best_candidate_of(const CoastData& data) {
+  CoastCandidate plain = fit_candidate(data, {guess_log_mass(data.curves, data.surge.law())});
+  if (std::ranges::any_of(data.curves, &CoastCurve::of_bins) || !std::isfinite(plain.aicc)) {
+    return plain;
+  }
+  CoastCandidate filtered = fit_filters(data, plain.at).front();
+  return filtered.aicc < plain.aicc ? filtered : plain;
+}
+
+/// True if the law describes the curves, as in choose_coast_model().
+bool describes(const CoastReadings& readings, const SteadyFit& law) {
+  const CoastData data = data_of(readings, law);
+  const CoastCandidate given = fit_once(data, {guess_log_mass(data.curves, law.law())}, 0.0);
+  return !std::isfinite(given.aicc) || is_described(data, given);
+}
+
 }  // namespace
 
+std::optional<LawOfCurves> law_of_curves(const CoastReadings& readings,
+                                         const std::vector<ScoredLaw>& laws) {
+  if (laws.size() < 2 || readings.curves.empty() || describes(readings, laws.front().fit)) {
+    return std::nullopt;
+  }
+  std::vector<CoastCandidate> fits;
+  const CoastCandidate* reference = nullptr;
+  fits.reserve(laws.size());
+  for (const ScoredLaw& law : laws) {
+    fits.push_back(best_candidate_of(data_of(readings, law.fit)));
+    if (!std::isfinite(fits.back().aicc)) continue;
+    if (!reference || fits.back().residuals.norm() < reference->residuals.norm()) {
+      reference = &fits.back();
+    }
+  }
+  if (!reference || !std::isfinite(fits.front().aicc)) return std::nullopt;
+  const auto score = [&](std::size_t k) {
+    return laws[k].aicc + fits[k].penalty +
+           cost_of_residuals(fits[k].residuals, readings.curves, reference->noise);
+  };
+  LawOfCurves best;
+  for (std::size_t k = 1; k < laws.size(); ++k) {
+    if (!std::isfinite(fits[k].aicc)) continue;
+    const double decrease = score(0) - score(k);
+    if (decrease > best.decrease) best = {k, decrease};
+  }
+  const CoastCandidate& chosen = fits[best.index];
+  const CoastData data = data_of(readings, laws[best.index].fit);
+  if (best.decrease <= kFamilyAicThreshold ||
+      chosen.noise.of_the_model(longest_drift_s(data, chosen.at))) {
+    return std::nullopt;
+  }
+  return best;
+}
+
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge) {
-  // Share of the highest speed below which a residual is an integration error.
-  constexpr double kExact = 1e-4;
   const std::vector<CoastCurve>& curves = readings.curves;
-  const double exact_mps = kExact * highest_speed_mps(curves);
-  const CoastData data{curves, surge,
-                       std::max({pooled_noise(curves), readings.quantum_mps, exact_mps})};
+  const CoastData data = data_of(readings, surge);
   const CoastCandidate given = fit_once(data, {guess_log_mass(curves, surge.law())}, 0.0);
   CoastModel model{.start = given.at, .other = {}, .noise = {}};
-  if (!std::isfinite(given.aicc) || given.noise.std() < exact_mps || is_described(data, given)) {
+  if (!std::isfinite(given.aicc) || given.noise.std() < exact_mps(curves) ||
+      is_described(data, given)) {
     return model;
   }
   const CoastCandidate plain = fit_candidate(data, given.at);

@@ -37,6 +37,28 @@ struct CoastModel {
 /// filter.
 CoastModel choose_coast_model(const CoastReadings& readings, const SteadyFit& surge);
 
+/// A surge law with the AICc of its fit to the surge runs.
+struct ScoredLaw {
+  const SteadyFit& fit;
+  double aicc = 0.0;
+};
+
+/// The law that surge runs and curves together describe best.
+struct LawOfCurves {
+  std::size_t index = 0;  ///< index in the list of laws
+  double decrease = 0.0;  ///< AICc of the first law minus that of this law
+};
+
+/// Compares the laws on surge runs and curves together. The score of a law is its AICc for the surge
+/// runs plus -2 ln L of the curves, in a fit in which the law may vary within its covariance and the
+/// speed may be filtered. All laws are compared under one noise model of the curves, that of the
+/// smallest residuals, because the drift of a law's own noise model absorbs the law's error. Returns
+/// the law with the lowest score if the score is lower than that of the first law by more than
+/// kFamilyAicThreshold and the law describes the curves (CoastModel::is_inadequate() is false). Empty
+/// otherwise, and if the first law describes the curves.
+std::optional<LawOfCurves> law_of_curves(const CoastReadings& readings,
+                                         const std::vector<ScoredLaw>& laws);
+
 /// The finding `model-inadequate`, if there is a model error.
 std::vector<Finding> inadequacy(const CoastModel& model, const std::string& file);
 

@@ -70,8 +70,11 @@ std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e,
   return runs;
 }
 
-ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
-                                int free, double sensor_mps) {
+namespace {
+
+/// The residuals `e` as one series per curve.
+std::vector<ErrorSeries> series_by_curve(const Eigen::VectorXd& e,
+                                         const std::vector<CoastCurve>& curves) {
   std::vector<std::vector<double>> runs = by_run(e, curves);
   std::vector<ErrorSeries> series;
   for (std::size_t run = 0; run < runs.size(); ++run) {
@@ -80,10 +83,23 @@ ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<Coas
     for (std::size_t i = 1; i < t_s.size(); ++i)
       series.back().since_s.push_back(t_s[i] - t_s[i - 1]);
   }
+  return series;
+}
+
+}  // namespace
+
+ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
+                                int free, double sensor_mps) {
+  const std::vector<ErrorSeries> series = series_by_curve(e, curves);
   const auto n = static_cast<double>(e.size());
   const double free_share = (n - static_cast<double>(free)) / n;
   return likeliest_noise(series, free_share,
                          {.sensor_std = sensor_mps, .count = static_cast<int>(e.size())});
+}
+
+double cost_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
+                         const ChannelNoise& noise) {
+  return cost_of(series_by_curve(e, curves), noise);
 }
 
 double effective_std(const ChannelNoise& noise, const std::vector<CoastCurve>& curves) {

@@ -19,6 +19,10 @@ std::vector<std::vector<double>> by_run(const Eigen::VectorXd& e,
 ChannelNoise noise_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
                                 int free, double sensor_mps);
 
+/// -2 ln L of the residuals `e` under the noise model `noise`, up to a constant (cost_of()).
+double cost_of_residuals(const Eigen::VectorXd& e, const std::vector<CoastCurve>& curves,
+                         const ChannelNoise& noise);
+
 /// Returns the standard deviation of white noise that gives the mean error of all samples in
 /// `curves` the same variance as `noise` does; at least noise.std(). Where `noise` is correlated,
 /// this value is larger than noise.std(), because averaging then removes less of the noise.

@@ -13,6 +13,7 @@
 #include "awmr/identify/coastdown/coast_alone.h"
 #include "awmr/identify/coastdown/coast_model.h"
 #include "awmr/identify/logs/log_report.h"
+#include "awmr/identify/tables/profile.h"
 #include "awmr/model/log_term_names.h"
 
 namespace awmr {
@@ -336,6 +337,19 @@ void check(const SteadyFit& surge, const std::optional<TrialSet<StopTimeRow>>& s
 }
 
 }  // namespace
+
+std::optional<FamilyOfCurves> family_of_curves(const SubjectFit& surge,
+                                               const std::vector<CoastCurve>& curves) {
+  if (surge.undecided.size() < 2 || curves.empty()) return std::nullopt;
+  MassResult ignored;
+  CoastReadings readings = measured_rows(curves, ignored.findings);
+  readings.curves = falling(readings.curves, ignored);
+  std::vector<ScoredLaw> laws;
+  for (const FamilyCandidate& one : surge.undecided) laws.push_back({one.fit, *aicc(one.fit)});
+  const auto best = law_of_curves(readings, laws);
+  if (!best) return std::nullopt;
+  return FamilyOfCurves{surge.undecided[best->index].problem.family, best->decrease};
+}
 
 MassResult estimate_mass(const SubjectFit* surge, const std::optional<TrialSet<StopTimeRow>>& stops,
                          const std::vector<CoastCurve>& all_curves, const Vehicle& vehicle,

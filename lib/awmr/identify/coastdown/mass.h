@@ -32,6 +32,17 @@ struct MassResult {
   std::vector<Finding> findings;
 };
 
+/// Family that surge runs and coast-down curves together describe best.
+struct FamilyOfCurves {
+  Family family = Family::kPower;
+  double decrease = 0.0;  ///< by how much it lowers AICc
+};
+/// Compares the families between which the surge runs do not decide (SubjectFit::undecided) on the
+/// curves, see law_of_curves(). Empty if the chosen family describes the curves, or no other one is
+/// significantly better.
+std::optional<FamilyOfCurves> family_of_curves(const SubjectFit& surge,
+                                               const std::vector<CoastCurve>& curves);
+
 /// Estimates m' from stop times, curves or both. `surge` is null if the surge law is not
 /// identified. Then `family` is fitted to the curves alone, and compared with the other families
 /// unless the user requested it (`power-law-inadequate`). Excludes rows and curves that do not

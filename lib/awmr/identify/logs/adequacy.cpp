@@ -8,6 +8,7 @@
 #include "awmr/core/option_text.h"
 #include "awmr/identify/logs/family_score.h"
 #include "awmr/identify/logs/windows.h"
+#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {
@@ -22,9 +23,9 @@ std::optional<std::string> try_alternatives(BestFamily alternatives, const Famil
   for (Finding& finding : alternatives.findings) adequacy.findings.push_back(std::move(finding));
   if (alternatives.best.surge == Family::kPower) return std::nullopt;
   adequacy.alternatives.push_back(alternatives.best.fit.report);
-  return fmt::format("a power law does not fit these logs; use {}, whose AIC is lower by {:.0f}",
+  return fmt::format("a power law does not fit these logs; use {}, whose AIC is lower by {}",
                      option_text(fmt::format("family surge={}", name_of(alternatives.best.surge))),
-                     aic_lead(alternatives.best.fit, chosen.fit));
+                     aic_decrease_text(aic_lead(alternatives.best.fit, chosen.fit)));
 }
 
 /// True for a channel whose large drift makes all intervals invalid: speed; yaw rate; position, if
@@ -79,6 +80,7 @@ std::string possible_causes(const Channels& channels) {
   const std::string causes =
       "an unmodelled effect (a motor driver that brakes at a command of 0, a curved throttle, "
       "play or a curved steering linkage without a steering_deg column, a slope, sliding tyres); "
+      "a change of load, ground or battery during a log; "
       "a wrong value in the vehicle file (half_track_m, front_axle_m, steering.max_rate_degps); "
       "a sensor with a bias or drift";
   const std::string bias =

@@ -99,9 +99,10 @@ Finding back_emf_finding(const std::string& file, const FamilyFit& with, const F
                       "the largest force per m/s. The model with back-EMF is used, because {}; the "
                       "coasting sections then determine the resistance",
                       k, std_error,
-                      without.fit.usable ? fmt::format("its AIC is lower by {:.0f}",
-                                                       aic_lead(with.fit, without.fit))
-                                         : "the model without it does not converge")};
+                      without.fit.usable
+                          ? fmt::format("its AIC is lower by {}",
+                                        aic_decrease_text(aic_lead(with.fit, without.fit)))
+                          : "the model without it does not converge")};
 }
 
 }  // namespace awmr

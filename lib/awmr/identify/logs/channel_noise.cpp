@@ -38,14 +38,16 @@ struct InnovationSums {
   double n = 0.0;
 };
 
-InnovationSums innovation_sums(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
+/// `most`: larger values of nu_k^2/S_k count as this value.
+InnovationSums innovation_sums(std::span<const ErrorSeries> series, const ChannelNoise& noise,
+                               double most = std::numeric_limits<double>::infinity()) {
   InnovationSums sums;
   double product = 1.0;  // product of many S_k: one logarithm of the product replaces many
   for (const ErrorSeries& part : series) {
     Whitener whitener(noise);
     for (std::size_t k = 0; k < part.error.size(); ++k) {
       const auto [nu, variance] = whitener.next(part.error[k], part.since_s[k]);
-      sums.squares += nu * nu / variance;
+      sums.squares += std::min(nu * nu / variance, most);
       product *= variance;
       if (product > 1e150 || product < 1e-150) {
         sums.log_variances += std::log(product);
@@ -308,6 +310,12 @@ NoiseLevels sensor_noise(const std::vector<FitWindow>& windows) {
 
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise) {
   const InnovationSums sums = innovation_sums(series, noise);
+  return sums.squares + sums.log_variances;
+}
+
+double clipped_cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise,
+                       double most) {
+  const InnovationSums sums = innovation_sums(series, noise, most);
   return sums.squares + sums.log_variances;
 }
 

@@ -91,6 +91,8 @@ using ErrorsByChannel = std::map<LogChannel, std::vector<ErrorSeries>>;
 /// nu_k is the part of error k that the errors before it do not predict, S_k its variance
 /// (whitener.h).
 double cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise);
+/// The same, with no nu_k^2/S_k above `most`, so that single errors do not dominate the cost.
+double clipped_cost_of(std::span<const ErrorSeries> series, const ChannelNoise& noise, double most);
 
 /// Returns the most likely noise model of these errors (maximum likelihood). Begins with white
 /// noise and makes three steps. The result of a step is kept only if it lowers -2 ln L by more than

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "awmr/core/option_text.h"
 #include "awmr/core/units.h"
 #include "awmr/identify/logs/force_findings.h"
 #include "awmr/identify/logs/steering_linkage.h"
@@ -176,6 +177,22 @@ std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& 
                      "align the sensor with the vehicle",
                      degrees(std::abs(one.value)), degrees(one.error),
                      one.value > 0.0 ? "left" : "right")});
+  }
+  return findings;
+}
+
+/// Finding `speed-sensor`, if the sensor of the speed is not on the vehicle's centre line.
+std::vector<Finding> speed_sensor_findings(const LogFit& fit, const std::string& file) {
+  std::vector<Finding> findings;
+  for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSpeedOffset)) {
+    findings.push_back(
+        {file, 0, Severity::kWarning, "speed-sensor",
+         fmt::format(
+             "speed_mps is the forward speed of a point {:.3f} +- {:.3f} m to the {} of the "
+             "centre line; at half of the track width, it is the speed of one wheel. The "
+             "fit compensates for this; map the mean of a left and a right wheel ({})",
+             std::abs(one.value), one.error, one.value > 0.0 ? "left" : "right",
+             option_text("column speed_mps=\"(LEFT+RIGHT)/2\""))});
   }
   return findings;
 }
@@ -383,9 +400,10 @@ std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdra
   std::vector<Finding> findings = delay_findings(fit, file);
   for (const auto& more :
        {scale_findings(fit, file), slip_findings(fit, file), sway_sensor_findings(fit, file),
-        steering_delay_findings(fit, file), servo_rate_findings(fit, file),
-        linkage_findings(fit, file), constant_error_findings(fit, file),
-        saturation_findings(fit, file), actuator_findings(fit, file), force_findings(fit, file)}) {
+        speed_sensor_findings(fit, file), steering_delay_findings(fit, file),
+        servo_rate_findings(fit, file), linkage_findings(fit, file),
+        constant_error_findings(fit, file), saturation_findings(fit, file),
+        actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   if (!withdrawn) return findings;

@@ -93,8 +93,8 @@ std::optional<Finding> power_law_inadequate(const std::string& file, const BestF
     const std::string with = families_in_words(best.surge, best.yaw);
     const std::string without = families_in_words(power->surge, power->yaw);
     reasons.push_back(
-        power->fit.usable ? fmt::format("the AIC of {} is lower by {:.0f} than that of {}", with,
-                                        aic_lead(best.fit, power->fit), without)
+        power->fit.usable ? fmt::format("the AIC of {} is lower by {} than that of {}", with,
+                                        aic_decrease_text(aic_lead(best.fit, power->fit)), without)
         : power->fit.gave_up
             ? fmt::format("the errors of {} are {:.2g} times those of {}", without,
                           std::sqrt(power->fit.relative_error / best.fit.relative_error), with)

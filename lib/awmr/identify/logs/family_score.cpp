@@ -22,6 +22,11 @@ double log_size_of_errors(const LogFit& fit) {
   return size;
 }
 
+/// Noise model of the fit with the smaller errors.
+const NoiseLevels& noise_of_better(const LogFit& a, const LogFit& b) {
+  return log_size_of_errors(a) <= log_size_of_errors(b) ? a.noise : b.noise;
+}
+
 }  // namespace
 
 double aic_under(const NoiseLevels& noise, const LogFit& fit) {
@@ -33,8 +38,22 @@ double aic_under(const NoiseLevels& noise, const LogFit& fit) {
 double aic_lead(const LogFit& a, const LogFit& b) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!a.usable || !b.usable) return a.usable ? kInfinity : b.usable ? -kInfinity : 0.0;
-  const NoiseLevels& noise = log_size_of_errors(a) <= log_size_of_errors(b) ? a.noise : b.noise;
+  const NoiseLevels& noise = noise_of_better(a, b);
   return aic_under(noise, b) - aic_under(noise, a);
+}
+
+double aic_lead_of_most_rows(const LogFit& a, const LogFit& b) {
+  constexpr double kMost = 9.0;
+  if (!a.usable || !b.usable) return aic_lead(a, b);
+  const NoiseLevels& noise = noise_of_better(a, b);
+  const auto aic = [&](const LogFit& fit) {
+    double sum = 2.0 * static_cast<double>(fit.quantities.size()) + fit.change_cost;
+    for (const auto& [channel, errors] : fit.errors) {
+      sum += clipped_cost_of(errors, noise.at(channel), kMost);
+    }
+    return sum;
+  };
+  return aic(b) - aic(a);
 }
 
 }  // namespace awmr

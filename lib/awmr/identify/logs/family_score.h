@@ -20,4 +20,8 @@ double aic_under(const NoiseLevels& noise, const LogFit& fit);
 /// `a` is better. Infinity if only `a` is usable, -infinity if only `b` is, 0 if neither is.
 double aic_lead(const LogFit& a, const LogFit& b);
 
+/// aic_lead() with each innovation counted as at most three standard deviations, so that a few rows
+/// do not decide.
+double aic_lead_of_most_rows(const LogFit& a, const LogFit& b);
+
 }  // namespace awmr

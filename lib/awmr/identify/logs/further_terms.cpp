@@ -134,6 +134,20 @@ void add_slip(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   }
 }
 
+/// Adds the distance of the speed sensor from the centre line, if the logs have turns and a channel
+/// that measures them.
+void add_speed_offset(const LogProblem& problem, std::vector<FreeQuantity>& found) {
+  const NoiseLevels& measured = problem.model.noise;
+  const bool shows_yaw = measured.contains(LogChannel::kYawRate) ||
+                         measured.contains(LogChannel::kHeading) ||
+                         measured.contains(LogChannel::kX);
+  const bool turns =
+      any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
+  if (!measured.contains(LogChannel::kSpeed) || !shows_yaw || !turns) return;
+  if (has_kind(problem.model.quantities, FreeQuantity::Kind::kSpeedOffset)) return;
+  found.push_back(speed_offset());
+}
+
 void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   if (!any_log(problem, has_steering_changes)) return;
@@ -167,7 +181,7 @@ std::vector<FreeQuantity> all_terms() {
   std::vector<FreeQuantity> terms{input_delay(),    steering_delay(),     motor_lag(),
                                   steering_trim(),  steering_dead_band(), steering_asymmetry(),
                                   steering_curve(), force_imbalance(),    force_exponent(),
-                                  sway_offset(),    sway_angle()};
+                                  sway_offset(),    sway_angle(),         speed_offset()};
   for (const ExtraForce force :
        {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
         ExtraForce::kReverseForce, ExtraForce::kBackwardDrag, ExtraForce::kSidePull}) {
@@ -223,6 +237,7 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
     if (!has_kind(quantities, Kind::kSwayOffset)) found.push_back(sway_offset());
     if (!has_kind(quantities, Kind::kSwayAngle)) found.push_back(sway_angle());
   }
+  add_speed_offset(problem, found);
   return found;
 }
 

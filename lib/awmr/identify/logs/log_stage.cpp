@@ -12,6 +12,7 @@
 #include "awmr/identify/logs/adequacy.h"
 #include "awmr/identify/logs/back_emf.h"
 #include "awmr/identify/logs/between_logs.h"
+#include "awmr/identify/logs/change_in_log.h"
 #include "awmr/identify/logs/changes_between_rows.h"
 #include "awmr/identify/logs/command_findings.h"
 #include "awmr/identify/logs/force_findings.h"
@@ -187,6 +188,33 @@ std::optional<Finding> disagreement(const LogFit& fit, std::size_t i, const Esti
                   info(q.id).name, q.value(fit.coordinates[i]), *known.value, known.method, z, p)};
 }
 
+/// Searches a change of the vehicle within the log (find_change()), if the fit `chosen` has a model
+/// error or a saturation of the forces, which such a change resembles. Reports it and withdraws the
+/// intervals. Returns true if there is a change.
+bool report_change(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
+                   const FamilyFit& chosen, LogStage& stage) {
+  const bool is_inadequate =
+      std::ranges::find(stage.findings, "model-inadequate", &Finding::code) != stage.findings.end();
+  if (!is_inadequate && !saturates_much(chosen.fit)) return false;
+  const auto change = find_change(logs, power_law, chosen);
+  if (!change) return false;
+  stage.withdraws_intervals = true;
+  stage.findings.push_back(change_finding(*change, logs.front().file));
+  return true;
+}
+
+/// Adds to the findings about forces that the model lacks that a change within the log explains them
+/// as well.
+void doubt_force_terms(std::vector<Finding>& findings) {
+  constexpr std::string_view kOfForces[] = {"force-saturation", "side-pull",   "turn-drag",
+                                            "backward-drag",    "brake-force", "reverse-force"};
+  for (Finding& finding : findings) {
+    if (std::ranges::find(kOfForces, finding.code) == std::end(kOfForces)) continue;
+    finding.message +=
+        ". But the change within the log (changed-in-log) explains the log without this effect";
+  }
+}
+
 /// Copies the parameters that the fit identifies to `stage`. If a parameter already has a value
 /// from other trials, copies it only if `overrule` is true.
 void take(const LogFit& fit, const Model& model, bool overrule, const std::string& file,
@@ -282,7 +310,8 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   }
   if (chosen.fit.usable && has_implausible_imbalance(chosen.fit)) stage.withdraws_intervals = true;
   show_step(options, "comparing the logs with each other");
-  compare_parts(logs, chosen, stage);
+  const bool has_changed = report_change(logs, power_law, chosen, stage);
+  if (!has_changed) compare_parts(logs, chosen, stage);
   withdraw_by_stribeck(chosen.fit);
   widen_by_steering_scale(logs, chosen);
   withdraw_by_curve(chosen.fit);
@@ -299,6 +328,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     return stage;
   }
   take(chosen.fit, model, overrule, file, stage);
+  if (has_changed) doubt_force_terms(stage.findings);
   append(stage.findings, refused_terms(chosen.fit, options.terms, file));
   append(stage.findings, speed_control_findings(vehicle, logs, stage, set_point_mps));
   check_inertia(vehicle, logs, model, stage);

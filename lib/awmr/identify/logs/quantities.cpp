@@ -94,6 +94,7 @@ Interval range_of(const FreeQuantity& quantity) {
     case Kind::kWheelSlip:
       return {0.0, kLargestSlip};
     case Kind::kSwayOffset:
+    case Kind::kSpeedOffset:
       return {-kLargestOffset_m, kLargestOffset_m};
     case Kind::kSwayAngle:
       return {-kLargestAngle_rad, kLargestAngle_rad};
@@ -131,9 +132,10 @@ constexpr NamedKind kNamedKinds[] = {
     {FreeQuantity::Kind::kWheelSlip, kSlipPrefix, true},
     {FreeQuantity::Kind::kSwayOffset, kSwayOffsetName},
     {FreeQuantity::Kind::kSwayAngle, kSwayAngleName},
+    {FreeQuantity::Kind::kSpeedOffset, kSpeedOffsetName},
     {FreeQuantity::Kind::kBias, kBiasPrefix, true},
 };
-static_assert(std::size(kNamedKinds) + 2 == at(FreeQuantity::Kind::kSwayAngle) + 1);
+static_assert(std::size(kNamedKinds) + 2 == at(FreeQuantity::Kind::kSpeedOffset) + 1);
 
 Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   if (quantity.kind == FreeQuantity::Kind::kParameter) {
@@ -285,6 +287,10 @@ FreeQuantity sway_offset() {
 }
 
 FreeQuantity sway_angle() { return {.kind = FreeQuantity::Kind::kSwayAngle, .large_change = 0.1}; }
+
+FreeQuantity speed_offset() {
+  return {.kind = FreeQuantity::Kind::kSpeedOffset, .large_change = 0.1};
+}
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {
   return std::ranges::any_of(quantities, [&](const FreeQuantity& q) { return q.kind == kind; });

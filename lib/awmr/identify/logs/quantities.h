@@ -45,7 +45,8 @@ struct FreeQuantity {
     kSensorScale,          ///< relative error of the scale of a channel
     kWheelSlip,            ///< slip of the wheels that measure a channel (wheel_slip.h)
     kSwayOffset,           ///< distance of the sway sensor ahead of the centre of gravity
-    kSwayAngle             ///< angle by which the sway sensor is turned to the left
+    kSwayAngle,            ///< angle by which the sway sensor is turned to the left
+    kSpeedOffset           ///< distance of the speed sensor to the left of the centre line
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< for kParameter
@@ -210,6 +211,11 @@ FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
 ///     v cos a - u sin a + x_s r
 FreeQuantity sway_offset();
 FreeQuantity sway_angle();
+
+/// Distance y_s, m, of the sensor of the speed u to the left of the vehicle's centre line. r is the
+/// yaw rate. The sensor reads u - y_s r. For the speed of a left wheel, y_s is half of the track
+/// width; for a right wheel, minus half of it.
+FreeQuantity speed_offset();
 
 struct FreeTerm {
   FreeQuantity quantity;

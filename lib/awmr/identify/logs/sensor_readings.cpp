@@ -56,6 +56,7 @@ double LogSensors::read(LogChannel c, const LinearMotion& motion, double t_s) {
                             row_.data());
   }
   if (c == LogChannel::kSway) value = sway(motion);
+  if (c == LogChannel::kSpeed && terms_.speed_offset) value += add_speed_offset(motion);
   return scaled(c, value);
 }
 
@@ -66,6 +67,19 @@ double LogSensors::scaled(LogChannel c, double value) {
   for (double& by : row_) by *= factor;
   if (!row_.empty()) row_[scale->column] += value;
   return factor * value;
+}
+
+/// Part -y_s r of the reading of a speed sensor that is not on the centre line (speed_offset()).
+/// Adds its derivatives to the row.
+double LogSensors::add_speed_offset(const LinearMotion& motion) {
+  const double y = terms_.speed_offset->value;
+  const double r = motion.state.r_radps;
+  if (!row_.empty()) {
+    const double* const by_r = motion.row(LogChannel::kYawRate, row_.size());
+    for (std::size_t c = 0; c < row_.size(); ++c) row_[c] -= y * by_r[c];
+    row_[terms_.speed_offset->column] -= r;
+  }
+  return -y * r;
 }
 
 /// Reading of the sensor of the sway speed, which may sit off the centre of gravity or at an angle

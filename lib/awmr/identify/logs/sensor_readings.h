@@ -46,6 +46,7 @@ class LogSensors {
 
  private:
   double sway(const LinearMotion& motion);
+  double add_speed_offset(const LinearMotion& motion);
   double scaled(LogChannel c, double value);
 
   const LogSignals& signals_;

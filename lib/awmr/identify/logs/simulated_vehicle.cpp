@@ -112,6 +112,9 @@ void set_sensor_term(const FreeQuantity& q, double number, std::size_t i, const 
     case Kind::kSwayAngle:
       sensors.sway_angle = {number, i};
       break;
+    case Kind::kSpeedOffset:
+      sensors.speed_offset = {number, i};
+      break;
     case Kind::kBias:
       sensors.bias[c] = number;
       sensors.bias_column[c] = i;

@@ -45,6 +45,7 @@ struct SensorTerms {
   std::vector<WheelSlip> slips;
   std::optional<OffsetColumn> sway_offset;
   std::optional<OffsetColumn> sway_angle;
+  std::optional<OffsetColumn> speed_offset;
 
   bool any_delayed() const;
   bool any_smoothed() const;

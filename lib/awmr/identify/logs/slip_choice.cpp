@@ -106,6 +106,11 @@ std::vector<Terms> other_explanations(const Terms& terms, const std::vector<Driv
   return others;
 }
 
+/// Decrease of AIC by `a` instead of `b`, of all rows or, if it is smaller, of most rows.
+double lead_of(const LogFit& a, const LogFit& b) {
+  return std::min(aic_lead(a, b), aic_lead_of_most_rows(a, b));
+}
+
 }  // namespace
 
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
@@ -123,7 +128,7 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
   std::vector<std::string> names;
   const FamilyFit* closest = nullptr;
   for (const FamilyFit& other : others) {
-    if (!(aic_lead(chosen.fit, other.fit) < kPlainly)) continue;
+    if (!(lead_of(chosen.fit, other.fit) < kPlainly)) continue;
     for (std::string& name : withdraw_different(other.fit.report, chosen.fit.report)) {
       names.push_back(std::move(name));
       closest = &other;
@@ -133,10 +138,11 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
   return Finding{
       logs.front().file, 0, Severity::kWarning, "wheel-slip",
       fmt::format("these logs do not decide between {} and {}: the AIC of the first is lower by "
-                  "only {:.1f}, so the intervals of {} are withdrawn. Log each command when it "
+                  "only {:.1f}{}, so the intervals of {} are withdrawn. Log each command when it "
                   "is sent, and measure the speed without driven wheels (optical flow, GNSS, a "
                   "free wheel)",
-                  explanation(chosen), explanation(*closest), aic_lead(chosen.fit, closest->fit),
+                  explanation(chosen), explanation(*closest), lead_of(chosen.fit, closest->fit),
+                  aic_lead(chosen.fit, closest->fit) < kPlainly ? "" : " without a few rows",
                   fmt::join(names, ", "))};
 }
 

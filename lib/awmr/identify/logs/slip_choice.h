@@ -15,9 +15,11 @@ namespace awmr {
 /// explain.
 ///
 /// The fit with the lowest AIC becomes `chosen`. If the AIC of another fit is higher by less than
-/// 10, the logs do not decide between the two. The intervals of the parameters that differ between
-/// the fits by more than one standard error are then withdrawn, and the finding `wheel-slip` names
-/// both explanations. Empty if nothing was withdrawn.
+/// 10, or if only a few rows make the difference larger (aic_lead_of_most_rows()), the logs do not
+/// decide. Such rows are those in which a command changes: whether a reading already shows the new
+/// command depends on the program that writes the log. The intervals of the parameters that differ
+/// between the fits by more than one standard error are then withdrawn, and the finding
+/// `wheel-slip` names both explanations. Empty if nothing was withdrawn.
 std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFit& chosen);
 
 }  // namespace awmr

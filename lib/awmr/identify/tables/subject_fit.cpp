@@ -12,13 +12,10 @@
 #include "awmr/identify/tables/influence.h"
 #include "awmr/identify/tables/profile.h"
 #include "awmr/identify/tables/residual_checks.h"
+#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {
-
-/// Smallest decrease of AICc by which another family is significantly better than the power law. 10
-/// is a likelihood ratio of e^5.
-constexpr double kTablesPlainlyBetter = 10.0;
 
 /// Smallest number n of runs for which AICc exists. Its denominator n - p - 2 must be positive, and
 /// the smallest families have p = 2 parameters.
@@ -131,9 +128,10 @@ std::vector<Finding> power_law_findings(const Subject& subject, ErrorModel wante
   const std::string_view better = name_of(best->problem.family);
   return {about(subject, power_used ? Severity::kWarning : Severity::kNote, "power-law-inadequate",
                 fmt::format("a power law does not describe these runs. The family {} fits better: "
-                            "its AICc (a measure of the error) is lower by {:.1f}, its residual "
+                            "its AICc (a measure of the error) is lower by {}, its residual "
                             "standard deviation is {:.3g} (power law: {:.3g}){}",
-                            better, difference, best->fit.residual_std, power->fit.residual_std,
+                            better, aic_decrease_text(difference, 1), best->fit.residual_std,
+                            power->fit.residual_std,
                             power_used ? fmt::format(". The values that follow from these runs get "
                                                      "no intervals; use {}",
                                                      option_text(fmt::format("family {}", better)))
@@ -221,6 +219,20 @@ void put_weights(std::size_t chosen_report, SubjectFit& result) {
   }
 }
 
+/// The fits of SubjectFit::undecided, for the chosen family `used`.
+std::vector<FamilyCandidate> undecided_fits(const std::vector<FamilyCandidate>& candidates,
+                                            ErrorModel wanted, Family used) {
+  const FamilyCandidate* chosen = candidate_of(candidates, used, wanted);
+  if (!chosen || !chosen->fit.usable || !aicc(chosen->fit)) return {};
+  std::vector<FamilyCandidate> fits{*chosen};
+  for (const FamilyCandidate& other : candidates) {
+    if (&other == chosen || other.problem.noise != wanted || !other.fit.usable) continue;
+    const auto score = aicc(other.fit);
+    if (score && *score < *aicc(chosen->fit) + kTablesPlainlyBetter) fits.push_back(other);
+  }
+  return fits;
+}
+
 SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
   SubjectFit result;
   if (!has_two_forces(subject.points)) return result;
@@ -253,6 +265,7 @@ SubjectFit fit_rows(const Subject& subject, const SubjectOptions& options) {
     auto findings = power_law_findings(subject, wanted, candidates, result.problem.family);
     result.is_inadequate = !findings.empty() && result.problem.family == Family::kPower;
     append(std::move(findings), result.findings);
+    result.undecided = undecided_fits(candidates, wanted, result.problem.family);
   }
   return result;
 }

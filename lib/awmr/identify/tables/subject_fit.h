@@ -9,6 +9,10 @@
 
 namespace awmr {
 
+/// Smallest decrease of AICc by which another family is significantly better than the power law. 10
+/// is a likelihood ratio of e^5.
+inline constexpr double kTablesPlainlyBetter = 10.0;
+
 /// Result of fit_subject().
 struct SubjectFit {
   /// The chosen fit. Absent if no fit is accepted, or if the rows cannot determine the resistance
@@ -22,6 +26,10 @@ struct SubjectFit {
   /// The chosen fit, followed by the fits under the other error models (noise_average.h). Empty
   /// without a chosen fit.
   std::vector<NoiseAlternative> alternatives;
+  /// Fits between which the rows do not decide: the chosen family under the error model by which the
+  /// families are compared, then each family whose AICc is less than kTablesPlainlyBetter above it.
+  /// Empty if the families were not compared.
+  std::vector<FamilyCandidate> undecided;
   /// True if the chosen law does not describe the rows: another family than the power law describes
   /// them much better (`power-law-inadequate`), or left and right turns differ (`turns-differ`).
   /// The values that follow from the law then get no intervals, because the wrong law, not the

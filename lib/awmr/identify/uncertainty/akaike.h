@@ -2,8 +2,11 @@
 /// resistance law). Private to identify/.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
+#include <string>
 
 namespace awmr {
 
@@ -27,6 +30,14 @@ inline std::optional<double> aicc(double sum_of_squares, double n, double free) 
     return std::nullopt;
   }
   return n * std::log(sum_of_squares / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
+}
+
+/// Text of a decrease of AIC, for a message that says "lower by ...". A large difference follows from
+/// the assumed noise, not from the evidence, so its digits mean nothing.
+inline std::string aic_decrease_text(double decrease, int decimals = 0) {
+  constexpr double kClear = 1000.0;
+  if (decrease > kClear) return "more than 1,000";
+  return fmt::format("{:.{}f}", decrease, decimals);
 }
 
 }  // namespace awmr

@@ -1,0 +1,185 @@
+#include "awmr/identify/logs/change_in_log.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "awmr/core/distributions.h"
+#include "awmr/core/index.h"
+#include "awmr/core/option_text.h"
+
+namespace awmr {
+namespace {
+
+/// Fits of the rows before and after a time.
+struct PartFits {
+  FamilyFit before;
+  FamilyFit after;
+
+  bool usable() const { return before.fit.usable && after.fit.usable; }
+};
+
+/// True for a term by which the fit of a whole log describes the forces on the vehicle. Stribeck
+/// friction and slopes stay in the fits of the parts, because no change of a parameter resembles
+/// them.
+bool is_of_forces(const FreeTerm& term) {
+  using Kind = FreeQuantity::Kind;
+  const FreeQuantity& q = term.quantity;
+  return (q.kind == Kind::kExtraForce && !q.is_stribeck_or_slope()) ||
+         q.kind == Kind::kForceExponent || q.kind == Kind::kForceSaturation ||
+         q.kind == Kind::kSaturationSharpness;
+}
+
+LogFitOptions options_of_parts(const FamilyFit& chosen) {
+  LogFitOptions options = from_optimum(chosen.options, chosen);
+  std::erase_if(options.terms, is_of_forces);
+  options.noise.clear();
+  options.bootstrap = 0;
+  return options;
+}
+
+/// Fits the rows before and after `t_s` with the families of `chosen`.
+PartFits fit_parts(const std::vector<DrivingLog>& log, const LogFitOptions& options,
+                   const FamilyFit& chosen, double t_s) {
+  const std::vector<double>& times_s = log.front().t_s;
+  LogFitOptions before = options;
+  before.only_s = Interval{times_s.front(), t_s - kChangeWidth_s};
+  LogFitOptions after = options;
+  after.only_s = Interval{t_s + kChangeWidth_s, times_s.back() + 1.0};
+  return {fit_with(log, std::move(before), chosen.surge, chosen.yaw),
+          fit_with(log, std::move(after), chosen.surge, chosen.yaw)};
+}
+
+/// Size of the errors of both parts: sum over the channels of n ln(sum e^2/n), with the number n of
+/// errors e, divided by the number of all errors. Infinite if a part could not be fitted.
+double size_of_errors(const PartFits& parts) {
+  if (!parts.usable()) return std::numeric_limits<double>::infinity();
+  std::map<LogChannel, std::pair<double, double>> sums;  // squares and number of errors
+  for (const LogFit* fit : {&parts.before.fit, &parts.after.fit}) {
+    for (const auto& [channel, errors] : fit->errors) {
+      for (const ErrorSeries& part : errors) {
+        for (const double e : part.error) sums[channel].first += e * e;
+        sums[channel].second += static_cast<double>(part.error.size());
+      }
+    }
+  }
+  double size = 0.0;
+  double all = 0.0;
+  for (const auto& [channel, sum] : sums) {
+    const auto [squares, n] = sum;
+    size += n * std::log(std::max(squares / n, kMinimumStd * kMinimumStd));
+    all += n;
+  }
+  return size / all;
+}
+
+/// Searches the time at which the errors of both parts are smallest: on a grid, then halfway to its
+/// neighbours, until the steps are at most kChangeWidth_s. Empty if the limit of the work is
+/// reached.
+std::optional<double> likeliest_time(const std::vector<DrivingLog>& log,
+                                     const LogFitOptions& options, const FamilyFit& chosen) {
+  constexpr int kGrid = 6;
+  const double begin_s = log.front().t_s.front();
+  double step_s = (log.front().t_s.back() - begin_s) / kGrid;
+  double best_s = begin_s;
+  double least = std::numeric_limits<double>::infinity();
+  const auto consider = [&](double t_s) {
+    const double size = size_of_errors(fit_parts(log, options, chosen, t_s));
+    if (size < least) {
+      least = size;
+      best_s = t_s;
+    }
+  };
+  for (int k = 1; k < kGrid; ++k) consider(begin_s + k * step_s);
+  while (step_s > kChangeWidth_s) {
+    if (is_over(options)) return std::nullopt;
+    step_s /= 2.0;
+    const double middle_s = best_s;
+    consider(middle_s - step_s);
+    consider(middle_s + step_s);
+  }
+  return std::isfinite(least) ? std::optional(best_s) : std::nullopt;
+}
+
+bool is_adequate(const LogFit& fit) {
+  return fit.usable && std::ranges::none_of(fit.noise, [](const auto& channel) {
+           return channel.second.of_the_model();
+         });
+}
+
+/// Fits a part again with Coulomb friction and a power law of both axes, unless it has no model
+/// error. Reason: a change of the vehicle can also have misled the choice of the families.
+FamilyFit with_rich_families(const std::vector<DrivingLog>& log, LogFitOptions power_law,
+                             FamilyFit part) {
+  if (!part.fit.usable || is_adequate(part.fit)) return part;
+  power_law.only_s = part.options.only_s;
+  power_law.bootstrap = 0;
+  const Family yaw = power_law.frees(ParameterId::kYawAlpha) ? Family::kCoulombPower : part.yaw;
+  return fit_from(log, power_law, part, Family::kCoulombPower, yaw);
+}
+
+/// The quantities that differ significantly between the parts, the most significant first.
+std::vector<ChangedQuantity> changed_quantities(const PartFits& parts) {
+  constexpr double kChanged = 0.001;
+  const LogFit& a = parts.before.fit;
+  const LogFit& b = parts.after.fit;
+  const double level = kChanged / static_cast<double>(a.quantities.size());
+  std::vector<std::pair<double, ChangedQuantity>> found;
+  for (std::size_t i = 0; i < a.quantities.size(); ++i) {
+    const FreeQuantity& q = a.quantities[i];
+    if (q.kind != FreeQuantity::Kind::kParameter || !a.refusal_reason[i].empty()) continue;
+    const auto j = place_of(b.quantities, q.id);
+    if (!j || !b.refusal_reason[*j].empty()) continue;
+    const double z =
+        std::abs(a.coordinates[i] - b.coordinates[*j]) / std::hypot(a.error_of(i), b.error_of(*j));
+    if (!(2.0 * normal_tail(z) < level)) continue;
+    found.push_back({z, {q.name(), q.value(a.coordinates[i]), q.value(b.coordinates[*j])}});
+  }
+  std::ranges::stable_sort(found, std::greater{}, [](const auto& one) { return one.first; });
+  std::vector<ChangedQuantity> quantities;
+  for (auto& [z, quantity] : found) quantities.push_back(std::move(quantity));
+  return quantities;
+}
+
+}  // namespace
+
+std::optional<ChangeInLog> find_change(const std::vector<DrivingLog>& logs,
+                                       const LogFitOptions& power_law, const FamilyFit& chosen) {
+  constexpr double kLongEnough_s = 20.0;
+  if (logs.size() != 1 || !chosen.fit.usable || is_over(chosen.options)) return std::nullopt;
+  const std::vector<double>& t_s = logs.front().t_s;
+  if (t_s.back() - t_s.front() < kLongEnough_s) return std::nullopt;
+  const LogFitOptions options = options_of_parts(chosen);
+  const auto time_s = likeliest_time(logs, options, chosen);
+  if (!time_s) return std::nullopt;
+  PartFits parts = fit_parts(logs, options, chosen, *time_s);
+  parts.before = with_rich_families(logs, power_law, std::move(parts.before));
+  parts.after = with_rich_families(logs, power_law, std::move(parts.after));
+  if (!is_adequate(parts.before.fit) || !is_adequate(parts.after.fit)) return std::nullopt;
+  ChangeInLog change{*time_s, changed_quantities(parts)};
+  return change.quantities.empty() ? std::nullopt : std::optional(std::move(change));
+}
+
+Finding change_finding(const ChangeInLog& change, const std::string& file) {
+  constexpr std::size_t kMostNamed = 3;
+  std::vector<std::string> values;
+  for (const ChangedQuantity& one : change.quantities) {
+    if (values.size() == kMostNamed) break;
+    values.push_back(
+        fmt::format("{} {:.4g} before and {:.4g} after", one.name, one.before, one.after));
+  }
+  return {file, 0, Severity::kWarning, "changed-in-log",
+          fmt::format("the vehicle or its surroundings changed at about {:.0f} s: separate fits of "
+                      "the rows before and after describe the log, a single one does not ({}). "
+                      "Load, ground, battery or temperature changed, so the intervals are "
+                      "withdrawn; identify both parts separately ({}, {})",
+                      change.t_s, fmt::join(values, ", "), option_text("until S"),
+                      option_text("from S"))};
+}
+
+}  // namespace awmr
