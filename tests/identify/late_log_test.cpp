@@ -462,14 +462,14 @@ TEST(LateLog, DoesNotFitTheFirstSecondOfALogThatBeginsInMotion) {
 
 TEST(LateLog, EveryDelayOfAFitIsFreeInTheFitsOfItsParts) {
   LogFit fit;
-  fit.quantities = {steering_delay(),
-                    motor_lag(),
-                    sensor_delay_of(LogChannel::kX),
+  fit.quantities = {free_term(FreeQuantity::Kind::kSteeringDelay),
+                    free_term(FreeQuantity::Kind::kMotorLag),
+                    free_term(FreeQuantity::Kind::kSensorDelay, LogChannel::kX),
                     sensor_lag_of(LogChannel::kSpeed),
-                    steering_trim(),
-                    force_imbalance(),
+                    free_term(FreeQuantity::Kind::kSteeringTrim),
+                    free_term(FreeQuantity::Kind::kForceImbalance),
                     force_saturation(0.5),
-                    saturation_sharpness()};
+                    free_term(FreeQuantity::Kind::kSaturationSharpness)};
   fit.coordinates = {0.1, 0.2, 0.3, 0.4, 0.05, -0.1, 0.3, 1.1};
   LogFitOptions before;
   before.terms = {{sensor_lag_of(LogChannel::kYawRate), 0.5}};

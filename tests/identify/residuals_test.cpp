@@ -66,8 +66,9 @@ std::vector<double> errors_of_channel(const LogProblem& problem, LogChannel chan
 TEST(Residuals, SmoothingOfOneChannelLeavesTheOthersAsTheyAre) {
   const Truth& t = kTruths[1];
   const std::vector<DrivingLog> logs = {drive(t, 3, {.duration_s = 10.0})};
-  const std::vector<FreeTerm> others = {{sensor_delay_of(LogChannel::kX), 0.07},
-                                        {sensor_lag_of(LogChannel::kHeading), 0.09}};
+  const std::vector<FreeTerm> others = {
+      {free_term(FreeQuantity::Kind::kSensorDelay, LogChannel::kX), 0.07},
+      {sensor_lag_of(LogChannel::kHeading), 0.09}};
   std::vector<FreeTerm> all = others;
   all.push_back({smoothing_of(LogChannel::kSpeed), 0.002});
   const LogProblem without = log_problem(logs, options_with(t, others));
@@ -149,16 +150,19 @@ TEST_P(TermDerivatives, AgreeWithDifferencesOfTheCost) {
 
 INSTANTIATE_TEST_SUITE_P(
     OfEachKind, TermDerivatives,
-    ::testing::Values(TermCase{"DelayAndLag", {{input_delay(), 0.031}, {motor_lag(), 0.047}}},
-                      TermCase{"SensorDelay", {{sensor_delay_of(LogChannel::kYawRate), 0.013}}},
-                      TermCase{"SensorLag", {{sensor_lag_of(LogChannel::kSpeed), 0.08}}},
-                      TermCase{"GaussianSmoothing", {{smoothing_of(LogChannel::kSpeed), 0.0031}}},
-                      TermCase{"NarrowSmoothing", {{smoothing_of(LogChannel::kYawRate), 2e-6}}},
-                      TermCase{"MovingAverage",
-                               {{smoothing_of(LogChannel::kYawRate, true), 0.0021}}},
-                      TermCase{"DelayAndSmoothing",
-                               {{sensor_delay_of(LogChannel::kSpeed), 0.023},
-                                {smoothing_of(LogChannel::kSpeed), 0.0017}}}),
+    ::testing::Values(
+        TermCase{"DelayAndLag",
+                 {{free_term(FreeQuantity::Kind::kDelay), 0.031},
+                  {free_term(FreeQuantity::Kind::kMotorLag), 0.047}}},
+        TermCase{"SensorDelay",
+                 {{free_term(FreeQuantity::Kind::kSensorDelay, LogChannel::kYawRate), 0.013}}},
+        TermCase{"SensorLag", {{sensor_lag_of(LogChannel::kSpeed), 0.08}}},
+        TermCase{"GaussianSmoothing", {{smoothing_of(LogChannel::kSpeed), 0.0031}}},
+        TermCase{"NarrowSmoothing", {{smoothing_of(LogChannel::kYawRate), 2e-6}}},
+        TermCase{"MovingAverage", {{smoothing_of(LogChannel::kYawRate, true), 0.0021}}},
+        TermCase{"DelayAndSmoothing",
+                 {{free_term(FreeQuantity::Kind::kSensorDelay, LogChannel::kSpeed), 0.023},
+                  {smoothing_of(LogChannel::kSpeed), 0.0017}}}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -131,8 +131,9 @@ bool has_changes_between_rows(const LogProblem& problem, const SearchPoint& poin
                               const std::vector<ParameterId>& candidate_terms) {
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
   std::vector<FreeQuantity> delays;  // a quick test first
-  if (!has_kind(quantities, FreeQuantity::Kind::kDelay)) delays.push_back(input_delay());
-  if (!has_kind(quantities, FreeQuantity::Kind::kSteeringDelay)) delays.push_back(steering_delay());
+  for (const auto kind : {FreeQuantity::Kind::kDelay, FreeQuantity::Kind::kSteeringDelay}) {
+    if (!has_kind(quantities, kind)) delays.push_back(free_term(kind));
+  }
   if (!uncertain_times(problem, point, delays).are_likelier) return false;
   std::vector<FreeQuantity> more = further_terms(problem);
   for (const ParameterId term : candidate_terms) {

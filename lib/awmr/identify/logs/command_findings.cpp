@@ -330,7 +330,7 @@ std::vector<Finding> constant_error_findings(const LogFit& fit, const std::strin
 /// the forces proportional to the commands.
 constexpr double kLinear = 0.05;
 
-/// Fitted sharpness n of the saturation (force_saturation()). The default if n was not fitted.
+/// Fitted sharpness n of the saturation (FreeQuantity::Kind). The default if n was not fitted.
 double sharpness_of(const LogFit& fit) {
   for (std::size_t i = 0; i < fit.quantities.size(); ++i) {
     const FreeQuantity& q = fit.quantities[i];

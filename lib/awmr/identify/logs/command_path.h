@@ -37,8 +37,8 @@ struct CommandPath {
   std::optional<std::size_t> lag_column = {};
   /// Trim, rad: added to the steering command or logged angle.
   std::optional<OffsetColumn> steering_trim = {};
-  /// Dead band, rad, asymmetry e (steering_asymmetry()), curve k (steering_curve()) and scale error
-  /// q (steering_scale()) of the steering linkage. Absent for logs with measured steering angles.
+  /// Dead band, rad, asymmetry e, curve k and scale error q of the steering linkage
+  /// (FreeQuantity::Kind). Absent for logs with measured steering angles.
   std::optional<OffsetColumn> steering_dead_band = {};
   std::optional<OffsetColumn> steering_asymmetry = {};
   std::optional<OffsetColumn> steering_curve = {};
@@ -51,10 +51,10 @@ struct CommandPath {
   std::optional<OffsetColumn> servo_rate = {};
   /// Imbalance e: left forces times 1 - e, right times 1 + e.
   std::optional<OffsetColumn> imbalance = {};
-  std::optional<OffsetColumn> exponent = {};    ///< exponent p (force_exponent()); column of ln p
-  std::optional<OffsetColumn> saturation = {};  ///< share L of lost force (force_saturation())
-  double full_command = 1.0;                    ///< largest command F'm (force_saturation())
-  std::optional<OffsetColumn> sharpness = {};  ///< sharpness n (force_saturation()); column of ln n
+  std::optional<OffsetColumn> exponent = {};    ///< exponent p of the forces; column of ln p
+  std::optional<OffsetColumn> saturation = {};  ///< share L of lost force
+  double full_command = 1.0;                    ///< largest command F'm of the logs
+  std::optional<OffsetColumn> sharpness = {};   ///< its sharpness n; column of ln n
   /// True for motors with back-EMF: a motor whose command is 0 gives no force, although the lag of
   /// earlier commands would still give one.
   bool switches_off = false;

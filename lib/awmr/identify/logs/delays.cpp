@@ -97,7 +97,7 @@ std::vector<FreeTerm> with_companion(const LogProblem& problem, const CandidateT
     if (candidate.quantity.is(one)) terms.push_back({extra_force(other), 0.0});
   }
   if (candidate.quantity.kind == FreeQuantity::Kind::kForceSaturation) {
-    const FreeQuantity sharpness = saturation_sharpness();
+    const FreeQuantity sharpness = free_term(FreeQuantity::Kind::kSaturationSharpness);
     terms.push_back({sharpness, to_coordinate(sharpness.scale, kDefaultSharpness)});
   }
   return terms;
@@ -165,9 +165,11 @@ std::optional<std::vector<FreeTerm>> with_slip_of_yaw(const std::vector<Candidat
 void consider_motor_lag(const NoiseIteration& settled, double found_s, Loss loss,
                         LowestAic& lowest) {
   if (has_motor_lag(settled.problem.model)) return;
+  const FreeQuantity delay = free_term(FreeQuantity::Kind::kDelay);
+  const FreeQuantity lag = free_term(FreeQuantity::Kind::kMotorLag);
   const double lag_s = 0.5 * std::abs(found_s);
-  lowest.consider(tried(settled, {{input_delay(), found_s - lag_s}, {motor_lag(), lag_s}}, loss));
-  if (found_s > 0.0) lowest.consider(tried(settled, {{motor_lag(), found_s}}, loss));
+  lowest.consider(tried(settled, {{delay, found_s - lag_s}, {lag, lag_s}}, loss));
+  if (found_s > 0.0) lowest.consider(tried(settled, {{lag, found_s}}, loss));
 }
 
 /// `fit` is a trial with an error of the steering linkage, in which the stop limits the angle. If

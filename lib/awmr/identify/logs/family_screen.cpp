@@ -34,7 +34,8 @@ struct Neighbour {
 std::vector<FreeTerm> late_terms(const FamilyFit& fit) {
   constexpr double kBegin_s = 0.05;
   std::vector<FreeTerm> terms;
-  for (const FreeQuantity& late : {input_delay(), motor_lag()}) {
+  for (const FreeQuantity& late :
+       {free_term(FreeQuantity::Kind::kDelay), free_term(FreeQuantity::Kind::kMotorLag)}) {
     const bool is_known = late.kind == FreeQuantity::Kind::kMotorLag &&
                           fit.options.vehicle.motor_time_constant_s.has_value();
     const bool is_free = std::ranges::any_of(

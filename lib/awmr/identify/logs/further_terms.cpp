@@ -30,7 +30,7 @@ double largest_command(const LogProblem& problem) {
 void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   using Kind = FreeQuantity::Kind;
   const std::vector<FreeQuantity>& quantities = problem.model.quantities;
-  if (!has_kind(quantities, Kind::kDelay)) found.push_back(input_delay());
+  if (!has_kind(quantities, Kind::kDelay)) found.push_back(free_term(Kind::kDelay));
   for (const auto& [measured, noise] : problem.model.noise) {
     const LogChannel channel = measured == LogChannel::kY ? LogChannel::kX : measured;
     if (has_kind(quantities, Kind::kSensorDelay, channel) ||
@@ -38,7 +38,7 @@ void add_times(const LogProblem& problem, std::vector<FreeQuantity>& found) {
         has_kind(found, Kind::kSensorDelay, channel)) {
       continue;
     }
-    found.push_back(sensor_delay_of(channel));
+    found.push_back(free_term(Kind::kSensorDelay, channel));
   }
   if (found.size() == 1) found.clear();
   for (const auto& [channel, noise] : problem.model.noise) {
@@ -110,7 +110,7 @@ void add_scales(const LogProblem& problem, std::vector<FreeQuantity>& found) {
                                           std::pair(LogChannel::kSpeed, has_position)}) {
     if (!is_shown || !measured.contains(channel)) continue;
     if (has_kind(problem.model.quantities, FreeQuantity::Kind::kSensorScale, channel)) continue;
-    found.push_back(sensor_scale_of(channel));
+    found.push_back(free_term(FreeQuantity::Kind::kSensorScale, channel));
   }
 }
 
@@ -145,7 +145,7 @@ void add_speed_offset(const LogProblem& problem, std::vector<FreeQuantity>& foun
       any_log(problem, has_steering_changes) || any_log(problem, has_force_difference);
   if (!measured.contains(LogChannel::kSpeed) || !shows_yaw || !turns) return;
   if (has_kind(problem.model.quantities, FreeQuantity::Kind::kSpeedOffset)) return;
-  found.push_back(speed_offset());
+  found.push_back(free_term(FreeQuantity::Kind::kSpeedOffset));
 }
 
 void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
@@ -154,16 +154,16 @@ void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
   const auto has_command = [](const DrivingLog& log) {
     return log.steering_command_rad.has_value();
   };
-  for (const FreeQuantity& q :
-       {steering_trim(), steering_dead_band(), steering_asymmetry(), steering_curve()}) {
-    const bool is_of_command = q.kind != Kind::kSteeringTrim;
-    if (has_kind(problem.model.quantities, q.kind)) continue;
-    if (!is_of_command || any_log(problem, has_command)) found.push_back(q);
+  for (const Kind kind : {Kind::kSteeringTrim, Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry,
+                          Kind::kSteeringCurve}) {
+    const bool is_of_command = kind != Kind::kSteeringTrim;
+    if (has_kind(problem.model.quantities, kind)) continue;
+    if (!is_of_command || any_log(problem, has_command)) found.push_back(free_term(kind));
   }
   const bool leaves_scale_open = has_kind(problem.model.quantities, Kind::kSteeringAsymmetry) ||
                                  has_kind(problem.model.quantities, Kind::kSteeringCurve);
   if (leaves_scale_open && !has_kind(problem.model.quantities, Kind::kSteeringScale)) {
-    found.push_back(steering_scale());
+    found.push_back(free_term(Kind::kSteeringScale));
   }
 }
 
@@ -178,10 +178,14 @@ double begin_of(const FreeQuantity& quantity) {
 /// fit: they need a value from the logs (the largest command or speed, or the rate of the servo),
 /// or another term in the fit.
 std::vector<FreeQuantity> all_terms() {
-  std::vector<FreeQuantity> terms{input_delay(),    steering_delay(),     motor_lag(),
-                                  steering_trim(),  steering_dead_band(), steering_asymmetry(),
-                                  steering_curve(), force_imbalance(),    force_exponent(),
-                                  sway_offset(),    sway_angle(),         speed_offset()};
+  using Kind = FreeQuantity::Kind;
+  std::vector<FreeQuantity> terms;
+  for (const Kind kind : {Kind::kDelay, Kind::kSteeringDelay, Kind::kMotorLag, Kind::kSteeringTrim,
+                          Kind::kSteeringDeadBand, Kind::kSteeringAsymmetry, Kind::kSteeringCurve,
+                          Kind::kForceImbalance, Kind::kForceExponent, Kind::kSwayOffset,
+                          Kind::kSwayAngle, Kind::kSpeedOffset}) {
+    terms.push_back(free_term(kind));
+  }
   for (const ExtraForce force :
        {ExtraForce::kSlopeX, ExtraForce::kSlopeY, ExtraForce::kBrakeForce,
         ExtraForce::kReverseForce, ExtraForce::kBackwardDrag, ExtraForce::kSidePull}) {
@@ -189,12 +193,12 @@ std::vector<FreeQuantity> all_terms() {
   }
   for (const LogChannel channel : kChannels) {
     // x and y have one delay together.
-    if (channel != LogChannel::kY) terms.push_back(sensor_delay_of(channel));
+    if (channel != LogChannel::kY) terms.push_back(free_term(Kind::kSensorDelay, channel));
     if (!is_often_filtered(channel)) continue;
     terms.push_back(sensor_lag_of(channel));
     terms.push_back(smoothing_of(channel));
     if (channel == LogChannel::kHeading) continue;
-    terms.push_back(sensor_scale_of(channel));
+    terms.push_back(free_term(Kind::kSensorScale, channel));
     for (const bool is_ratio : {false, true}) terms.push_back(wheel_slip_of(channel, is_ratio));
   }
   return terms;
@@ -216,26 +220,26 @@ std::vector<FreeQuantity> further_terms(const LogProblem& problem) {
   // servo's dead time.
   if (place_of(quantities, ParameterId::kSteeringTimeConstant) &&
       !has_kind(quantities, Kind::kSteeringDelay)) {
-    found.push_back(steering_delay());
+    found.push_back(free_term(Kind::kSteeringDelay));
   }
   add_steering(problem, found);
   if (!has_kind(quantities, Kind::kForceImbalance) && any_log(problem, has_force_difference)) {
-    found.push_back(force_imbalance());
+    found.push_back(free_term(Kind::kForceImbalance));
   }
   const double full_command = largest_command(problem);
   // A fit contains either an exponent or a saturation of the forces. Both together could fit every
   // curve, even one with wrong forces at small commands.
   if (full_command > 0.0 && !has_kind(quantities, Kind::kForceExponent) &&
       !has_kind(quantities, Kind::kForceSaturation)) {
-    found.push_back(force_exponent());
+    found.push_back(free_term(Kind::kForceExponent));
     found.push_back(force_saturation(full_command));
   }
   add_forces(problem, found);
   add_scales(problem, found);
   add_slip(problem, found);
   if (problem.model.noise.contains(LogChannel::kSway)) {
-    if (!has_kind(quantities, Kind::kSwayOffset)) found.push_back(sway_offset());
-    if (!has_kind(quantities, Kind::kSwayAngle)) found.push_back(sway_angle());
+    if (!has_kind(quantities, Kind::kSwayOffset)) found.push_back(free_term(Kind::kSwayOffset));
+    if (!has_kind(quantities, Kind::kSwayAngle)) found.push_back(free_term(Kind::kSwayAngle));
   }
   add_speed_offset(problem, found);
   return found;

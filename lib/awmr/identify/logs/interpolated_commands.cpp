@@ -105,7 +105,7 @@ bool are_commands_smooth(const std::vector<DrivingLog>& logs, const LogFitOption
   std::erase_if(from.terms, [](const FreeTerm& term) {
     return term.quantity.kind == FreeQuantity::Kind::kDelay;
   });
-  from.terms.push_back({input_delay(), 0.0});
+  from.terms.push_back({free_term(FreeQuantity::Kind::kDelay), 0.0});
   const FamilyFit lines = fit_family(interpolated(logs), from, first.surge, first.yaw);
   return lines.fit.usable &&
          aic_lead(lines.fit, first.fit) > (has_late_commands ? -kAlike : kFamilyAicThreshold);

@@ -114,7 +114,8 @@ LogFitOptions fit_options(const Vehicle& vehicle, const std::vector<DrivingLog>&
   const bool is_interpolated = std::ranges::any_of(logs, &DrivingLog::has_interpolated_commands);
   fit.terms = requested_terms(options.terms);
   const bool has_delay = std::ranges::find(options.terms, kInputDelayName) != options.terms.end();
-  if (is_interpolated && !has_delay) fit.terms.push_back({input_delay(), 0.0});
+  if (is_interpolated && !has_delay)
+    fit.terms.push_back({free_term(FreeQuantity::Kind::kDelay), 0.0});
   fit.candidate_terms = {ParameterId::kSurgeCoulomb, ParameterId::kSurgeQuadratic,
                          ParameterId::kWheelDeadZone, ParameterId::kYawCoulomb,
                          ParameterId::kYawQuadratic};

@@ -44,104 +44,49 @@ Interval extra_force_range(const FreeQuantity& quantity) {
   return quantity.may_be_zero() ? Interval{0.0, 1e6} : Interval{-kSteepest_mps2, kSteepest_mps2};
 }
 
-Interval range_of(const FreeQuantity& quantity) {
-  using Kind = FreeQuantity::Kind;
-  constexpr double kLongest_s = 1.0;
-  constexpr double kWidest_s2 = 0.1;
-  constexpr double kLargestTrim_rad = 0.35;
-  constexpr double kSlowestRate_radps = 0.01;
-  constexpr double kFastestRate_radps = 100.0;
-  constexpr double kLargestImbalance = 0.5;
-  // If the curve k were below -1/3, a larger command would steer to a smaller angle.
-  constexpr Interval kCurve{-0.33, 2.0};
-  constexpr double kLargestSlip = 10.0;
-  constexpr double kLargestOffset_m = 5.0;
-  constexpr double kLargestAngle_rad = 1.0;
-  switch (quantity.kind) {
-    case Kind::kDelay:
-    case Kind::kSteeringDelay:
-      return {-kLongest_s, kLongest_s};
-    case Kind::kSteeringTrim:
-      return {-kLargestTrim_rad, kLargestTrim_rad};
-    case Kind::kSteeringDeadBand:
-      return {0.0, kLargestTrim_rad};
-    case Kind::kSteeringCurve:
-      return kCurve;
-    case Kind::kServoRate:
-      return {kSlowestRate_radps, kFastestRate_radps};
-    case Kind::kSteeringAsymmetry:
-    case Kind::kSteeringScale:
-    case Kind::kForceImbalance:
-    case Kind::kSensorScale:
-      return {-kLargestImbalance, kLargestImbalance};
-    case Kind::kForceExponent:
-      return {0.2, 1.0};
-    case Kind::kForceSaturation:
-      return {0.0, 0.95};
-    case Kind::kSaturationSharpness:
-      return {1.0, 20.0};
-    case Kind::kExtraForce:
-      return extra_force_range(quantity);
-    case Kind::kParameter:
-    case Kind::kBias:
-      return {-1e6, 1e6};
-    case Kind::kMotorLag:
-    case Kind::kSensorDelay:
-    case Kind::kSensorLag:
-      return {0.0, kLongest_s};
-    case Kind::kSmoothing:
-      return {0.0, kWidest_s2};
-    case Kind::kWheelSlip:
-      return {0.0, kLargestSlip};
-    case Kind::kSwayOffset:
-    case Kind::kSpeedOffset:
-      return {-kLargestOffset_m, kLargestOffset_m};
-    case Kind::kSwayAngle:
-      return {-kLargestAngle_rad, kLargestAngle_rad};
-  }
-  return {};
-}
-
-/// Name of a kind of quantities. `is_of_channel`: there is one for each channel, and the name of
-/// the channel follows.
-struct NamedKind {
-  FreeQuantity::Kind kind;
-  std::string_view name;
-  bool is_of_channel = false;
+/// Properties of all quantities of one kind.
+struct KindInfo {
+  std::string_view name;  ///< if it ends with a dot, the name of the channel follows
+  Interval range;         ///< of the value
+  double large_change = 0.1;
+  Scale scale = Scale::kLinear;
 };
 
-/// All kinds except kParameter and kExtraForce. kWheelSlip: see also FreeQuantity::is_ratio.
-constexpr NamedKind kNamedKinds[] = {
-    {FreeQuantity::Kind::kDelay, kInputDelayName},
-    {FreeQuantity::Kind::kSteeringDelay, kSteeringDelayName},
-    {FreeQuantity::Kind::kMotorLag, kMotorLagName},
-    {FreeQuantity::Kind::kSteeringTrim, kSteeringTrimName},
-    {FreeQuantity::Kind::kSteeringDeadBand, kSteeringDeadBandName},
-    {FreeQuantity::Kind::kSteeringAsymmetry, kSteeringAsymmetryName},
-    {FreeQuantity::Kind::kSteeringCurve, kSteeringCurveName},
-    {FreeQuantity::Kind::kSteeringScale, kSteeringScaleName},
-    {FreeQuantity::Kind::kServoRate, kServoRateName},
-    {FreeQuantity::Kind::kForceImbalance, kForceImbalanceName},
-    {FreeQuantity::Kind::kForceExponent, kForceExponentName},
-    {FreeQuantity::Kind::kForceSaturation, kForceSaturationName},
-    {FreeQuantity::Kind::kSaturationSharpness, kSaturationSharpnessName},
-    {FreeQuantity::Kind::kSensorDelay, kSensorDelayPrefix, true},
-    {FreeQuantity::Kind::kSensorLag, kSensorLagPrefix, true},
-    {FreeQuantity::Kind::kSmoothing, kSmoothingPrefix, true},
-    {FreeQuantity::Kind::kSensorScale, kSensorScalePrefix, true},
-    {FreeQuantity::Kind::kWheelSlip, kSlipPrefix, true},
-    {FreeQuantity::Kind::kSwayOffset, kSwayOffsetName},
-    {FreeQuantity::Kind::kSwayAngle, kSwayAngleName},
-    {FreeQuantity::Kind::kSpeedOffset, kSpeedOffsetName},
-    {FreeQuantity::Kind::kBias, kBiasPrefix, true},
-};
-static_assert(std::size(kNamedKinds) + 2 == at(FreeQuantity::Kind::kSpeedOffset) + 1);
+/// By FreeQuantity::Kind. kParameter: see parameter_bounds(). kExtraForce: see extra_force_range().
+constexpr KindInfo kKinds[] = {
+    {"", {}},
+    {kInputDelayName, {-1.0, 1.0}},
+    {kSteeringDelayName, {-1.0, 1.0}},
+    {kMotorLagName, {0.0, 1.0}},
+    {kSteeringTrimName, {-0.35, 0.35}},
+    {kSteeringDeadBandName, {0.0, 0.35}},
+    {kSteeringAsymmetryName, {-0.5, 0.5}},
+    {kSteeringCurveName, {-0.33, 2.0}},  // below -1/3, a larger command steers to a smaller angle
+    {kSteeringScaleName, {-0.5, 0.5}},
+    {kServoRateName, {0.01, 100.0}},
+    {kForceImbalanceName, {-0.5, 0.5}},
+    {kForceExponentName, {0.2, 1.0}, 0.1, Scale::kLogarithmic},
+    {kForceSaturationName, {0.0, 0.95}},
+    {kSaturationSharpnessName, {1.0, 20.0}, 1.0, Scale::kLogarithmic},
+    {"", {}},
+    {kBiasPrefix, {-1e6, 1e6}, 1.0},
+    {kSensorDelayPrefix, {0.0, 1.0}},
+    {kSensorLagPrefix, {0.0, 1.0}},
+    {kSmoothingPrefix, {0.0, 0.1}, 0.01},
+    {kSensorScalePrefix, {-0.5, 0.5}},
+    {kSlipPrefix, {0.0, 10.0}},  // kSlipRatioPrefix for a slip ratio
+    {kSwayOffsetName, {-5.0, 5.0}},
+    {kSwayAngleName, {-1.0, 1.0}},
+    {kSpeedOffsetName, {-5.0, 5.0}}};
+static_assert(std::size(kKinds) == at(FreeQuantity::Kind::kSpeedOffset) + 1);
 
 Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& vehicle) {
   if (quantity.kind == FreeQuantity::Kind::kParameter) {
     return parameter_bounds(quantity, initial, vehicle);
   }
-  const Interval range = range_of(quantity);
+  const Interval range = quantity.kind == FreeQuantity::Kind::kExtraForce
+                             ? extra_force_range(quantity)
+                             : kKinds[at(quantity.kind)].range;
   return {to_coordinate(quantity.scale, range.lo), to_coordinate(quantity.scale, range.hi)};
 }
 
@@ -150,11 +95,17 @@ Interval bounds_of(const FreeQuantity& quantity, double initial, const Vehicle& 
 std::string FreeQuantity::name() const {
   if (kind == Kind::kParameter) return std::string(info(id).name);
   if (kind == Kind::kExtraForce) return std::string(kExtraForceNames[at(force)]);
-  const auto named = std::ranges::find(kNamedKinds, kind, &NamedKind::kind);
-  assert(named != std::end(kNamedKinds));
   const bool is_slip_ratio = kind == Kind::kWheelSlip && is_ratio;
-  return fmt::format("{}{}", is_slip_ratio ? kSlipRatioPrefix : named->name,
-                     named->is_of_channel ? info(channel).name : std::string_view());
+  const std::string_view of_kind = is_slip_ratio ? kSlipRatioPrefix : kKinds[at(kind)].name;
+  return fmt::format("{}{}", of_kind, of_kind.ends_with('.') ? info(channel).name : "");
+}
+
+bool FreeQuantity::may_be_zero() const {
+  if (kind == Kind::kExtraForce) {
+    return force == ExtraForce::kSurgeStribeck || force == ExtraForce::kYawStribeck ||
+           force == ExtraForce::kTurnDrag;
+  }
+  return kind != Kind::kParameter && kKinds[at(kind)].range.lo == 0.0;
 }
 
 double FreeQuantity::value(double coordinate) const { return from_coordinate(scale, coordinate); }
@@ -169,56 +120,24 @@ FreeQuantity free_parameter(ParameterId id) {
   return {.id = id, .scale = scale_of(id), .large_change = info(id).term ? 0.2 : 1.0};
 }
 
-FreeQuantity input_delay() { return {.kind = FreeQuantity::Kind::kDelay, .large_change = 0.1}; }
-
-FreeQuantity steering_delay() {
-  return {.kind = FreeQuantity::Kind::kSteeringDelay, .large_change = 0.1};
-}
-
-FreeQuantity motor_lag() { return {.kind = FreeQuantity::Kind::kMotorLag, .large_change = 0.1}; }
-
-FreeQuantity steering_trim() {
-  return {.kind = FreeQuantity::Kind::kSteeringTrim, .large_change = 0.1};
-}
-
-FreeQuantity steering_dead_band() {
-  return {.kind = FreeQuantity::Kind::kSteeringDeadBand, .large_change = 0.1};
-}
-
-FreeQuantity steering_asymmetry() {
-  return {.kind = FreeQuantity::Kind::kSteeringAsymmetry, .large_change = 0.1};
-}
-
-FreeQuantity steering_curve() {
-  return {.kind = FreeQuantity::Kind::kSteeringCurve, .large_change = 0.1};
-}
-
-FreeQuantity steering_scale() {
-  return {.kind = FreeQuantity::Kind::kSteeringScale, .large_change = 0.1};
+FreeQuantity free_term(FreeQuantity::Kind kind, LogChannel channel) {
+  const KindInfo& of_kind = kKinds[at(kind)];
+  return {.kind = kind,
+          .channel = channel,
+          .scale = of_kind.scale,
+          .large_change = of_kind.large_change};
 }
 
 FreeQuantity servo_rate(double begin_radps) {
-  return {.kind = FreeQuantity::Kind::kServoRate, .large_change = begin_radps};
-}
-
-FreeQuantity force_imbalance() {
-  return {.kind = FreeQuantity::Kind::kForceImbalance, .large_change = 0.1};
-}
-
-FreeQuantity force_exponent() {
-  return {.kind = FreeQuantity::Kind::kForceExponent,
-          .scale = Scale::kLogarithmic,
-          .large_change = 0.1};
+  FreeQuantity quantity = free_term(FreeQuantity::Kind::kServoRate);
+  quantity.large_change = begin_radps;
+  return quantity;
 }
 
 FreeQuantity force_saturation(double full_command) {
-  return {.kind = FreeQuantity::Kind::kForceSaturation,
-          .large_change = 0.1,
-          .full_command = full_command};
-}
-
-FreeQuantity saturation_sharpness() {
-  return {.kind = FreeQuantity::Kind::kSaturationSharpness, .scale = Scale::kLogarithmic};
+  FreeQuantity quantity = free_term(FreeQuantity::Kind::kForceSaturation);
+  quantity.full_command = full_command;
+  return quantity;
 }
 
 FreeQuantity extra_force(ExtraForce force) {
@@ -247,15 +166,10 @@ FreeTerm stribeck_speed_term(ExtraForce force, double fastest) {
   return {speed, to_coordinate(speed.scale, kStribeckShare * fastest)};
 }
 
-FreeQuantity sensor_delay_of(LogChannel channel) {
-  return {.kind = FreeQuantity::Kind::kSensorDelay, .channel = channel, .large_change = 0.1};
-}
-
 FreeQuantity sensor_lag_of(LogChannel channel, bool is_at_rows) {
-  return {.kind = FreeQuantity::Kind::kSensorLag,
-          .channel = channel,
-          .large_change = 0.1,
-          .is_at_rows = is_at_rows};
+  FreeQuantity quantity = free_term(FreeQuantity::Kind::kSensorLag, channel);
+  quantity.is_at_rows = is_at_rows;
+  return quantity;
 }
 
 FreeQuantity second_order_lag_of(LogChannel channel, double damping) {
@@ -265,31 +179,15 @@ FreeQuantity second_order_lag_of(LogChannel channel, double damping) {
 }
 
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean) {
-  return {.kind = FreeQuantity::Kind::kSmoothing,
-          .channel = channel,
-          .large_change = 0.01,
-          .is_mean = is_mean};
-}
-
-FreeQuantity sensor_scale_of(LogChannel channel) {
-  return {.kind = FreeQuantity::Kind::kSensorScale, .channel = channel, .large_change = 0.1};
+  FreeQuantity quantity = free_term(FreeQuantity::Kind::kSmoothing, channel);
+  quantity.is_mean = is_mean;
+  return quantity;
 }
 
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio) {
-  return {.kind = FreeQuantity::Kind::kWheelSlip,
-          .channel = channel,
-          .large_change = 0.1,
-          .is_ratio = is_ratio};
-}
-
-FreeQuantity sway_offset() {
-  return {.kind = FreeQuantity::Kind::kSwayOffset, .large_change = 0.1};
-}
-
-FreeQuantity sway_angle() { return {.kind = FreeQuantity::Kind::kSwayAngle, .large_change = 0.1}; }
-
-FreeQuantity speed_offset() {
-  return {.kind = FreeQuantity::Kind::kSpeedOffset, .large_change = 0.1};
+  FreeQuantity quantity = free_term(FreeQuantity::Kind::kWheelSlip, channel);
+  quantity.is_ratio = is_ratio;
+  return quantity;
 }
 
 bool has_kind(const std::vector<FreeQuantity>& quantities, FreeQuantity::Kind kind) {
@@ -325,7 +223,7 @@ std::vector<FreeTerm> all_free(const LogFitOptions& options) {
     free.push_back({free_parameter(id), to_coordinate(id, options.initial_guess[at(id)])});
   }
   for (const LogChannel channel : options.biases) {
-    free.push_back({{.kind = FreeQuantity::Kind::kBias, .channel = channel}, 0.0});
+    free.push_back({free_term(FreeQuantity::Kind::kBias, channel), 0.0});
   }
   std::ranges::stable_sort(free, {}, [](const FreeTerm& term) { return term.quantity.kind; });
   return free;

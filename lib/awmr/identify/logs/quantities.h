@@ -23,30 +23,65 @@ struct FreeQuantity {
   /// Kinds of quantities. In the Jacobian of a fit, the columns of the quantities are in this
   /// order.
   enum class Kind {
-    kParameter,            ///< a model parameter
-    kDelay,                ///< delay of all commands
-    kSteeringDelay,        ///< additional delay of the steering command
-    kMotorLag,             ///< time constant of the motors
-    kSteeringTrim,         ///< steering angle at a command of 0
-    kSteeringDeadBand,     ///< largest command that does not move the steering
-    kSteeringAsymmetry,    ///< (left - right)/(left + right) of the angles at equal commands
-    kSteeringCurve,        ///< k of steering_curve(): excess of the angle at the largest command
-    kSteeringScale,        ///< q of steering_scale(): relative error of the steering angles
-    kServoRate,            ///< largest rate of the steering angle
-    kForceImbalance,       ///< (right - left)/(right + left) of the forces at equal commands
-    kForceExponent,        ///< p of force_exponent(): force proportional to |command|^p
-    kForceSaturation,      ///< L of force_saturation(): share of force lost at the largest command
-    kSaturationSharpness,  ///< n of force_saturation()
+    kParameter,  ///< a model parameter
+    /// Delay of all commands, s; negative if their time stamps are late.
+    kDelay,
+    /// Additional delay of the steering command relative to the forces, s, for example the period
+    /// of the servo's pulses. Negative if the time stamps of the steering command are late.
+    kSteeringDelay,
+    kMotorLag,      ///< time constant of the motors, s
+    kSteeringTrim,  ///< steering angle at a command of 0, rad; positive to the left
+    /// Dead band b >= 0, rad, of the steering: the command c steers to the angle c - b sgn c, or to
+    /// 0 if |c| < b.
+    kSteeringDeadBand,
+    /// Asymmetry e of the steering: angles to the left are 1 + e times the command (beyond the dead
+    /// band), angles to the right 1 - e times.
+    kSteeringAsymmetry,
+    /// Curve k of the steering linkage: the command c (beyond the dead band) steers to
+    ///
+    ///     c (1 + k (c/d_max)^2),   d_max: steering stop of the vehicle file
+    ///
+    /// Small commands c steer to the angle c, unless the scale is estimated too.
+    kSteeringCurve,
+    /// Scale error q of the steering: the angles are 1 + q times those of the other errors of the
+    /// linkage except the trim. Only in fits with an asymmetry or a curve, which do not determine
+    /// the scale (widen_by_steering_scale() in steering_linkage.h).
+    kSteeringScale,
+    kServoRate,  ///< rate limit of the steering angle, rad/s, in place of that of the vehicle file
+    /// Force imbalance e: the forces of the left motors are 1 - e times their commands, those of
+    /// the right motors 1 + e times.
+    kForceImbalance,
+    /// Exponent p of the wheel forces: the command F' gives the force |F'|^p sgn F' (times F_max).
+    /// The search tries only p below 1. For p above 1, the curve resembles a dead zone of the
+    /// wheels, for which there is a resistance family.
+    kForceExponent,
+    /// Saturation of the wheel forces: the share L, in [0, 1), of the force that is lost at F'm,
+    /// the largest command of the logs. With w = (|F'|/F'm)^n, the command F' gives the force
+    ///
+    ///     F'/(1 + s w)^(1/n),   s = (1 - L)^(-n) - 1
+    ///
+    /// (times F_max). Small forces are proportional to the command. Slipping tyres, current limits
+    /// or a weak battery reduce large ones.
+    kForceSaturation,
+    kSaturationSharpness,  ///< n of the saturation: the larger n, the more sudden the limit
     kExtraForce,           ///< a force that the model does not contain (extra_forces.h)
     kBias,                 ///< constant offset of a channel
-    kSensorDelay,          ///< latency of a channel
-    kSensorLag,            ///< time constant of a low-pass filter of a channel
-    kSmoothing,            ///< variance of a symmetric kernel that smooths a channel
-    kSensorScale,          ///< relative error of the scale of a channel
+    kSensorDelay,          ///< latency of a channel, s
+    kSensorLag,            ///< time constant of a low-pass filter of a channel, s
+    kSmoothing,            ///< variance of a symmetric kernel that smooths a channel, s^2
+    kSensorScale,          ///< scale error s of a channel: it reads 1 + s times the true value
     kWheelSlip,            ///< slip of the wheels that measure a channel (wheel_slip.h)
-    kSwayOffset,           ///< distance of the sway sensor ahead of the centre of gravity
-    kSwayAngle,            ///< angle by which the sway sensor is turned to the left
-    kSpeedOffset           ///< distance of the speed sensor to the left of the centre line
+    /// Mounting of the sensor of the sway speed v: its distance x_s, m, ahead of the centre of
+    /// gravity, and (kSwayAngle) the angle a, rad, by which it is turned to the left. With the
+    /// speed u and the yaw rate r, it reads
+    ///
+    ///     v cos a - u sin a + x_s r
+    kSwayOffset,
+    kSwayAngle,
+    /// Distance y_s, m, of the sensor of the speed u to the left of the vehicle's centre line. r is
+    /// the yaw rate. The sensor reads u - y_s r. For the speed of a left wheel, y_s is half of the
+    /// track width; for a right wheel, minus half of it.
+    kSpeedOffset
   };
   Kind kind = Kind::kParameter;
   ParameterId id = ParameterId::kMassNorm;  ///< for kParameter
@@ -103,12 +138,7 @@ struct FreeQuantity {
   }
   /// True for a quantity that can be 0 but not negative. Its estimate may therefore lie at the
   /// lower end of its range.
-  bool may_be_zero() const {
-    return kind == Kind::kMotorLag || kind == Kind::kSensorDelay || kind == Kind::kSensorLag ||
-           kind == Kind::kSmoothing || kind == Kind::kForceSaturation || kind == Kind::kWheelSlip ||
-           is(ExtraForce::kSurgeStribeck) || is(ExtraForce::kYawStribeck) ||
-           is(ExtraForce::kTurnDrag) || kind == Kind::kSteeringDeadBand;
-  }
+  bool may_be_zero() const;
   std::string name() const;
   double value(double coordinate) const;
   double jacobian(double coordinate) const;  ///< d value / d coordinate
@@ -116,63 +146,15 @@ struct FreeQuantity {
 
 FreeQuantity free_parameter(ParameterId id);
 
-/// Delay of all commands, s; negative if their time stamps are late.
-FreeQuantity input_delay();
+/// A quantity of this kind, except those that need more than the channel (functions below).
+/// `channel`: for kinds of one channel.
+FreeQuantity free_term(FreeQuantity::Kind kind, LogChannel channel = LogChannel::kX);
 
-/// Additional delay of the steering command relative to the forces, s, for example the period of
-/// the servo's pulses. Negative if the time stamps of the steering command are late.
-FreeQuantity steering_delay();
-
-/// Time constant of the motors, s.
-FreeQuantity motor_lag();
-
-/// Steering angle at a command of 0, rad; positive to the left.
-FreeQuantity steering_trim();
-
-/// Dead band b >= 0, rad, of the steering: the command c steers to the angle c - b sgn c, or to 0
-/// if |c| < b.
-FreeQuantity steering_dead_band();
-
-/// Asymmetry e of the steering: angles to the left are 1 + e times the command (beyond the dead
-/// band), angles to the right 1 - e times.
-FreeQuantity steering_asymmetry();
-
-/// Curve k of the steering linkage: the command c (beyond the dead band) steers to
-///
-///     c (1 + k (c/d_max)^2),   d_max: steering stop of the vehicle file
-///
-/// Small commands c steer to the angle c, unless the scale is estimated too.
-FreeQuantity steering_curve();
-
-/// Scale error q of the steering: the angles are 1 + q times those of the other errors of the
-/// linkage except the trim. Only in fits with an asymmetry or a curve, which do not determine the
-/// scale (widen_by_steering_scale() in steering_linkage.h).
-FreeQuantity steering_scale();
-
-/// Rate limit of the steering angle, rad/s, in place of that of the vehicle file. `begin_radps`:
-/// initial guess, > 0.
+/// Rate limit of the steering angle. `begin_radps`: initial guess, > 0.
 FreeQuantity servo_rate(double begin_radps);
 
-/// Force imbalance e: the forces of the left motors are 1 - e times their commands, those of the
-/// right motors 1 + e times.
-FreeQuantity force_imbalance();
-
-/// Exponent p of the wheel forces: the command F' gives the force |F'|^p sgn F' (times F_max). The
-/// search tries only p below 1. For p above 1, the curve resembles a dead zone of the wheels, for
-/// which there is a resistance family.
-FreeQuantity force_exponent();
-
-/// Saturation of the wheel forces: the share L, in [0, 1), of the force that is lost at F'm, the
-/// largest command of the logs. With w = (|F'|/F'm)^n, the command F' gives the force
-///
-///     F'/(1 + s w)^(1/n),   s = (1 - L)^(-n) - 1
-///
-/// (times F_max). Small forces are proportional to the command. Slipping tyres, current limits or a
-/// weak battery reduce large ones.
+/// Saturation of the wheel forces. `full_command`: largest command F'm of the logs, > 0.
 FreeQuantity force_saturation(double full_command);
-
-/// Sharpness n of the saturation: the larger n, the more sudden the limit.
-FreeQuantity saturation_sharpness();
 inline constexpr double kDefaultSharpness = 4.0;  ///< n in fits that do not estimate it
 
 /// A force that the model does not contain (extra_forces.h), except the speed scale of Stribeck
@@ -194,28 +176,9 @@ FreeQuantity second_order_lag_of(LogChannel channel, double damping);
 /// drive. `is_mean`: true for a moving average, false for a Gaussian kernel (smoothing_kernel.h).
 FreeQuantity smoothing_of(LogChannel channel, bool is_mean = false);
 
-/// Latency of a channel, s.
-FreeQuantity sensor_delay_of(LogChannel channel);
-
-/// Scale error s of a channel: it reads 1 + s times the true value.
-FreeQuantity sensor_scale_of(LogChannel channel);
-
 /// Slip s of the wheels that measure the speed or the yaw rate (wheel_slip.h): a slip ratio if
 /// `is_ratio`, else a slip speed.
 FreeQuantity wheel_slip_of(LogChannel channel, bool is_ratio);
-
-/// Mounting of the sensor of the sway speed v: its distance x_s, m, ahead of the centre of gravity,
-/// and the angle a, rad, by which it is turned to the left. With the speed u and the yaw rate r, it
-/// reads
-///
-///     v cos a - u sin a + x_s r
-FreeQuantity sway_offset();
-FreeQuantity sway_angle();
-
-/// Distance y_s, m, of the sensor of the speed u to the left of the vehicle's centre line. r is the
-/// yaw rate. The sensor reads u - y_s r. For the speed of a left wheel, y_s is half of the track
-/// width; for a right wheel, minus half of it.
-FreeQuantity speed_offset();
 
 struct FreeTerm {
   FreeQuantity quantity;

@@ -69,8 +69,8 @@ double LogSensors::scaled(LogChannel c, double value) {
   return factor * value;
 }
 
-/// Part -y_s r of the reading of a speed sensor that is not on the centre line (speed_offset()).
-/// Adds its derivatives to the row.
+/// Part -y_s r of the reading of a speed sensor that is not on the centre line
+/// (FreeQuantity::Kind::kSpeedOffset). Adds its derivatives to the row.
 double LogSensors::add_speed_offset(const LinearMotion& motion) {
   const double y = terms_.speed_offset->value;
   const double r = motion.state.r_radps;
@@ -83,7 +83,7 @@ double LogSensors::add_speed_offset(const LinearMotion& motion) {
 }
 
 /// Reading of the sensor of the sway speed, which may sit off the centre of gravity or at an angle
-/// (sway_offset()).
+/// (FreeQuantity::Kind::kSwayOffset).
 double LogSensors::sway(const LinearMotion& motion) {
   const State<double>& s = motion.state;
   const double x = terms_.sway_offset ? terms_.sway_offset->value : 0.0;

@@ -74,7 +74,7 @@ Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
   std::erase_if(terms, is_slip);
   if (std::ranges::none_of(terms,
                            [](const FreeTerm& t) { return t.quantity.kind == Kind::kDelay; })) {
-    terms.push_back({input_delay(), -kGuess_s});
+    terms.push_back({free_term(FreeQuantity::Kind::kDelay), -kGuess_s});
   }
   const auto is_read_late = [](const FreeTerm& t) {
     return t.quantity.channel == LogChannel::kYawRate &&
@@ -84,7 +84,7 @@ Terms with_late_commands(Terms terms, const std::vector<LogChannel>& channels,
       logs, [](const DrivingLog& log) { return log[LogChannel::kYawRate].has_value(); });
   if (channels.front() == LogChannel::kSpeed && channels.size() == 1 && has_yaw_rate &&
       std::ranges::none_of(terms, is_read_late)) {
-    terms.push_back({sensor_delay_of(LogChannel::kYawRate), kGuess_s});
+    terms.push_back({free_term(FreeQuantity::Kind::kSensorDelay, LogChannel::kYawRate), kGuess_s});
   }
   return terms;
 }

@@ -112,8 +112,8 @@ std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& s
     point.coordinates.erase(point.coordinates.begin() + at_i);
   }
   if (lags_s.size() < 2) return std::nullopt;
-  Extended from = extended(with_white_noise(std::move(problem)), std::move(point), {motor_lag()},
-                           {std::ranges::min(lags_s)});
+  Extended from = extended(with_white_noise(std::move(problem)), std::move(point),
+                           {free_term(FreeQuantity::Kind::kMotorLag)}, {std::ranges::min(lags_s)});
   NoiseIteration fit = settle_noise(std::move(from.problem), std::move(from.point), loss);
   if (!(akaike_of(fit) < akaike_of(settled))) return std::nullopt;
   return fit;
@@ -129,7 +129,7 @@ std::optional<NoiseIteration> with_motor_lag_and_delay(const NoiseIteration& set
   if (!(lag_s > 0.0)) return {};
   NoiseIteration from = settled;
   from.point.coordinates[place] -= lag_s;
-  NoiseIteration lagged = tried(from, {{motor_lag(), lag_s}}, loss);
+  NoiseIteration lagged = tried(from, {{free_term(FreeQuantity::Kind::kMotorLag), lag_s}}, loss);
   if (!(akaike_of(lagged) < akaike_of(settled))) return {};
   return settled_if_better(settled, {std::move(lagged.problem), std::move(lagged.point)}, loss);
 }
