@@ -64,8 +64,8 @@ std::optional<T> read_filled(const fs::path& path, Result<T> (*read)(const fs::p
   return std::nullopt;
 }
 
-/// Returns a vehicle with only the drive of the file, if it has a valid one. Messages need the drive
-/// to describe the trials, before the other values of the vehicle are filled in.
+/// Returns a vehicle with only the drive of the file, if it has a valid one. Messages need the
+/// drive to describe the trials, before the other values of the vehicle are filled in.
 Vehicle vehicle_with_drive(const fs::path& path) {
   Vehicle vehicle;
   const auto document = read_json_file(path);

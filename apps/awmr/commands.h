@@ -67,8 +67,9 @@ struct LiveCommand {
   std::optional<fs::path> record = {};  ///< file of the recording; default: next to the model
   double every_s = 5.0;                 ///< interval between two updates of the display, > 0
   double budget_s = 5.0;                ///< time limit of an interim fit, > 0
-  /// Target precision: a parameter is known well enough if the half width of its 95 % interval
-  /// (Precision::half_width) is at most this; > 0.
+  /// Target precision, > 0: a parameter is known well enough if the half width of its 95 %
+  /// interval, divided by the value of the parameter, is at most this. For an exponent or another
+  /// parameter that may be 0, the half width is not divided (Precision::half_width).
   double enough = 0.1;
   /// True: the recording ends as soon as every parameter is known well enough (`enough`).
   bool until_enough = false;

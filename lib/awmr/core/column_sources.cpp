@@ -65,9 +65,10 @@ Candidate candidate_of(const CsvColumn& column, const ColumnMapping& mapping, He
   return candidate;
 }
 
-/// Priority of a mapping; the lowest number wins. 0: only for this file; 1: for every file; 2: in
-/// vehicle.json, for every file.
-int distance(const ColumnMapping& mapping) {
+/// Precedence of a mapping: of two mappings that give the same column, the one with the lower
+/// number is used. 0: the user gave it for one file, which it names; 1: the user gave it for all
+/// files; 2: it is from vehicle.json and applies to all files.
+int precedence(const ColumnMapping& mapping) {
   return !mapping.file.empty() ? 0 : mapping.standing ? 2 : 1;
 }
 
@@ -88,9 +89,9 @@ class Search {
       const bool in_part = candidate.missing.size() < candidate.names.size();
       if (in_part) fault(ErrorCode::kMissing, missing_in(mapping, candidate));
       if (!absent_ || in_part) absent_ = std::move(candidate);
-    } else if (!chosen_ || distance(mapping) < distance(*chosen_->source.mapping)) {
+    } else if (!chosen_ || precedence(mapping) < precedence(*chosen_->source.mapping)) {
       chosen_ = std::move(candidate);
-    } else if (distance(mapping) == distance(*chosen_->source.mapping)) {
+    } else if (precedence(mapping) == precedence(*chosen_->source.mapping)) {
       fault(ErrorCode::kGivenTwice,
             fmt::format("two mappings give the column {}: \"{}\" and \"{}\"; keep one",
                         column_.name, shown(*chosen_->source.mapping), shown(mapping)));

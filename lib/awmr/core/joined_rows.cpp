@@ -8,8 +8,9 @@
 namespace awmr {
 namespace {
 
-/// For each row, true if it is kept: each command (kHeld) has had a value by this row, and in this
-/// row, the file has a value of at least one kHeld, kAbsent or kOptional column.
+/// For each row, true if it is kept. Two conditions must hold: in this row or above it, each
+/// command (kHeld) has a value; and in this row, at least one column that may have empty cells has
+/// a value.
 std::vector<bool> rows_that_count(const CsvTable::Parts& parts, const ColumnSources& sources) {
   const std::size_t rows = parts.lines.size();
   std::vector<bool> counts(rows, false);

@@ -45,7 +45,7 @@ std::optional<Fault> beyond_bounds(const std::string& file, std::string_view tex
     if (depth > kMaxJsonDepth) {
       return Fault{
           ErrorCode::kTooLarge, place_of(file, text, i),
-          fmt::format("this is no file of awmr: its arrays and objects are nested more than "
+          fmt::format("this is not a file of awmr: its arrays and objects are nested more than "
                       "{} deep; give another file",
                       kMaxJsonDepth)};
     }

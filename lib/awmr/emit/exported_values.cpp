@@ -80,7 +80,8 @@ void export_vehicle(const Vehicle& vehicle, std::vector<ExportedValue>& values) 
 
 /// Adds the gains of one mode (`mode`, which becomes part of the names). Without `mode`: the gains
 /// of all modes without gains of their own. `has_observer`: also adds the observer, with zeros if
-/// these gains have none. `has_widths`: also adds the friction widths.
+/// these gains have none. `has_widths`: also adds the friction widths w0, the yaw rates below which
+/// the heading law feeds Coulomb friction forward smoothly.
 void export_gains(const Gains<double>& gains, std::optional<YawMode> mode, bool has_observer,
                   bool has_widths, std::vector<ExportedValue>& values) {
   const auto add = [&](std::string name, double value, const char* unit, std::string meaning) {

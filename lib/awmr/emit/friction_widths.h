@@ -1,4 +1,5 @@
-/// The friction widths of the heading law that emitted files contain. Private to emit/.
+/// Friction widths in emitted files. A friction width w0 is the yaw rate, rad/s, below which the
+/// heading law feeds the Coulomb friction in yaw forward smoothly. Private to emit/.
 #pragma once
 
 #include <optional>
@@ -20,7 +21,8 @@ struct FrictionWidth {
 };
 
 /// Returns the friction width of `mode`, or those of steering and combined mode if `mode` is
-/// absent. Widths at the smallest possible value are left out.
+/// absent. Widths at their smallest value, 0.02 rad/s, are left out, because this value is the
+/// default.
 std::vector<FrictionWidth> friction_widths(const ModeGains& gains, std::optional<YawMode> mode);
 
 }  // namespace awmr

@@ -90,7 +90,8 @@ std::string of_mode(std::optional<YawMode> mode) {
   return mode ? fmt::format(", in {} mode", name_of(*mode)) : "";
 }
 
-/// Adds the friction widths of one mode (`mode`), or of the modes steering and combined.
+/// Adds the friction widths w0 of the heading law (friction_widths.h): that of `mode`, or, without
+/// `mode`, those of steering and combined mode.
 void add_friction_widths(std::vector<Macro>& macros, const ModeGains& gains,
                          std::optional<YawMode> mode, const std::string& file) {
   for (const FrictionWidth& width : friction_widths(gains, mode)) {

@@ -326,7 +326,8 @@ const WheelForces<T>& by_wheel(const Plant<T>&, const WheelForces<T>& f) {
 /// Largest yaw moment N_c of tyre scrub divided by F_max, m, >= 0, in the state `s` with the motor
 /// commands `f`, for each side or for each wheel. It resists the turn. In a differential turn,
 /// the straight wheels are dragged sideways; in a steered turn, they roll. c = yaw_scrub_m is the
-/// moment measured in differential turns. In other turns, c is multiplied by q, differential_share():
+/// moment measured in differential turns. In other turns, c is multiplied by q,
+/// differential_share():
 ///   N_c = c q
 template <class T, class Forces>
 T scrub_moment_m(const Plant<T>& p, const State<T>& s, const Forces& f) {

@@ -266,9 +266,10 @@ void add_scrub_contradictions(const YawScrub& scrub, const Model& model,
   const double most_m = differential_moment_m(model.vehicle.half_track_m, force.hi - force.lo);
   check(scrub.moment_m <= most_m, "moment_m",
         fmt::format("the measured scrub moment, {:g} m (divided by F_max), exceeds the largest yaw "
-                    "moment that the left and right wheel forces of /vehicle can make, {:.4g} m. "
-                    "Correct the forces in the differential turns of the turning table, or "
-                    "wheel_force and the track width in vehicle.json, and run awmr identify again",
+                    "moment that different left and right wheel forces can make, {:.4g} m "
+                    "(from wheel_force and half_track_m under /vehicle of this file). Correct the "
+                    "forces in the differential turns of the turning table, or wheel_force and "
+                    "half_track_m in vehicle.json, and run awmr identify again",
                     scrub.moment_m, most_m));
 }
 

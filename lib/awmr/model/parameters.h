@@ -47,10 +47,10 @@ inline constexpr std::string_view kInputDelayName = "input_delay_s";
 inline constexpr std::string_view kSteeringDelayName = "steering.delay_s";
 inline constexpr std::string_view kMotorLagName = "motor.time_constant_s";
 inline constexpr std::string_view kBiasPrefix = "bias.";  ///< followed by the channel's column name
-/// Name of the ratio m'/a1, in s (m/s)^(b1 - 1). If there is no surge trial, a coast-down
-/// determines only ratios of parameters: m'/a1 (mass over surge coefficient) and, if the resistance
-/// family has the terms, the ratios of ratio_names.h. It also determines the exponent b1, if the
-/// family has one.
+/// Name of the ratio m'/a1 (mass over surge coefficient), in s (m/s)^(b1 - 1). If there is no surge
+/// trial, a coast-down determines only such ratios: m'/a1 and, if the resistance has a Coulomb or a
+/// quadratic term, the coefficient of this term over a1 (ratio_names.h). If the resistance has an
+/// exponent b1, the coast-down determines b1 as well.
 inline constexpr std::string_view kMassOverSurgeName = "mass_norm/surge.alpha";
 
 /// The table, in the order of ParameterId.

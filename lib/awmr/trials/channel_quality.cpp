@@ -371,8 +371,8 @@ ChannelQuality find_repeats(std::span<const double> value) {
 
 namespace {
 
-/// True if all values are multiples of their smallest magnitude above 0, and this is at least 1 % of
-/// the largest magnitude.
+/// True if all values are multiples of their smallest magnitude above 0, and this is at least 1 %
+/// of the largest magnitude.
 bool is_on_coarse_grid(std::span<const double> value) {
   constexpr double kCoarse = 0.01;
   // The file may give the values with few digits.

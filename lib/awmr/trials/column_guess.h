@@ -49,9 +49,10 @@ struct ColumnGuess {
 
 /// Returns the guesses for each column that this kind of trial can have, in the order of
 /// columns_of(kind). If a column has several guesses, the most confident one comes first. The
-/// guesses use the words and units in the names of the file's columns (column_words.h). If no column
-/// fits the speed or the yaw rate of a log, they are computed from the speeds of a left and a right
-/// wheel. `track_m`: distance of the left from the right wheels, m, which the yaw rate needs.
+/// guesses use the words and units in the names of the file's columns (column_words.h). If no
+/// column fits the speed or the yaw rate of a log, they are computed from the speeds of a left and
+/// a right wheel. `track_m`: distance of the left from the right wheels, m, which the yaw rate
+/// needs.
 std::vector<ColumnGuess> guess_columns(const FileSample& sample, TrialKind kind,
                                        std::optional<double> track_m = std::nullopt);
 

@@ -41,8 +41,8 @@ bool is_better(const Gains<double>& own, const Gains<double>& common, const Obje
          settled_share(runs, own) >= settled_share(runs, common);
 }
 
-/// Replaces the objectives and scores of `tuning` (over all modes) by those in the runs of one mode.
-/// They are relative to the baseline of `objective`, which is Tuning::baseline.
+/// Replaces the objectives and scores of `tuning` (over all modes) by those in the runs of one
+/// mode. They are relative to the baseline of `objective`, which is Tuning::baseline.
 void evaluate_in(const Objective& objective, const Scenario& held_out, Tuning& tuning) {
   const Evaluation evaluation = objective(tuning.gains);
   tuning.objective = evaluation.objective;

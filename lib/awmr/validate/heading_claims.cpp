@@ -168,7 +168,7 @@ Claim no_chattering(const Model& model, const ModeRuns& runs) {
               "or steering angle d_r): " +
               by_mode(runs, "reversals/s", rate),
           .tolerance = fmt::format(
-              "each command makes at most {} reversal per second, on average over the run. "
+              "the mean number of reversals of each command in a run is at most {} per second. "
               "Reversals of at most {:.0f} % of the command's range do not count. A chattering "
               "command reverses up to {:.0f} times per second",
               kReversalsPerSecond, 100.0 * kReversalBand, 0.5 / model.vehicle.sample_time_s),

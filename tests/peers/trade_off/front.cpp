@@ -11,8 +11,9 @@
 namespace awmr::peers {
 namespace {
 
-/// ln of lambda, mu/epsilon, mu, mu_s/epsilon_s, mu_s, and of the friction widths of steering and
-/// combined mode where there is dry friction.
+/// ln of lambda, mu/epsilon, mu, mu_s/epsilon_s, mu_s. For a vehicle with dry friction in yaw also
+/// ln of two friction widths, in steering and in combined mode: the yaw rate, rad/s, below which
+/// the heading law feeds this friction forward smoothly.
 using Vector = std::array<double, 7>;
 constexpr double kMinWidth_radps = 0.02;
 

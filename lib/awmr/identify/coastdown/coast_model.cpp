@@ -24,7 +24,7 @@ struct CoastData {
   double sensor_mps = 0.0;  ///< standard deviation of the readings' white noise
 };
 
-/// A model of the curves, with or without a filter, and its best parameters.
+/// A model of the curves, with or without a filter in the speed sensor, and its best parameters.
 struct CoastCandidate {
   CoastStart at;
   ChannelNoise noise;
@@ -105,19 +105,22 @@ CoastCandidate fit_candidate(const CoastData& data, const CoastStart& start) {
   return best;
 }
 
-constexpr double kFast = 0.2;  ///< time constant of a fast filter over that of the motion
+/// Time constant of the speed sensor's filter at the start of the search, divided by the time
+/// constant of the vehicle's deceleration.
+constexpr double kFast = 0.2;
 
-/// Returns an initial guess for a fit with a filter, from `plain`, the fit without a filter. The
-/// guess has a fast filter and a smaller mass m', because the filter explains a part of the slow
-/// decrease of the speed.
+/// Returns an initial guess for a fit with a filter in the speed sensor, from `plain`, the fit
+/// without one. The guess has a fast filter and a smaller mass m' than `plain`, because the filter
+/// explains a part of the slow decrease of the logged speed.
 CoastStart fast_filter(const CoastData& data, const CoastStart& plain) {
   return {plain.log_mass + std::log1p(-kFast),
           kFast * fall_time_s(data.curves, data.surge.law(), plain.log_mass)};
 }
 
-/// Fits the curves with a filter, from two initial guesses. The first guess is a fast filter. The
-/// second guess is the optimum of the first fit with the time constants of filter and motion
-/// exchanged. Returns the better fit first.
+/// Fits the curves with a filter in the speed sensor, from two initial guesses. The first guess has
+/// a fast filter. The second guess is the optimum of the first fit with two time constants
+/// exchanged, that of the filter and that of the deceleration, because both optima may describe the
+/// curves. Returns both fits, the one with the lower AICc first.
 std::vector<CoastCandidate> fit_filters(const CoastData& data, const CoastStart& plain) {
   CoastCandidate fast = fit_candidate(data, fast_filter(data, plain));
   const double found_s = fall_time_s(data.curves, data.surge.law(), fast.at.log_mass);
@@ -169,15 +172,17 @@ double longest_drift_s(const CoastData& data, const CoastStart& at) {
   return std::min(kLongest_s, fall_time_s(data.curves, data.surge.law(), at.log_mass));
 }
 
-/// Fits a filter of the speed and adds it to `model`, if it is significantly better than the fit
-/// `plain` without a filter.
+/// Fits the curves with a low-pass filter in the speed sensor: the logged speed y follows the true
+/// speed u by T y' = u - y. Adds the filter to `model` if this fit is significantly better than
+/// `plain`, the fit without a filter.
 void add_filter(const CoastData& data, const CoastCandidate& plain, CoastModel& model) {
-  // Smallest decrease of AICc for a filter. A smaller value would take noise for a filter more
-  // often.
+  // The filter must lower AICc by more than this. With a smaller limit, the fit would more often
+  // explain noise by a filter.
   constexpr double kMargin = 4.0;
   constexpr double kStandardErrors = 2.0;
-  // A drift is a model error only if its correlation time is above this multiple of the filter's T,
-  // because the filter itself correlates noise over about T.
+  // A drift of the residuals is a model error only if its correlation time is above this multiple
+  // of the filter's time constant T, because the filter itself correlates the noise of the speed
+  // over about T.
   constexpr double kOverLag = 3.0;
   const std::vector<CoastCandidate> filters = fit_filters(data, plain.at);
   const CoastCandidate& best = filters[0];

@@ -153,8 +153,8 @@ Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions
   }
   adequacy.findings.push_back(
       {logs.front().file, 0, Severity::kWarning, "model-inadequate",
-       fmt::format("the model deviates from the logs for longer than sensor noise does: {}. "
-                   "Possible causes: {}. {}",
+       fmt::format("the difference between model and logs keeps its sign for longer than sensor "
+                   "noise explains: {}. Possible causes: {}. {}",
                    errors, advice, describe_effect(adequacy))});
   return adequacy;
 }

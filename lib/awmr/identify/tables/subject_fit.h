@@ -26,9 +26,9 @@ struct SubjectFit {
   /// The chosen fit, followed by the fits under the other error models (noise_average.h). Empty
   /// without a chosen fit.
   std::vector<NoiseAlternative> alternatives;
-  /// Fits between which the rows do not decide: the chosen family under the error model by which the
-  /// families are compared, then each family whose AICc is less than kTablesPlainlyBetter above it.
-  /// Empty if the families were not compared.
+  /// Fits between which the rows do not decide: the chosen family under the error model by which
+  /// the families are compared, then each family whose AICc is less than kTablesPlainlyBetter above
+  /// it. Empty if the families were not compared.
   std::vector<FamilyCandidate> undecided;
   /// True if the chosen law does not describe the rows: another family than the power law describes
   /// them much better (`power-law-inadequate`), or left and right turns differ (`turns-differ`).

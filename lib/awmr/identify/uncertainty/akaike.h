@@ -32,8 +32,8 @@ inline std::optional<double> aicc(double sum_of_squares, double n, double free) 
   return n * std::log(sum_of_squares / n) + 2.0 * k + 2.0 * k * (k + 1.0) / (n - k - 1.0);
 }
 
-/// Text of a decrease of AIC, for a message that says "lower by ...". A large difference follows from
-/// the assumed noise, not from the evidence, so its digits mean nothing.
+/// Text of a decrease of AIC, for a message that says "lower by ...". A large difference follows
+/// from the assumed noise, not from the evidence, so its digits mean nothing.
 inline std::string aic_decrease_text(double decrease, int decimals = 0) {
   constexpr double kClear = 1000.0;
   if (decrease > kClear) return "more than 1,000";
