@@ -52,8 +52,8 @@ struct Contender {
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// Smallest sufficient number of samples. If there are fewer, the 95 % intervals contain the true
-/// value in fewer than 95 % of the cases.
+/// Smallest number of samples with which the 95 % intervals are right. With fewer samples, they
+/// contain the true value in fewer than 95 % of the cases.
 inline constexpr int kFewSamples = 6;
 
 /// Maximum number of runs of a comparison: scenarios x sets of gains x modes x samples (including

@@ -1,6 +1,6 @@
 /// Tests how robust a ranking is: do the best modes of a scenario stay the best if one assumption
-/// is changed? The changes are the other plant (3-DOF model or four wheels), other weights and
-/// other gains. Private to compare/.
+/// is changed? The changed assumptions are the plant (four wheels for the 3-DOF model, or the
+/// reverse), the weights of the metrics, and the gains (slower or faster). Private to compare/.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ inline constexpr NameTable<DecisionKind, 3> kDecisionKindNames{
      {"undecided", DecisionKind::kUndecided}}};
 
 /// A lead by one metric alone. The only mode of rank 1 is relevantly better than another mode in
-/// just one ranked metric, and relevantly worse in at least one other. If the weight of the one
-/// metric is divided by kWeightFactor, the other mode has rank 1, too.
+/// just one ranked metric, and relevantly worse in at least one other. If the weight of this one
+/// metric is divided by kWeightFactor, the mode that is behind reaches rank 1 as well.
 struct NarrowLead {
   MetricId metric{};
   std::vector<Contender> others;  ///< modes over which the lead is narrow
@@ -65,10 +65,10 @@ struct Decision {
 inline constexpr std::string_view kDifferentialTurns = "differential-turns";
 inline constexpr std::string_view kSteerWhileCoasting = "steer-while-coasting";
 
-/// Repeats the ranking on the other plant. For a single set of gains, also repeats it with slower
-/// and faster gains. Uses at most the first kBatchRuns samples of the comparison. If a scenario
-/// cannot be run with a change, the Change has the reason (Change::not_run). Open-loop scenarios
-/// have no Change, because their modes are not ranked.
+/// Repeats the ranking on the plant that the scenario does not use. For a single set of gains,
+/// repeats it with slower and with faster gains as well. Uses at most the first kBatchRuns samples
+/// of the comparison. If a scenario cannot be run with a change, the Change has the reason
+/// (Change::not_run). Open-loop scenarios have no Change, because their modes are not ranked.
 std::vector<Change> changes_of_runs(const Model& model, const std::vector<NamedGains>& gains,
                                     const std::vector<Scenario>& scenarios,
                                     const CompareOptions& options);

@@ -12,7 +12,8 @@ struct CsvCell {
   int line = 1;
   int character = 1;  ///< position of the cell in its line, in characters from 1
   bool is_quoted = false;
-  /// The value, if the text is a plain number such as -12.5. number_from_text() parses the others.
+  /// The value, if the text is a plain number such as -12.5. number_from_text() parses texts in any
+  /// other form.
   std::optional<double> number = {};
 };
 

@@ -24,8 +24,8 @@ std::optional<double> number_with_comma(const CsvCell& cell, DecimalCommas& seen
 /// Records in `seen` that the number in this cell has a decimal point. No effect if it has none.
 void note_point(const CsvCell& cell, DecimalCommas& seen);
 
-/// Message for a fault: other numbers of the file have a decimal point, or each comma may also be a
-/// thousands separator. Empty without a fault.
+/// Message for a fault: some numbers of the file have a decimal comma and some a decimal point, or
+/// each comma may as well be a thousands separator. Empty if there is no fault.
 std::optional<std::string> fault_of(const DecimalCommas& seen);
 
 }  // namespace awmr

@@ -42,8 +42,8 @@ class JsonObject {
 
   /// True if the object has the key, even with the value null. Marks the key as known.
   bool has(std::string_view key);
-  /// Number of elements in the array or object under the key, also of faulty elements, which
-  /// numbers() and strings() leave out. Absent if the key is missing or has another type.
+  /// Number of elements in the array or object under the key. It counts faulty elements as well,
+  /// which numbers() and strings() leave out. Absent if the key is missing or has another type.
   std::optional<std::size_t> size(std::string_view key) const;
   double number(std::string_view key, NumberRule rule = kAnyNumber);
   std::optional<double> optional_number(std::string_view key, NumberRule rule = kAnyNumber);
@@ -89,8 +89,9 @@ class JsonObject {
   std::vector<JsonObject> values();
   /// Marks a key as known without reading its value; the key may be missing.
   void ignore(std::string_view key);
-  /// Reads the optional key `schema`, before all others. A value other than `expected` is a fault:
-  /// the file is of another kind, so the view then reports no further faults.
+  /// Reads the optional key `schema`. Call it before all other keys are read: if the value is not
+  /// `expected`, the file is of another kind. This is a fault, and the view then reports no further
+  /// faults.
   void schema(std::string_view expected);
   /// All keys of the object, in the order of the file; for objects with arbitrary keys.
   std::vector<std::string> keys() const;

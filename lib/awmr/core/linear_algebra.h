@@ -1,5 +1,5 @@
-/// Decompositions of dense double matrices, for use instead of Eigen's, which cost seconds of
-/// compile time in every source file. Private: not installed.
+/// Decompositions of dense double matrices. Use these functions, not those of Eigen, which cost
+/// seconds of compile time in every source file. Private: not installed.
 #pragma once
 
 #include <Eigen/Core>

@@ -8,8 +8,7 @@
 namespace awmr {
 
 /// Returns the candidate with the smallest edit distance from `word`; empty if this distance
-/// exceeds both 1 and a third of the word's length. Words and candidates of more than 100 bytes are
-/// ignored.
+/// exceeds both 1 and a third of the length of `word`. Texts of more than 100 bytes are ignored.
 std::string nearest(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace awmr

@@ -18,8 +18,8 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 
 /// Cancellation and progress callbacks of a long loop.
 struct LoopControl {
-  /// Called before each item, on the thread that would process the item, also by several threads at
-  /// once. If it returns true, no further item is started.
+  /// Called before each item, on the thread that would process the item. Several threads may call
+  /// it at once. If it returns true, no further item is started.
   std::function<bool()> stop = {};
   /// Called after each item that the caller's thread has processed, on that thread.
   std::function<void()> progress = {};

@@ -106,8 +106,9 @@ struct EmitOptions {
   /// Maximum age of speed and position, ms, > 0. The default permits two missing fixes of a 5 Hz
   /// GPS.
   std::uint32_t speed_timeout_ms = 600;
-  /// Maximum age of the last command, ms, > 0; after it, the motors stop. An unreliable radio link
-  /// needs a larger limit, with which the vehicle also drives on longer without commands.
+  /// Maximum age of the last command, ms, > 0; after it, the motors stop. For an unreliable radio
+  /// link, use a larger limit; but the larger the limit, the longer the vehicle drives on without
+  /// commands.
   std::uint32_t command_timeout_ms = 1000;
   /// Maximum time between two control steps, ms; 0: three sample times, rounded up.
   std::uint32_t step_timeout_ms = 0;

@@ -25,7 +25,8 @@ inline constexpr NameTable<Method, 3> kMethodNames{{{"log-linear", Method::kLogL
                                                     {"nonlinear", Method::kNonlinear},
                                                     {"trajectory", Method::kTrajectory}}};
 
-/// Quantity that has the measurement error in the nonlinear fit. The other quantities are exact.
+/// Quantity that has the measurement error in the nonlinear fit. The fit assumes that all other
+/// quantities are exact.
 enum class ErrorModel {
   kForce,     ///< error of the force, e.g. a motor whose thrust drifts
   kSpeed,     ///< error of the speed or yaw rate, e.g. of a sensor
@@ -87,9 +88,9 @@ struct IdentifyOptions {
   /// Estimator that sets the values in the model. If absent: trajectory if there are logs; else
   /// nonlinear if another family or a robust loss is requested; else log-linear.
   std::optional<Method> method = {};
-  /// Error model of the nonlinear table fit. If absent and `method` is nonlinear: an error of the
-  /// time if every run was timed, else of the speed. If absent and `method` is another one: a
-  /// relative error of the force.
+  /// Error model of the nonlinear table fit. If it is absent, the error model follows from
+  /// `method`. Nonlinear: an error of the time if every run was timed, else an error of the speed.
+  /// Any other method: a relative error of the force.
   std::optional<ErrorModel> noise = {};
   FamilyChoice surge_family = {};
   FamilyChoice yaw_family = {};

@@ -23,8 +23,8 @@ inline constexpr NameTable<Family, 5> kFamilyNames{
      {"dead-zone", Family::kDeadZone}}};
 constexpr std::string_view name_of(Family family) { return name_in(kFamilyNames, family); }
 
-/// Parameters that a fit of the family estimates, in addition to alpha. The others are fixed: beta
-/// at 1, Coulomb, quadratic part and dead zone at 0.
+/// Parameters that a fit of the family estimates, in addition to alpha. Parameters that the family
+/// does not have are fixed: beta at 1, Coulomb friction, quadratic part and dead zone at 0.
 struct FamilyTerms {
   bool beta = false;
   bool coulomb = false;

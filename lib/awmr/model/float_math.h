@@ -70,14 +70,14 @@ inline bool is_nan(float x) { return magnitude_bits(x) > kInfinityBits; }
 inline uint16_t leading_bits(float x) {
   return static_cast<uint16_t>(bits_of(x) >> 16U) & static_cast<uint16_t>(0x7FFFU);
 }
-/// Leading 16 bits of x as a signed integer. These integers have the order of the numbers; numbers
-/// that differ only in the other bits are equal.
+/// Leading 16 bits of x as a signed integer. The integers of two numbers compare like the numbers
+/// themselves; if the numbers differ only in the lower 16 bits, their integers are equal.
 inline int16_t leading_order_of(float x) {
   const int16_t magnitude = static_cast<int16_t>(leading_bits(x));
   return (bits_of(x) & 0x80000000UL) != 0 ? static_cast<int16_t>(-magnitude) : magnitude;
 }
-/// True if the leading 16 bits alone show that lo < x < hi. False for NaN, and near the ends, where
-/// the other bits would decide.
+/// True if the leading 16 bits alone show that lo < x < hi. False for NaN, and near lo and hi,
+/// where the lower 16 bits would decide.
 inline bool is_inside(float x, float lo, float hi) {
   const int16_t order = leading_order_of(x);
   return order > leading_order_of(lo) && order < leading_order_of(hi);

@@ -15,7 +15,7 @@ struct HeadingGains {
   T lambda;
   /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed the yaw acceleration of
   /// a disturbance, |d|/I'z (d: disturbing yaw moment, I'z: yaw inertia, both divided by F_max);
-  /// otherwise the disturbance drives S out of the boundary layer.
+  /// with a smaller mu, the disturbance drives S out of the boundary layer.
   T mu;
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
   /// is proportional to S. A larger epsilon gives less chattering and a softer response.
@@ -69,10 +69,11 @@ struct Gains {
 
   /// Friction width w, rad/s, in a mode of yaw control. At yaw rates below w, the controller feeds
   /// forward the resistance g3(w) sat((psi_d_dot + lambda e)/w) instead of g3, which jumps at rest
-  /// (fed_forward()). A larger w gives less noise in the steering command, but a larger heading
-  /// error at rest, which only an observer removes. If the gains have an observer, w is w0 in every
-  /// mode. Else w depends on the share s = `steering_share` of the yaw moment that the steering
-  /// makes: 0.02 for s = 0, the width of the combined mode for s = 1/2, w0 for s = 1.
+  /// (fed_forward()). The larger w, the less noise the steering command has, and the larger is the
+  /// heading error at rest, which only an observer removes. If the gains have an observer, w is w0
+  /// in every mode. If they have none, w depends on the share s = `steering_share` of the yaw
+  /// moment that the steering makes: 0.02 for s = 0, the width of the combined mode for s = 1/2, w0
+  /// for s = 1.
   T friction_width_at(const T& steering_share) const {
     const T w0 = heading.friction_width_radps;
     if (observer.is_on() || steering_share > T(0.5)) return w0;

@@ -24,8 +24,9 @@ Result<Gains<double>> read_gains(const std::filesystem::path& path);
 /// Errors: as read_json_file(); a certificate in another form.
 Result<std::optional<CertifiedGains>> read_certificate(const std::filesystem::path& path);
 
-/// As read_gains(), and also reads the gains of single modes (`/modes`). Such a mode does not get
-/// the observer of `/observer`: its own gains must contain one.
+/// As read_gains(), and also reads the gains that belong to one mode only (`/modes`). A mode with
+/// gains of its own does not get the observer of `/observer`, only an observer within its own
+/// gains.
 Result<ModeGains> read_mode_gains(const std::filesystem::path& path);
 
 /// JSON pointer of the gains of a mode in gains.json: "/modes/steering", or "" if the mode has no

@@ -14,7 +14,8 @@ namespace awmr {
 /// range (ranges.h); values that contradict each other, such as a value outside its interval; an
 /// implausible vehicle (plausibility.h) that the user did not accept with `identify --as-is`.
 Result<Model> read_model(const std::filesystem::path& path);
-/// As read_model(), but also accepts an implausible vehicle, within the ranges of ranges.h.
+/// As read_model(), but accepts a vehicle whose values are implausible (plausibility.h), as long as
+/// they are within the ranges of ranges.h.
 Result<Model> read_model_as_is(const std::filesystem::path& path);
 
 /// As read_model(), but reads a text in memory. `file`: name of the text in errors.

@@ -44,7 +44,7 @@ struct Implausible {
 
 /// Returns the implausible values; empty if there are none. Checks in this order: length over
 /// width, mass and sizes, track, front axle, Iz, steering. If length, width or mass is probably in
-/// another unit, the later checks use the converted value.
+/// a wrong unit, the later checks use the value converted to the right unit.
 std::vector<Implausible> implausible_values(const Vehicle& vehicle);
 
 /// Checks that the vehicle has no implausible_values(). Errors (input): each of them, at `place`

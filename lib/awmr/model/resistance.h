@@ -85,9 +85,9 @@ T with_dead_zone(const T& force, const T& zone) {
   return select(force > T(0.0), T(force + zone), select(force < T(0.0), T(force - zone), force));
 }
 
-/// The force that a motor with a dead zone makes for `command`: 0 for |command| <= zone; otherwise
-/// the command with its magnitude reduced by the zone. Command and force are divided by F_max;
-/// zone = F'0 >= 0.
+/// The force that a motor with a dead zone makes for `command`: 0 for |command| <= zone; for a
+/// larger |command|, the command with its magnitude reduced by the zone. Command and force are
+/// divided by F_max; zone = F'0 >= 0.
 template <class T>
 T beyond_dead_zone(const T& command, const T& zone) {
   using math::select;

@@ -92,8 +92,9 @@ T larger(const T& x, const T& y) {
   return select(x < y, y, x);
 }
 
-/// Returns x; for float, 0 if |x| < 2^-90. Use it for a number that is divided by a force later.
-/// Otherwise, the quotient can be a subnormal number, which an AVR rounds differently from a host.
+/// Returns x; for float, 0 if |x| < 2^-90. Use it for a number that is divided by a force later:
+/// the quotient of a tinier number could be subnormal, and an AVR rounds subnormal numbers
+/// differently from a host.
 template <class T>
 T flushed(const T& x) {
   return x;

@@ -113,8 +113,8 @@ namespace meter {
 
 /// The commanded speed counts as reached if at most this fraction of it is missing.
 constexpr double kReachedShare = 0.001;
-/// Half width of the settling band, divided by the size of the step; a narrower band gives longer
-/// settling times.
+/// Half width of the settling band of the heading error, divided by the size of the heading step;
+/// the narrower the band, the longer the settling times.
 constexpr double kSettledShare = 0.02;
 constexpr double kSettledLeastDeg = 0.5;  ///< smallest half width of the settling band, deg
 constexpr double kMovingMps = 0.05;       ///< the sideslip angle is evaluated above this speed, m/s

@@ -50,8 +50,8 @@ WheelForces<T> at_all_wheels(const SideForces<T>& force, const T& rear_driven) {
 }
 
 /// Returns `arriving`, the motor forces after lag, with 0 for each motor whose command is 0: with
-/// back-EMF, this command switches the motor off at once. Otherwise, the remaining lag would keep
-/// the motor on, and its back-EMF would brake the wheel (motor_force() in dynamics.h).
+/// back-EMF, this command switches the motor off at once. If the lag kept the motor on for a while,
+/// its back-EMF would brake the wheel (motor_force() in dynamics.h).
 template <class T>
 SideForces<T> switched_off(const T& back_emf_s_per_m, const SideForces<T>& command,
                            const SideForces<T>& arriving) {

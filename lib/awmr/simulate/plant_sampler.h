@@ -11,8 +11,9 @@
 
 namespace awmr {
 
-/// Fraction of the draws in which m' is raised to Model::mass_norm_by_grip (see PlantSampler).
-/// Chosen: a larger fraction trusts the grip of the tyres more than the identified m'.
+/// Fraction of the draws in which m' is raised to Model::mass_norm_by_grip (see PlantSampler). The
+/// fraction is a choice: the larger it is, the more the draws trust the assumed grip of the tyres,
+/// and the less the identified m'.
 inline constexpr double kGripShare = 0.25;
 
 /// Draws random plants. The parameters in the model's covariance C are drawn; all other parameters

@@ -61,8 +61,8 @@ inline constexpr double kSameTime_s = 1e-9;
 /// Steps through the rows of a log from one change of the commands to the next.
 class ActingRow {
  public:
-  /// Begins at the last row before the time `t_s`. Thus next_change_s() also finds commands that
-  /// change exactly at `t_s`.
+  /// Begins at the last row before the time `t_s`. So next_change_s() finds later changes of the
+  /// commands, and a change exactly at `t_s`.
   ActingRow(const std::vector<double>& row_times_s, double t_s)
       : t_s_(&row_times_s),
         row_(static_cast<std::size_t>(std::ranges::lower_bound(row_times_s, t_s - kSameTime_s) -

@@ -48,9 +48,9 @@ std::vector<Contradiction> contradictions(const DrivingLog& log, const Vehicle& 
                                           std::span<const ColumnMapping> mappings);
 
 /// Checks a log by contradictions(). Errors (input): each contradiction, with the mapping that
-/// corrects it; with `options.as_is`, contradictions are warnings (`log-contradiction`) instead.
-/// `place` names the log in errors. For a log without contradictions, adds the findings of
-/// calibration_checks.h, and `gyro-bias` if gyro_bias() is significant.
+/// corrects it. If `options.as_is` is true, contradictions are no errors, but warnings
+/// (`log-contradiction`). `place` names the log in errors. For a log without contradictions, adds
+/// the findings of calibration_checks.h, and `gyro-bias` if gyro_bias() is significant.
 Status check_consistency(const DrivingLog& log, const std::string& place, const Vehicle& vehicle,
                          const TrialOptions& options, std::vector<Finding>& findings);
 

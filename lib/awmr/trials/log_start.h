@@ -14,9 +14,9 @@ double largest_measured(const DrivingLog& log, LogChannel channel);
 bool begins_in_motion(const DrivingLog& log);
 
 /// If the log begins at rest and its first row commands a force, adds a row with forces 0 and
-/// without measurements, one median time step before the first row. If this row were missing, a
-/// simulation with motor lag or command delay would use the first command also for the time before
-/// the log, in which the vehicle was at rest. No effect in a log without a speed.
+/// without measurements, one median time step before the first row. Without this row, a simulation
+/// with motor lag or command delay would assume that the first command already acted before the log
+/// began, although the vehicle was at rest. No effect in a log without a speed.
 void add_row_of_rest(DrivingLog& log);
 
 }  // namespace awmr

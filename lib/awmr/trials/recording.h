@@ -35,8 +35,9 @@ class Recording {
     char delimiter = ',';
   };
 
-  /// `mappings`: column mappings with which the log will be read. A line that names their source
-  /// columns is also recognised as the header. `most_bytes`: maximum size of the text.
+  /// `mappings`: column mappings with which the log will be read. A line that contains the names of
+  /// their source columns is recognised as the header, as is a line with awmr's column names.
+  /// `most_bytes`: maximum size of the text.
   explicit Recording(std::vector<ColumnMapping> mappings = {},
                      std::size_t most_bytes = kMaxRecording);
 

@@ -8,9 +8,10 @@
 ///     p = erf(a) - (1 - exp(-a^2))/(a sqrt(pi)),   a = q/(2 s)
 ///
 /// (averaged over the position of the mean between two multiples of q; 0.28 q/s for q << s, nearly
-/// 1 for q >> s). m is the number of different earlier readings with the settings of a row. The row
-/// repeats one of these readings by chance with probability at most m p. The sum of m p over the
-/// table is L, the expected number of repeats by chance. The check reports k repeated rows if
+/// 1 for q >> s). For a row, m is the number of rows above it with the same settings; of several
+/// such rows with equal readings, only one counts. The row repeats one of these m readings by
+/// chance with probability at most m p. The sum of m p over the table is L, the expected number of
+/// repeats by chance. The check reports k repeated rows if
 ///
 ///     P(k or more) = sum over j >= k of L^j exp(-L)/j! <= 1/100
 ///

@@ -79,9 +79,9 @@ inline double steering_angle_factor(const Plant<double>& plant) {
 double steered_moment_m(const DrawnVehicle& vehicle, double speed_mps);
 
 /// Returns the largest yaw moment tau_turn (divided by F_max, m) at the steady speed u_d: that of
-/// the weaker mode, which is steering or differential, whichever has the smaller one. If `mode` is
-/// one of the two modes, it returns the moment of this mode. A mode that has no moment at that
-/// speed (steering at rest) is ignored.
+/// the weaker mode, steering or differential (the mode with the smaller largest yaw moment). If
+/// `mode` is one of the two modes, it returns the moment of this mode. A mode that has no moment at
+/// that speed (steering at rest) is ignored.
 ///   steering      l_f g1(u_d) tan(d_max/2)
 ///   differential  4 d min(F'max - g1/4, g1/4 - F'min)
 /// F'max and F'min are the limits of the wheel force after subtracting the motor dead zone. If only

@@ -117,7 +117,8 @@ class Objective {
   Objective(ObjectiveSetting setting, const Gains<double>& baseline);
 
   /// Simulates every mode of every vehicle for each set of gains that was not evaluated before. The
-  /// result of a set does not depend on the other sets or on the number of cores.
+  /// result of a set depends neither on the sets that are evaluated together with it nor on the
+  /// number of cores.
   std::vector<Evaluation> operator()(std::span<const Gains<double>> gains) const;
   Evaluation operator()(const Gains<double>& gains) const;
   const Evaluation& baseline() const { return baseline_; }

@@ -80,8 +80,8 @@ class Problem {
   const std::vector<std::string>& names() const { return names_; }
   const SearchSpace& space() const { return space_; }
   unsigned constraints() const { return static_cast<unsigned>(names_.size()); }
-  /// True: points that violate a constraint are also simulated, because the local search needs
-  /// their objective.
+  /// True: every set of gains is simulated, even if it violates a constraint, because the local
+  /// search needs the objective of such gains.
   bool simulate_all = false;
   /// For each constraint, the largest residual with which it still counts as met: 0, except for a
   /// constraint that active_constraints() relaxes.

@@ -10,7 +10,7 @@
 
 namespace awmr {
 
-/// Searches the gains on one setting, and evaluates them also in the scenario `held_out`, which the
+/// Searches the gains on one setting, then evaluates them in the scenario `held_out`, which the
 /// search does not use. If runs need an observer to settle (TuneOptions::adds_observer), searches
 /// again with an observer. Errors: those of tune().
 Result<Tuning> search_gains(const Model& model, const ObjectiveSetting& setting,

@@ -55,9 +55,9 @@ class SettlingSearch {
   explicit SettlingSearch(const ConstraintContext& context) : context_(context) {}
 
   /// True if in at least one scenario and mode, fewer than kSettledShare of the runs settle with
-  /// the given gains, and an observer helps: with it and gains by pole placement, half of the other
-  /// runs settle, too, or kSettledShare of all runs. To save time, only a few vehicles are
-  /// simulated with the observer (on_few_vehicles()).
+  /// the given gains, and an observer helps: with the observer and gains by pole placement, half of
+  /// the runs that did not settle before do settle, or kSettledShare of all runs settle. To save
+  /// time, only a few vehicles are simulated with the observer (on_few_vehicles()).
   bool observer_helps(const ObjectiveSetting& setting, const Gains<double>& gains);
 
   /// Tries one change of gains or limits at a time. Returns the changes with which at least `share`

@@ -1,5 +1,6 @@
-/// Rate of the steering command due to sensor noise, and the friction width that limits it. Private
-/// to tune/.
+/// Rate of the steering command due to sensor noise, and the friction width by which `tune` limits
+/// this rate. A friction width is the yaw rate below which the heading law feeds Coulomb friction
+/// forward smoothly. Private to tune/.
 #pragma once
 
 #include "awmr/tune/constraints.h"

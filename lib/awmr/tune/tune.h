@@ -173,8 +173,9 @@ struct TuneOptions {
   /// Path of the options' file, for the places of errors. Empty: the options are not from a file.
   std::string file = {};
   /// true: tune on the identified plant only, with ideal sensors (no noise, no latency) and motors
-  /// (no lag). false (robust): tune also on `draws` plants from the model's covariance, with the
-  /// noise, latency and lag of LoopConditions. The gains then meet every constraint on all plants.
+  /// (no lag). false (robust): tune on the identified plant and on `draws` plants from the model's
+  /// covariance, with the noise, latency and lag of LoopConditions. The gains then meet every
+  /// constraint on all plants.
   bool nominal = false;
   int draws = 32;  ///< vehicles drawn for the search, 0 ... 1000
   /// Number of further vehicles that are drawn to evaluate the tuned gains, 0 ... 100000.

@@ -62,8 +62,8 @@ struct HeadingSetting : ClaimSetting {
 
 /// Checks C4: the speed converges to u_d. `runs`: headings of 30, then -30 deg.
 Claim check_speed_converges(const HeadingSetting& setting, const ModeRuns& runs);
-/// Checks C5, the speed drop by mode, with the same runs as C4. Claim::figure also has the drops
-/// with other force limits, which do not affect the verdict.
+/// Checks C5, the speed drop by mode, with the same runs as C4. Claim::figure also has the speed
+/// drops of runs with further limits of the wheel forces; these runs do not affect the verdict.
 Claim check_speed_held(const HeadingSetting& setting, const ModeRuns& runs);
 
 }  // namespace awmr

@@ -31,9 +31,9 @@ void add_open_cases(const Model& model, const std::optional<ModeGains>& gains,
                     const BatchArithmetic& arithmetic, std::vector<Claim>& claims,
                     const Progress& progress = {});
 
-/// Text of the settings on which the verdict depends, most decisive first. "wheel_force (8 of 12)"
-/// means: in 8 of the 12 combinations of the other settings, wheel_force alone changes the verdict.
-/// Empty if the verdict is the same in all cases.
+/// Lists the settings on which the verdict depends, most decisive first. "wheel_force (8 of 12)"
+/// means: there are 12 combinations of all settings except wheel_force; in 8 of them, a change of
+/// wheel_force alone changes the verdict. Empty if the verdict is the same in all cases.
 std::string decisive_settings(const std::vector<ClaimCase>& cases);
 
 }  // namespace awmr

@@ -27,7 +27,8 @@ struct Fit {
 std::optional<Fit> fit(const Windows& windows, const Plants& plants, const IsFree& is_free,
                        const LogTyres& from);
 
-/// Fit of the parameters that the windows determine; the others keep their defaults.
+/// Fit of those tyre parameters (friction, cornering stiffness) that the windows determine; a
+/// parameter that they do not determine keeps its default.
 struct ShownFit {
   Fit fit;
   IsFree is_free{true, true};  ///< by parameter: true if the windows determine it
@@ -37,9 +38,10 @@ struct ShownFit {
 
 LogTyres default_tyres();
 
-/// Fits both parameters from several starts. If the windows do not determine one parameter, sets it
-/// to its default and fits the other again. If a fit does not converge, returns it without further
-/// fits (Fit::converged is false). Empty if the windows cannot be simulated from any start.
+/// Fits friction and cornering stiffness of the tyres from several starts. If the windows do not
+/// determine one of the two, sets it to its default and fits the second one again. If a fit does
+/// not converge, returns it without further fits (Fit::converged is false). Empty if the windows
+/// cannot be simulated from any start.
 std::optional<ShownFit> fit_what_is_shown(const Windows& windows, const Plants& plants);
 
 }  // namespace awmr::tyre_fit

@@ -15,7 +15,7 @@ namespace awmr {
 /// Starting point of a search.
 struct CoastStart {
   double log_mass = 0.0;
-  double lag_s = 0.0;  ///< time constant T of a filter of the speed; 0: no filter
+  double lag_s = 0.0;  ///< time constant T of the speed sensor's filter; 0: no filter
 };
 
 /// Ratio of a term of the surge resistance, c1 or q1, to the coefficient a1. If the surge law is
@@ -26,7 +26,7 @@ struct TermOverAlpha {
   double variance = 0.0;        ///< variance of `value`; 0 if `value` is at a bound
 };
 
-/// Time constant T of a low-pass filter that the speed of the curves has passed.
+/// Time constant T of a low-pass filter in the speed sensor.
 struct FittedLag {
   double value_s = 0.0;
   double variance = 0.0;     ///< variance of T, s^2, due to the noise of the curves alone
@@ -46,7 +46,7 @@ struct CoastFit {
   double dof = 0.0;            ///< degrees of freedom of `variance`; reduced if residuals correlate
   /// d ln m' / d theta for the free coordinates theta of the fixed surge law (SteadyFit::free).
   Eigen::VectorXd by_surge;
-  std::optional<FittedLag> lag;      ///< filter of the speed; absent if the fit has none
+  std::optional<FittedLag> lag;      ///< speed sensor's filter; absent if the fit has none
   double beta = 0.0;                 ///< b1: fitted or given
   double beta_variance = 0.0;        ///< variance of b1; 0 if not fitted or at a bound
   Family family = Family::kPower;    ///< family of a fit without a surge law
@@ -70,13 +70,13 @@ struct CoastFit {
 CoastFit fit_coast(const std::vector<CoastCurve>& curves, const SteadyFit& surge,
                    const CoastStart& start);
 
-/// For a fit with a speed filter (CoastFit::lag): tests whether the curves determine ln m' as well
-/// as its standard error says. Fixes ln m' at 3 standard errors below and above the optimum, and
-/// fits the other parameters again. A valid standard error predicts that the sum of squares then
-/// rises by 9 times the variance of the residuals. If it rises by at least half of that on both
-/// sides, the function returns empty. Otherwise another ln m' fits almost as well: the function
-/// returns that ln m' and its filter, on the side with the smaller rise, so that the caller can
-/// start a fit there.
+/// For a fit with a low-pass filter in the speed sensor (CoastFit::lag): tests whether the curves
+/// determine ln m' as well as its standard error says. Fixes ln m' at 3 standard errors below and
+/// above the optimum, and fits the other parameters again. A valid standard error predicts that the
+/// sum of squares then rises by 9 times the variance of the residuals. If it rises by at least half
+/// of that on both sides, the function returns empty. Otherwise another ln m' fits almost as well:
+/// the function returns that ln m' and its filter, on the side with the smaller rise, so that the
+/// caller can start a fit there.
 std::optional<CoastStart> flat_direction(const std::vector<CoastCurve>& curves,
                                          const SteadyFit& surge, const CoastFit& fit);
 

@@ -99,8 +99,8 @@ class CoastProblem {
 
 double highest_speed_mps(const std::vector<CoastCurve>& curves);
 
-/// Time constant of the motion, m' u0/g(u0), s, at the highest speed u0 of the curves; g:
-/// resistance.
+/// Time constant of the deceleration, m' u0/g(u0), s, at the highest speed u0 of the curves; g:
+/// surge resistance.
 double fall_time_s(const std::vector<CoastCurve>& curves, const Resistance<double>& law,
                    double log_mass);
 

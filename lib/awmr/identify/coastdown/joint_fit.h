@@ -19,9 +19,9 @@ struct JointFit {
 };
 
 /// Fits the rows of the surge runs and the coast-down curves together. `alone`: fit of the surge
-/// rows alone, the initial guess of the surge law. `start`: initial guess of m', and of the time
-/// constant of the speed filter if there is one. If the search fails, `coast.usable` is false and
-/// the stop reasons are set.
+/// rows alone, the initial guess of the surge law. `start`: initial guess of m' and, if the speed
+/// sensor has a filter, of its time constant. If the search fails, `coast.usable` is false and the
+/// stop reasons are set.
 JointFit fit_joint(const SteadyProblem& surge, const SteadyFit& alone,
                    const std::vector<CoastCurve>& curves, const CoastStart& start);
 

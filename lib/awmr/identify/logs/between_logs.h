@@ -59,10 +59,10 @@ struct LogComparison {
 ///
 /// A single log of 20 s or more is tested by its parts: a fit of its first half predicts its second
 /// half and its last fifth (held_out.h). If both predictions are accepted (p > 0.05), there is no
-/// disagreement. Otherwise the halves are compared like two logs, with two differences: there is no
-/// search for missing terms, and a disagreement makes no other interval invalid. If the halves
-/// agree, but the prediction of the last fifth is rejected (p < 0.001), `missed` contains its
-/// result.
+/// disagreement. If one is rejected, the halves are compared like two logs, with two exceptions:
+/// there is no search for missing terms, and a disagreement on one quantity makes the intervals of
+/// no further quantity invalid. If the halves agree, but the prediction of the last fifth is
+/// rejected (p < 0.001), `missed` contains its result.
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

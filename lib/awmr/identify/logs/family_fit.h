@@ -25,7 +25,7 @@ bool is_over(const LogFitOptions& options);
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
 /// Resets each term in `values` that the next fit does not estimate (not in `free`) to its value in
-/// `power_law`. Otherwise the term would keep the value that an earlier fit estimated.
+/// `power_law`. Without this reset, the term would keep the value that an earlier fit estimated.
 void reset_terms(const std::vector<ParameterId>& free, const ParameterValues<double>& power_law,
                  ParameterValues<double>& values);
 

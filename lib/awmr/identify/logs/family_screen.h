@@ -27,10 +27,11 @@ struct OpenAxes {
 };
 
 /// Selects families by rough fits (fit_roughly()), starting at the optimum of `first`. Each round
-/// tries every other family of each open axis, except the axis that was changed last. It also tries
-/// what a wrong family can imitate: a delay of the commands, a lag of the motors, and back-EMF if
-/// that is a candidate term of `power_law`. The best change is kept if it lowers
-/// LogFit::relative_error by more than 2 % (back-EMF: by a third). There are at most eight rounds.
+/// tries, for each open axis (surge or yaw), every family that the axis does not have yet; the axis
+/// that was changed last is left out. A round also tries what a wrong family can imitate: a delay
+/// of the commands, a lag of the motors, and back-EMF if that is a candidate term of `power_law`.
+/// The best change is kept if it lowers LogFit::relative_error by more than 2 % (back-EMF: by a
+/// third). There are at most eight rounds.
 ///
 /// E is the amount by which the relative error exceeds 1, its value for sensor noise alone. Returns
 /// the last rough fit if its E is less than 0.7 times that of the families of `first`. Otherwise

@@ -41,10 +41,11 @@ inline constexpr double kRough = 1e-4;
 /// Finds initial guesses for the fit. If other trials gave the whole initial guess and `also_from`
 /// is empty, returns only that guess, without a search.
 ///
-/// Otherwise runs quick searches from the initial guess and from each guess in `also_from`. If the
-/// guess of some parameters is only an order of magnitude, also searches from random guesses. The
-/// searches use short parts of some windows: over a long part, the effect of a wrong guess
-/// accumulates, and the search ends in a wrong optimum. If no search is usable, `ends` is empty.
+/// In all other cases, runs quick searches from the initial guess and from each guess in
+/// `also_from`. If the guess of some parameters is only an order of magnitude, also searches from
+/// random guesses. The searches use short parts of some windows: over a long part, the effect of a
+/// wrong guess accumulates, and the search ends in a wrong optimum. If no search is usable, `ends`
+/// is empty.
 Multistart multistart(const LogProblem& problem, const LogFitOptions& options);
 
 }  // namespace awmr

@@ -1,5 +1,5 @@
-/// Detects logs in which the force columns contain set-points of a speed controller instead of
-/// forces. Private to identify/.
+/// Detects logs in which the force columns contain set-points of a speed controller, not forces.
+/// Private to identify/.
 #pragma once
 
 #include <optional>

@@ -22,9 +22,9 @@ namespace awmr {
 /// beyond the stop if nothing limited them.
 bool is_stop_reached(const LogProblem& problem, const SearchPoint& point);
 
-/// Fits the logs with the other meaning of the stop: it limits the command if it limits the angle
-/// in `settled`, and vice versa. Empty if the AIC of this fit is not lower, or if is_stop_reached()
-/// is false.
+/// Fits the logs with the second meaning of the steering stop: if the stop limits the steering
+/// angle in `settled`, it limits the steering command in this fit, and the reverse. Empty if the
+/// AIC of this fit is not lower, or if is_stop_reached() is false.
 std::optional<NoiseIteration> with_other_stop(const NoiseIteration& settled, Loss loss);
 
 /// Compares the two meanings of the stop for the converged fit `chosen`. The fit with the lower AIC
@@ -39,8 +39,9 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
 ///
 /// With forces that are equal left and right, angles of s times the assumed ones have nearly the
 /// same effect as I'z, yaw and sway resistance divided by s. A fit with e assumes that the scale is
-/// right for the mean of left and right, a fit with k that it is right for small commands. It may
-/// instead be right on one side, or at the stop. The prior standard deviation of ln s is therefore
+/// right for the mean of left and right, a fit with k that it is right for small commands. In fact,
+/// the scale may be right on one side, or at the stop. The prior standard deviation of ln s is
+/// therefore
 ///
 ///     sqrt(e^2 + ln(1 + k)^2)
 ///

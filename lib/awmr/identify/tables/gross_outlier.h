@@ -1,5 +1,5 @@
-/// Detection of a gross outlier: a run so far from the others that it would dominate the fit.
-/// Private to identify/.
+/// Detection of a gross outlier: a run so far from the curve of all other runs that it would
+/// dominate the fit. Private to identify/.
 #pragma once
 
 #include <cstddef>

@@ -51,8 +51,8 @@ struct SteadyPoint {
 };
 
 /// Largest number of rows with exact diagnostics. In larger tables, one step from the fit of all
-/// rows approximates the fit without a row, and there are no profile intervals. Time and memory
-/// would otherwise grow faster than the number of rows.
+/// rows approximates the fit without a row, and there are no profile intervals. Exact diagnostics
+/// of large tables would take too long: their time and memory grow faster than the number of rows.
 inline constexpr Eigen::Index kExactRows = 200;
 
 /// Input of a fit: the runs, the family of the curve, the error model and the loss.
