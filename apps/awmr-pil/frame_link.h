@@ -10,8 +10,9 @@
 
 namespace awmr::pil {
 
-/// Selects the longest wait for a byte: kStart (longer) while the chip starts and checks its
-/// parameters, kAnswer otherwise. The waiting times differ between an emulated and a real chip.
+/// Selects the longest wait for a byte: kStart while the chip starts and checks its parameters,
+/// which takes longer than a step; kAnswer at all other times. The waiting times differ between an
+/// emulated and a real chip.
 enum class Patience { kStart, kAnswer };
 
 /// Byte stream to and from a chip, emulated or real. Bytes may be damaged or lost on the way.

@@ -147,7 +147,7 @@ Status check_scenario(const Scenario& scenario, const std::string& file) {
   if (scenario.held_tau_speed()) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/guidance/tau_speed",
                       "tau_speed sets a constant thrust, but the firmware controls the speed: "
-                      "give speed_mps instead"});
+                      "remove tau_speed, and give speed_mps"});
   }
   if (scenario.control.allocation.value_or(AllocationForm::kExact) != AllocationForm::kExact) {
     faults.push_back({ErrorCode::kUnsupported, file + ":/control/allocation",

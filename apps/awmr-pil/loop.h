@@ -38,8 +38,8 @@ struct LoopRow {
   double steering_command_rad = 0.0;  ///< steering angle that the servo receives in this step
 };
 
-/// Copies noise and latency of the scenario's GPS to the model's vehicle. The firmware's position
-/// filter is computed from these numbers, so that it equals the simulator's filter.
+/// Copies noise and latency of the scenario's GPS to the model's vehicle. The Kalman gain of the
+/// firmware's position estimate is computed from these numbers, so it equals that of the simulator.
 void know_receiver(const Gps& gps, Model& model);
 
 /// True if the speed sensor gives no sign, so that the firmware must find the direction of travel.

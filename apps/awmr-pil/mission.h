@@ -48,7 +48,7 @@ struct Mission {
   std::optional<Observers<float>> observers;
   CombinedSplit split = CombinedSplit::kRedistribute;
 
-  /// True if the chip computes the reference headings itself, from points or a path. Otherwise the
+  /// True if the chip computes the reference headings itself, from points or a path. False: the
   /// host sends the reference heading in each step.
   bool leads() const { return !points.points_m.empty() || path.has_value(); }
 };

@@ -71,8 +71,8 @@ SensorFault CheckedSensors::step(std::size_t k, bool fails, const Commanded& bef
     in.measured.r_radps = -in.measured.r_radps;
   }
   if (fails && injection_ == Injection::kCompassTurning) {
-    // Adds the drift also to the heading that the controller gets, because that is the filtered
-    // heading of the compass.
+    // Adds the drift of the compass to the heading that the controller gets as well, because this
+    // heading is computed from compass and gyroscope and follows the compass.
     turned_rad_ += kCompassTurning_radps * sample_time_s_;
     in.measured.psi_rad =
         float_math::wrapped(in.measured.psi_rad + static_cast<float>(turned_rad_));

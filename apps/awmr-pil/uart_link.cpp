@@ -14,7 +14,8 @@ namespace {
 constexpr std::uint64_t kLineStartCycles = 16'000'000;
 /// Timeout of an answer, in clock cycles: 30 ms. A request, its control step and its answer take 3
 /// ms. But the timeout must also exceed the pause of 20 ms after which the chip discards an
-/// incomplete frame; otherwise the repeated request would be read as a part of that frame.
+/// incomplete frame. With a shorter timeout, the chip would read the repeated request as a part of
+/// that frame.
 constexpr std::uint64_t kLineAnswerCycles = 480'000;
 
 /// Simulates a noisy line. A fraction `share` of the bytes is lost, and the same fraction of the

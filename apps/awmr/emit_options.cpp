@@ -72,9 +72,9 @@ void add_emit_options(CLI::App& command, EmitOptions& options) {
   add_resistance_options(command, options);
   add_parts_option(command, options);
   add_choice(command, "--split", options.split, kCombinedSplitNames,
-             "Split of the yaw moment in combined mode between steering and wheel forces. When the "
-             "steering or the wheel forces reach their limit: redistribute adds the missing moment "
-             "to the other half; fixed_half omits it")
+             "Split of the yaw moment in combined mode: steering makes one half, different wheel "
+             "forces the other. If one of the two reaches its limit: redistribute lets the other "
+             "one make the missing moment; fixed_half omits it")
       ->default_str("redistribute");
   add_timeouts(command, options);
 }

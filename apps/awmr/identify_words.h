@@ -10,7 +10,7 @@
 namespace awmr::cli {
 
 /// Options of a fit as they come from the command line. CLI11 writes most of them directly into
-/// `command`. The others stay texts, which command_of() parses.
+/// `command`. The members below are those that stay texts, which command_of() parses.
 struct IdentifyWords {
   IdentifyCommand command;
   ColumnWords columns;

@@ -141,7 +141,7 @@ Followed follow(const LiveCommand& command, const LiveFit& fit, OpenStream sourc
   std::optional<LiveEnd> end;
   while (!end) {
     // Data may have arrived during the last update. They are added before the end conditions are
-    // checked; otherwise they would be lost.
+    // checked, because they would be lost if the recording ends now.
     const std::string bytes = stream.take(std::chrono::milliseconds(100));
     followed.recording.add(bytes);
     if (!bytes.empty()) last_byte = Clock::now();

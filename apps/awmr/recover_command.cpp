@@ -100,10 +100,11 @@ void add_runs(CLI::App& sub, RecoverCommand& command) {
 }
 
 void add_estimator(CLI::App& sub, RecoverWords& words) {
-  sub.add_option("--plan", words.plan,
-                 "Trials to simulate. tables (default): the trials that the model was fitted to; "
-                 "curve: the "
-                 "same, but with a coast-down curve instead of stop times; log: only a driving log")
+  sub.add_option(
+         "--plan", words.plan,
+         "Trials to simulate. tables (default): tables like those that the model was fitted to; "
+         "curve: the same tables with a coast-down curve in place of the stop times; log: "
+         "only a driving log")
       ->check(one_of(names_in(kPlans)));
   sub.add_option("--method", words.method, "Estimator under test, as in identify")
       ->check(one_of(names_in(kMethodNames)));

@@ -29,8 +29,8 @@ struct PlantChoice {
   std::optional<PlantKind> kind = {};
   /// A validation.json. Its fitted tyres replace the tyres of the scenarios and the default tyres.
   std::optional<std::filesystem::path> tyres_file = {};
-  /// True (only for `compare`): the ranking is also computed with the other vehicle model, unless
-  /// `kind` is given.
+  /// True (only for `compare`): unless `kind` is given, the ranking is repeated with the vehicle
+  /// model that the scenario does not use.
   bool checks_other = false;
   bool runs_other() const { return checks_other && !kind; }
 };
@@ -40,8 +40,8 @@ inline constexpr const char* kTyresOption = "--tyres";
 /// Name of this option in the list of options in an output file.
 inline constexpr const char* kPlantName = "plant";
 
-/// Value of `--plant` for `compare`: each scenario runs with its own vehicle model, and the other
-/// model is used to check the ranking.
+/// Value of `--plant` for `compare`: each scenario runs with its own vehicle model, and the ranking
+/// is repeated with the model that the scenario does not use.
 inline constexpr const char* kBothPlants = "both";
 
 inline void add_plant_of(CLI::App& command, PlantChoice& choice, std::vector<std::string> names,
@@ -70,9 +70,11 @@ inline void add_plant(CLI::App& command, PlantChoice& choice) {
 inline void add_plant_or_both(CLI::App& command, PlantChoice& choice) {
   std::vector<std::string> names = names_in(kPlantKindNames);
   names.emplace_back(kBothPlants);
-  add_plant_of(command, choice, std::move(names),
-               "both: each scenario on its own plant (four-wheel if it has tyres, else model). The "
-               "ranking is then checked on the other plant, and with slower and faster gains");
+  add_plant_of(
+      command, choice, std::move(names),
+      "both: each scenario on its own plant (four-wheel if it has tyres, else model). Then "
+      "the ranking is repeated on the plant that the scenario does not use, and with "
+      "slower and faster gains");
 }
 
 /// Returns the tyres in the file of `--tyres`, or the default tyres without such a file. For a

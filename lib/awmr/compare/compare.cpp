@@ -55,7 +55,7 @@ class SharedNoise {
   using Drawn = std::map<std::size_t, DrawnNoise>;
 
   /// Registers a block that will use the noise. Call this for all blocks before the first block
-  /// starts; otherwise, a block could free the noise too early.
+  /// starts: a block that ends frees the noise if no further user is registered.
   void add_user() { ++users_; }
 
   /// Returns the noise. The first call obtains it from `draw()`.

@@ -252,9 +252,10 @@ Json ranking_json(const Preferences& preferences) {
       "assumption; level: several modes have rank 1 in all of these; undecided: no mode has rank 1 "
       "in all of these, or the lead of the best mode rests on one metric and is lost if this "
       "metric has half its weight (narrow_lead). A mode that completes no run does not have rank "
-      "1. Changes: any weights within a factor {:g}; with option plant both, also the other plant; "
-      "with option plant both and a single set of gains, also the rates of heading and speed loop "
-      "multiplied and divided by {:.3g}. Changes of plant and gains have up to {} samples each",
+      "1. Changes: any weights within a factor {:g}; with option plant both, also the plant that "
+      "the scenario does not use; with option plant both and a single set of gains, also gains "
+      "that multiply and divide the rates of heading and speed loop by {:.3g}. Changes of plant "
+      "and gains have up to {} samples each",
       kWeightFactor, kGainsFactor, kBatchRuns - 1);
   return json;
 }

@@ -75,8 +75,8 @@ void describe_decision(JsonObject& scenario) {
   for (JsonObject& change : decision->objects("changes")) {
     change.choice("kind", kChangeKindNames);
     change.string("setting");
-    // A change of one assumption has the key `first` with the modes of rank 1. If it was not run,
-    // it has the key `not_run` with the reason instead.
+    // A change of one assumption has the key `first` with the modes of rank 1. If the runs with
+    // this change were not made, it has the key `not_run` with the reason, in place of `first`.
     if (change.has("first")) change.strings("first");
     change.optional_boolean("survives");
     change.optional_string("not_run");

@@ -111,7 +111,7 @@ std::string origin_difference(const Provenance& found, const std::string& found_
   }
   if (!options.empty()) {
     return fmt::format(
-        "this part was made with other options ({}) than {}; run both parts with the "
+        "the options of this part ({}) differ from those of {}; run both parts with the "
         "same options",
         fmt::join(options, ", "), name);
   }
@@ -123,7 +123,7 @@ std::string origin_difference(const Provenance& found, const std::string& found_
                              "this part again with the same order",
                              name)
                        : fmt::format(
-                             "this part was made from other inputs ({}) than {}; run both parts "
+                             "the inputs of this part ({}) differ from those of {}; run both parts "
                              "with the same inputs",
                              fmt::join(files, ", "), name);
 }
@@ -154,7 +154,7 @@ std::string difference(const ShardKind& kind, const Part& first, const Part& par
   }
   if (shared_keys(kind, part.json) != shared_keys(kind, first.json)) {
     return fmt::format(
-        "this part was made with other options than {}; run both parts with the same "
+        "the options of this part differ from those of {}; run both parts with the same "
         "options",
         name);
   }
@@ -281,7 +281,7 @@ Status check_items(const ShardKind& kind, const Part& part, std::string_view nam
     if (item_of(i) == expected) continue;
     return input_error(
         ErrorCode::kStaleResult, place,
-        fmt::format("row {} has {} {} instead of {}: rows are missing, repeated or from "
+        fmt::format("row {} has {} {}, but {} is expected: rows are missing, repeated or from "
                     "another part; run part {} of {} again",
                     i + 1, name, item_of(i), expected, shard.index, shard.count));
   }

@@ -106,8 +106,8 @@ std::optional<TemporaryFile> TemporaryFile::in(const fs::path& directory) {
   return std::nullopt;
 }
 
-// The path is registered before the file is made, because a signal between both would otherwise
-// leave the file behind.
+// The path is registered before the file is made. In the reverse order, a signal between the two
+// steps would leave the file behind.
 TemporaryFile::TemporaryFile(fs::path path)
     : path_(std::move(path)),
       slot_(register_path(path_)),

@@ -108,8 +108,8 @@ ParameterBlock block_of(const Plant<double>& plant, const Model& model, const Mo
 Status check_allocation(const Model& model) {
   if (model.vehicle.allocation == AllocationForm::kExact) return {};
   return input_error(ErrorCode::kUnsupported, file_name(model) + ":/vehicle/allocation",
-                     "the firmware does not support the small-angle allocation: set \"exact\" "
-                     "instead, or emit the header alone (" +
+                     "the firmware does not support the small-angle allocation \"paper\": set "
+                     "\"exact\", or emit the header alone (" +
                          option_text("header-only") + ")");
 }
 

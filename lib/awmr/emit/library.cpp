@@ -19,8 +19,8 @@ architectures=*
 includes=awmr.h
 )";
 
-/// Text of library.json, the metadata for PlatformIO, which would otherwise offer the library only
-/// for Arduino boards, although it runs on any chip.
+/// Text of library.json, the metadata for PlatformIO. Without this file, PlatformIO would offer the
+/// library only for Arduino boards, although it runs on any chip.
 constexpr std::string_view kLibraryJson = R"({{
   "name": "awmr",
   "version": "{}",

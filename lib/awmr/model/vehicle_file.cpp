@@ -126,8 +126,9 @@ void control_to_json(const Vehicle& vehicle, Json& json) {
   if (vehicle.yaw_rate_max_degps) json["yaw_rate_max_degps"] = *vehicle.yaw_rate_max_degps;
 }
 
-/// A smaller unit in which a number above its range `rule` was probably given. `words`: name of
-/// this unit; `factor` converts the number from this unit.
+/// A unit smaller than that of the key, in which a number above its range `rule` was probably
+/// given, such as mm for m. `words`: name of this unit; `factor` converts the number from this
+/// unit.
 struct SmallerUnit {
   std::string_view pointer;
   NumberRule rule;

@@ -21,8 +21,8 @@ namespace {
 /// attempts, a model for which such a plant is rare takes longer to fail.
 constexpr int kMaxTries = 1000;
 
-/// Number of the random stream of the scrub moment. It is separate, so that the other parameters of
-/// a draw do not depend on whether the model has scrub.
+/// Number of the random stream of the scrub moment. Scrub has a stream of its own so that the
+/// parameters of a draw are the same whether the model has scrub or not.
 constexpr std::uint64_t kScrubStream = std::uint64_t{1} << 61U;
 
 /// An eigenvalue of a covariance may be negative by this fraction of the largest one: a derived

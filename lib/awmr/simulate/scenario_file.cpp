@@ -29,9 +29,10 @@ double read_speed(JsonObject& json, bool holds_thrust) {
     return 0.0;
   }
   if (holds_thrust) {
-    json.fault(ErrorCode::kConflict, "speed_mps",
-               "the guidance commands a constant tau_speed instead of a speed; remove speed_mps or "
-               "tau_speed");
+    json.fault(
+        ErrorCode::kConflict, "speed_mps",
+        "the guidance has a constant tau_speed, so no speed is commanded; remove speed_mps or "
+        "tau_speed");
   }
   return json.number("speed_mps", kSpeed_mps);
 }

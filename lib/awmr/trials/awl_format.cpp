@@ -171,8 +171,8 @@ Status add_header(std::string_view json, std::size_t at, const std::string& file
   AWMR_ASSIGN_OR_RETURN(Layout layout, layout_of(json, file));
   if (scan.layout.row_bytes > 0 && scan.layout != layout) {
     return input_error(ErrorCode::kBrokenFile, file,
-                       fmt::format("byte {}: this header has other columns or parameters than the "
-                                   "header before it; split the file there",
+                       fmt::format("byte {}: the columns or parameters of this header differ from "
+                                   "those of the header before it; split the file there",
                                    at));
   }
   scan.layout = std::move(layout);

@@ -85,7 +85,7 @@ bool changes_step_by_step(const Changes& changes, double quantum) {
 
 /// Marks the rows in which a slow sensor has a new reading: those in which the value changes. If
 /// the value stays the same for several usual (median) intervals between changes, the sensor
-/// probably read the same value again, so one row per interval is marked, too.
+/// probably read the same value again, so one row in each of these intervals is marked as well.
 std::vector<bool> slow_readings(const Changes& changes, std::size_t rows) {
   std::vector<bool> fresh(rows, false);
   fresh[0] = true;

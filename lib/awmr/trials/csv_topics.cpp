@@ -90,10 +90,11 @@ void note_zero_starts(const std::vector<Span>& spans, std::vector<CsvNote>& note
       spans.size() > 1 &&
       std::all_of(spans.begin(), spans.end(), [](const Span& span) { return span.begin_s == 0.0; });
   if (!all_at_zero) return;
-  notes.push_back({0, "one-clock",
-                   "the times of all files begin at exactly 0, and awmr takes them as times of "
-                   "one clock. If each file counts from its own first row, correct the times; "
-                   "otherwise its signals are shifted"});
+  notes.push_back(
+      {0, "one-clock",
+       "the times of all files begin at exactly 0, and awmr takes them as times of "
+       "one clock. If each file counts from its own first row, the signals of the files "
+       "are shifted in time: correct the times"});
 }
 
 /// Returns a column of a table as a topic, with the rows that have a value.

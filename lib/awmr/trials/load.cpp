@@ -57,7 +57,7 @@ void add_steady_runs(Trials& trials) {
 }
 
 /// Checks the logs of one file by check_consistency(), and adds them to the trials. Logs with
-/// faults are added, too, so that later checks can report further faults.
+/// faults are added like all others, so that later checks can report further faults.
 void add_logs(const std::filesystem::path& path, std::vector<DrivingLog> logs,
               const TrialOptions& options, Trials& trials, std::vector<Fault>& faults) {
   for (DrivingLog& log : logs) {

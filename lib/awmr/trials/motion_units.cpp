@@ -133,7 +133,7 @@ std::optional<Contradiction> check_rates(const Evidence& evidence) {
 
 /// Ratio of the yaw rate to that of wheels that roll without sliding, u tan(d)/(2 l_f). u: speed;
 /// d: steering angle; 2 l_f: about the wheelbase. Leaves out windows with clearly different forces
-/// left and right, because such forces turn the vehicle, too.
+/// left and right, because such forces also make a yaw moment.
 std::optional<double> rate_over_rolling(const Evidence& evidence) {
   // Forces left and right count as equal if the yaw moment of their difference is at most this
   // fraction of the yaw moment of the steering.

@@ -86,7 +86,7 @@ struct FolderForces {
   std::optional<ForceSpan> wheels = {};
 
   /// Returns the range of forces that decides the unit of a column: `own`, the range of the column
-  /// itself, if its values can be F'; otherwise `wheels`.
+  /// itself, if its values can be F'; `wheels` if they cannot.
   ForceSpan with(const ForceSpan& own) const {
     return is_share_of_f_max(own) || !wheels ? own : *wheels;
   }

@@ -20,8 +20,8 @@ namespace awmr {
 namespace {
 
 /// Largest accepted ratio of the yaw rate to that of rolling wheels. Steered turns: 3, because the
-/// vehicle may drift, or steer its rear wheels, too. Differential turns: 4, because two
-/// interpolated speeds determine the limit, which makes it less certain.
+/// vehicle may drift, or steer its rear wheels in addition to the front wheels. Differential turns:
+/// 4, because two interpolated speeds determine the limit, which makes it less certain.
 constexpr double kMaxSteered = 3.0;
 constexpr double kMaxBySides = 4.0;
 /// Smallest accepted ratio of the yaw rate to that of rolling wheels, for the row with the largest

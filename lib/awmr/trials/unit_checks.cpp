@@ -69,10 +69,11 @@ std::optional<Contradiction> check_force(const Evidence& evidence, std::string_v
       "vehicle: ",
       worst, limit.lo, limit.hi);
   if (of_both.largest <= std::max(limit.hi, -limit.lo) * kForceRounding) {
-    // The vehicle allows this magnitude in the other direction, so only the sign is wrong, not the
-    // unit.
+    // The vehicle allows this magnitude in the opposite direction, so only the sign is wrong, not
+    // the unit.
     return Contradiction{
-        std::string(column), beyond + "the vehicle permits it only in the other direction", "",
+        std::string(column),
+        beyond + "the vehicle permits a force of this size only in the opposite direction", "",
         fmt::format("widen wheel_force in vehicle.json to {:.4g}, or correct the signs", worst)};
   }
   const ForceUnits units = force_units(of_both, evidence.vehicle);

@@ -59,8 +59,8 @@ void check_scenarios(const std::vector<Scenario>& scenarios, bool observer_is_se
     if (scenario.held_tau_speed()) {
       faults.push_back({ErrorCode::kUnsupported, "",
                         fmt::format("scenario '{}' replaces the speed law by a constant tau_speed, "
-                                    "so the gains of this law cannot be tuned; give speed_mps "
-                                    "instead",
+                                    "so the gains of this law cannot be tuned; remove "
+                                    "tau_speed, and give speed_mps",
                                     scenario.name)});
     }
     if (scenario.control.lqi) {

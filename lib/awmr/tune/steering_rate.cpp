@@ -136,9 +136,10 @@ std::vector<double> steering_shares(const ConstraintContext& context) {
   return {steering_share<double>(YawMode::kSteering), steering_share<double>(YawMode::kCombined)};
 }
 
-/// Sets `width`, the friction width of one mode, to the smallest value in `widths` with which the
-/// RMS steering rate is at most `limit_degps`. If there is none, sets it to the largest value.
-/// `share`: fraction of the yaw moment that the steering makes in this mode.
+/// Sets `width`, the friction width of one mode (the yaw rate below which Coulomb friction is fed
+/// forward smoothly), to the smallest value in `widths` with which the RMS steering rate is at most
+/// `limit_degps`. If there is none, sets it to the largest value. `share`: fraction of the yaw
+/// moment that the steering makes in this mode.
 Gains<double> with_smallest_width(Gains<double> gains, double HeadingGains<double>::*width,
                                   Interval widths, double limit_degps, double share,
                                   const ConstraintContext& context) {
@@ -191,8 +192,8 @@ Gains<double> with_friction_width(Gains<double> gains, const ConstraintContext& 
                                 is_own ? &HeadingGains<double>::combined_friction_width_radps
                                        : &HeadingGains<double>::friction_width_radps,
                                 widths, *limit * (1.0 + wider), share, context);
-    // If the gains have an observer, all modes get the width of the first mode, whose steering
-    // command has the most noise.
+    // If the gains have an observer, all modes get the friction width of the first mode in this
+    // list, because its steering command has the most noise.
     if (gains.observer.is_on()) break;
   }
   const bool is_default =

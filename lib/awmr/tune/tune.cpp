@@ -273,8 +273,8 @@ Result<TuningProblem> problem_of(const Model& model, const DrawnVehicle& nominal
   return problem;
 }
 
-/// Tunes for each mode alone, too, and returns the result by mode; `common`, the result for all
-/// modes, if no mode gets gains of its own.
+/// Tunes for each mode alone and returns the gains by mode. If no mode gets gains of its own,
+/// returns `common`, the result of tuning for all modes together.
 Result<Tuning> tune_by_mode(const Model& model, const TuningProblem& problem,
                             const TuneOptions& options, const Scenario& held_out, Tuning common) {
   if (options.notice) {
@@ -282,8 +282,8 @@ Result<Tuning> tune_by_mode(const Model& model, const TuningProblem& problem,
         "a mode may settle much faster with its own gains, so gains are also searched for each "
         "mode, which takes one to three times as long as the first search");
   }
-  // If the gains for all modes have an observer, the gains of each mode need an observer, too.
-  // Otherwise, a mode would not reject constant disturbances.
+  // If the gains for all modes have an observer, the gains of each single mode need one as well:
+  // without it, this mode would not reject constant disturbances.
   TuneOptions of_modes = options;
   if (common.gains.observer.is_on() && !of_modes.observer) {
     of_modes.observer.emplace();

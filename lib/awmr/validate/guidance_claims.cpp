@@ -15,7 +15,8 @@ namespace awmr {
 namespace {
 
 /// Criterion of C9, that the distance d from the line tends to 0: largest |d| in the last quarter
-/// of the run, as a fraction of the width R of the guidance law.
+/// of the run, as a fraction of R, the distance from the line up to which the approach angle of the
+/// guidance law is proportional to d.
 constexpr double kOnTheLineShare = 0.01;
 /// Criterion of C10, that the modes avoid obstacles alike: the longest finishing time of a mode
 /// exceeds the shortest by at most this fraction.

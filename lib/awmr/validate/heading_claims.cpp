@@ -98,7 +98,8 @@ bool are_the_papers(const ModeGains& gains) {
 }
 
 /// Checks C6. The sideslip in differential mode depends on the yaw rate, and therefore on the
-/// gains. Claim::figure therefore also has the result with the paper's gains, if others are in use.
+/// gains. If the checked gains are not the paper's, Claim::figure therefore has the result with the
+/// paper's gains as well.
 Claim sideslip_smallest(const HeadingSetting& setting, const ModeRuns& runs) {
   const auto sideslip = [](const ModeRun& run) -> std::optional<double> {
     return run.metrics.sideslip_max_deg;

@@ -76,8 +76,8 @@ Key key_of(const ClaimCase& open) {
           open.mass_factor, static_cast<int>(open.split)};
 }
 
-/// Returns the number of combinations of the other settings in which the verdict depends on this
-/// setting, and the number of all combinations.
+/// Returns two numbers: in how many combinations of all settings except this one the verdict
+/// depends on this setting, and how many such combinations there are.
 std::pair<int, int> places_decided(const std::vector<ClaimCase>& cases, const Setting& setting) {
   // For each combination of the other settings, two flags: whether a case reproduces the claim, and
   // whether a case does not.

@@ -232,10 +232,11 @@ tl::expected<ShownFit, Finding> shown_tyres(const std::vector<DrivingLog>& logs,
   }
   if (lose_commands(logs, model.vehicle.sample_time_s) &&
       !add_error_of_lost_commands(logs, plant, motor_lag_s(model), plants, *shown)) {
-    return refuse(first, "tyres-not-converged",
-                  "the log lacks commands between its rows, and their effect on the tyres cannot "
-                  "be estimated: a fit with every other logged command does not converge. Log "
-                  "every command of the controller");
+    return refuse(
+        first, "tyres-not-converged",
+        "the log lacks commands between its rows, and their effect on the tyres cannot "
+        "be estimated: a fit that uses only every second logged command does not converge. Log "
+        "every command of the controller");
   }
   return *std::move(shown);
 }

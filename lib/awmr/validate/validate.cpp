@@ -101,9 +101,9 @@ void set_verdict(Validation& validation, double tolerance) {
 }
 
 /// Checks the claims that can be checked with this vehicle and model. C1 needs the parameters of
-/// straight motion, C14 needs none. All others compare the three modes and need every parameter,
-/// four driven wheels and steering. Errors (input): with gains, the model lacks a parameter; the
-/// errors of batch_arithmetic().
+/// straight motion, C14 needs none. All claims except these two compare the three modes and need
+/// every parameter, four driven wheels and steering. Errors (input): with gains, the model lacks a
+/// parameter; the errors of batch_arithmetic().
 Status add_claims(const Model& model, const std::optional<ModeGains>& gains,
                   const ValidateOptions& options, Validation& validation) {
   const auto whole = model.plant();

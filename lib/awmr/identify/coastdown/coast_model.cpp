@@ -134,11 +134,11 @@ bool is_slow(const CoastStart& at, const CoastData& data) {
   return at.lag_s > fall_time_s(data.curves, data.surge.law(), at.log_mass);
 }
 
-/// Another m' and filter that describe the curves nearly as well as the reported fit; empty if
-/// there are none. `plain` is the fit without a filter. `best` and `other` are the fits with a
-/// filter from two initial guesses; in these three fits, the surge law may vary. `fixed` is the
-/// reported fit: it started at `best`, with the surge law fixed. The first of these candidates that
-/// applies is returned:
+/// Returns another m' and another filter of the speed sensor that describe the curves nearly as
+/// well as those of the reported fit; empty if there are none. `plain` is the fit without a filter.
+/// `best` and `other` are the fits with a filter from two initial guesses; in these three fits, the
+/// surge law may vary. `fixed` is the reported fit: it started at `best`, with the surge law fixed.
+/// The first of these candidates that applies is returned:
 ///   - `other`, if its AICc is less than kClose above that of `best`, its m' differs, and tyres can
 ///     give its deceleration;
 ///   - `plain`, if the filter of `best` is slower than the motion and the residuals are correlated;

@@ -131,8 +131,9 @@ using LawCost = ceres::AutoDiffCostFunction<LawPrior, ceres::DYNAMIC, 1, 1, 1, 1
 /// Longest step h of the Runge-Kutta method. Its error over one time constant T of the motion is
 /// (h/T)^4/120 of the speed: 2e-8 for T = 0.05 s.
 constexpr double kLongestStep_s = 2e-3;
-/// Longest step h with a filter, relative to the time constant T of the motion. filtered() takes
-/// the speed as linear within a step, an error of (h/T)^2/8 = 1e-5 of the speed.
+/// Longest integration step h in a fit with a filter in the speed sensor, divided by the time
+/// constant T of the deceleration. filtered() takes the speed as linear within a step, an error of
+/// (h/T)^2/8 = 1e-5 of the speed.
 constexpr double kFilterStep = 0.01;
 /// Smallest time constant T of a filter in a search, s; T = 0 would be a division by 0.
 constexpr double kShortestLag_s = 1e-4;

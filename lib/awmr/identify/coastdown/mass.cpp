@@ -99,10 +99,12 @@ Finding lag_finding(const CoastModel& model, double value_s, double error_s,
                 ", or of {:.2g} s with mass_norm {:.3g}: the curves do not decide between "
                 "them, so the interval of mass_norm is withdrawn. ",
                 model.other->lag_s, std::exp(model.other->log_mass))
-          : "; the fit estimates this filter too, which makes the interval of mass_norm wider. ";
+          : ". The fit estimates the time constant of this filter together with mass_norm, which "
+            "makes the interval of mass_norm wider. ";
   return {file, 0, Severity::kWarning, "sensor-lag",
-          fmt::format("the speed of the coast-downs is low-pass filtered with a time constant of "
-                      "{:.3g} +- {:.2g} s{}Log the unfiltered speed, or make the filter faster",
+          fmt::format("the speed of the coast-downs was low-pass filtered before it was logged, "
+                      "with a time constant of {:.3g} +- {:.2g} s{}Log the unfiltered speed, or "
+                      "use a filter with a shorter time constant",
                       value_s, error_s, also)};
 }
 

@@ -157,8 +157,8 @@ bool are_times_between_rows(const std::vector<double>& times) {
 
 FirstFit first_fit(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                    const IdentifyOptions& options) {
-  // A third of the remaining work (Effort) is for the fit with unknown times. The rest is enough
-  // for the other fits if this one is rejected.
+  // The fit with unknown times may use a third of the remaining work (Effort). If this fit is
+  // rejected, the rest is enough for the fits that follow.
   constexpr std::int64_t kEffortShare = 3;
   LogFitOptions tests = power_law;
   tests.tests_changes = std::ranges::none_of(logs, [](const DrivingLog& log) {

@@ -103,9 +103,10 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
     findings.push_back(
         {file, 0, Severity::kWarning, "sensor-lag",
          fmt::format(
-             "{} is low-pass filtered with a time constant of {:.3f} +- {:.3f} s{}. The fit "
-             "estimates this filter too, which makes the intervals of the parameters wider: for "
-             "narrower intervals, log the unfiltered reading, or make the filter faster",
+             "{} was low-pass filtered before it was logged, with a time constant of {:.3f} "
+             "+- {:.3f} s{}. The fit estimates this time constant together with the parameters, "
+             "which makes their intervals wider: for narrower intervals, log the unfiltered "
+             "reading, or use a filter with a shorter time constant",
              info(quantity.channel).name, value_s, error_s,
              quantity.damping > 0.0
                  ? fmt::format(" (second order, damping {:.2g})", quantity.damping)
@@ -118,9 +119,9 @@ std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) 
         {file, 0, Severity::kWarning, "smoothed-channel",
          fmt::format(
              "{} is smoothed over times before and after each row, by a window with a standard "
-             "deviation of {:.3f} +- {:.3f} s. The fit estimates this smoothing too, which makes "
-             "the intervals of the parameters wider: for narrower intervals, log the reading "
-             "itself, without smoothing, interpolation or central differences",
+             "deviation of {:.3f} +- {:.3f} s. The fit estimates this window together with the "
+             "parameters, which makes their intervals wider: for narrower intervals, log the "
+             "reading itself, without smoothing, interpolation or central differences",
              info(quantity.channel).name, width_s, 0.5 * error_s2 / width_s)});
   }
   return findings;

@@ -119,8 +119,9 @@ bool is_turn_drag_of_any_rate(const NoiseIteration& fit) {
   return false;
 }
 
-/// Smallest significance of a candidate that is tried, divided by that of the strongest one. Weaker
-/// candidates wait, to save time: the search tests them again after it has added the best term.
+/// A candidate term is tried only if its significance is at least this fraction of that of the most
+/// significant candidate. Weaker candidates wait, to save time: the search tests them again after
+/// it has added the best term.
 constexpr double kComparable = 0.2;
 constexpr double kBeyondDoubt = 20.0;
 

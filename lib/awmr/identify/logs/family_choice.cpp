@@ -371,8 +371,9 @@ BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions&
   FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};
   BestFamily& result = comparison.result;
   for (const bool of_yaw : {yaw_first, !yaw_first, yaw_first}) {
-    // The errors of a wrong resistance of one axis can hide those of the other. After a change of
-    // one axis, is_contested() therefore decides again whether to compare the other.
+    // The errors of a wrong surge resistance can hide those of a wrong yaw resistance, and the
+    // reverse. After a change of one axis, is_contested() therefore decides again whether to
+    // compare the families of the second axis.
     if (comparison.winners.contains(of_yaw) || result.is_out_of_time) continue;
     if (!is_contested(power_law, result.best, contest, of_yaw)) continue;
     comparison.compare(of_yaw, other_families(comparison.families(), of_yaw));

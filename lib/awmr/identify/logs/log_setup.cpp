@@ -152,9 +152,9 @@ void free_parameters(LogFitOptions& fit, const std::vector<DrivingLog>& logs,
     if (!can_be_requested(parameter) || !wanted) continue;
     const std::string why = cannot_show(logs, parameter.id);
     if (!why.empty()) reasons[parameter.id] = why;
-    // In logs with turns, every other parameter that the logs cannot identify still affects the
-    // remaining ones. It stays free during the fit, so that the intervals of the others include its
-    // uncertainty, and is refused afterwards.
+    // In logs with turns, a parameter that the logs cannot identify still affects the values of the
+    // parameters that they can. It stays free during the fit, so that the intervals of those
+    // parameters include its uncertainty, and is refused afterwards.
     if (!why.empty() && (!turning || never_acts)) continue;
     fit.free.push_back(parameter.id);
     if (!known.value) fit.guessed.push_back(parameter.id);

@@ -157,8 +157,9 @@ std::vector<Finding> refused_terms(const LogFit& fit, const std::vector<std::str
   for (const std::string& name : requested) {
     if (std::ranges::find(found, name) != found.end()) continue;
     findings.push_back({file, 0, Severity::kError, "not-identifiable",
-                        fmt::format("{} cannot be identified: other terms describe these logs "
-                                    "better and replace it (/estimates of model.json lists them)",
+                        fmt::format("{} cannot be identified: the fit describes these logs better "
+                                    "by other terms, which replace it (/estimates of model.json "
+                                    "lists them)",
                                     name)});
   }
   return findings;
@@ -182,8 +183,9 @@ std::optional<Finding> disagreement(const LogFit& fit, std::size_t i, const Esti
   if (p >= kApart) return std::nullopt;
   return Finding{
       file, 0, Severity::kWarning, "estimates-disagree",
-      fmt::format("{} is {:.4g} by the logs and {:.4g} by the other trials ({}), {:.1f} standard "
-                  "deviations apart (p = {:.2g}); check the units and that all trials are of one "
+      fmt::format("{} is {:.4g} by the logs and {:.4g} by other trials ({}). The two values are "
+                  "{:.1f} standard deviations apart (p = {:.2g}); check the units and that all "
+                  "trials are of one "
                   "vehicle",
                   info(q.id).name, q.value(fit.coordinates[i]), *known.value, known.method, z, p)};
 }

@@ -11,7 +11,7 @@ namespace awmr {
 namespace {
 
 /// Raises a servo time constant below h/2 to h/2, the shortest that Runge-Kutta steps of h seconds
-/// resolve. Otherwise the integration would diverge when a search tries a time constant near 0.
+/// resolve. With a shorter time constant, which a search may try, the integration would diverge.
 /// Also removes the column of the time constant, which then has no effect.
 void slow_servo(double h, std::vector<ParameterColumn>& parameters, Plant<double>& plant) {
   if (!(plant.steering_time_constant_s < 0.5 * h)) return;

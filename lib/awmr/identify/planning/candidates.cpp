@@ -305,7 +305,7 @@ ScrubPlan scrub_plan(const Model& model) {
   if (plan.turns.size() < kTurns) {
     plan.about += fmt::format(
         "; the wheel forces suffice for only {} of {} yaw rates at a mean wheel force of "
-        "{:.3g}. Three turns are needed: repeat the possible turns, also at other speeds",
+        "{:.3g}. Three turns are needed: repeat the possible turns, at the same or another speed",
         plan.turns.size(), kTurns, straight);
   }
   return plan;

@@ -11,8 +11,8 @@
 namespace awmr {
 namespace {
 
-/// Minimum of the sum of squared residuals over the other coordinates, with the coordinate `held`
-/// fixed at `value`. The search starts at `initial_guess`. Infinite if the search fails.
+/// Minimum of the sum of squared residuals over all coordinates except `held`, which is fixed at
+/// `value`. The search starts at `initial_guess`. Infinite if the search fails.
 double profile_cost(const SteadyProblem& problem, const TransformedParameters& initial_guess,
                     TransformedParameter held, double value) {
   TransformedParameters from = initial_guess;
