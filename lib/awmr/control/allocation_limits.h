@@ -90,8 +90,9 @@ constexpr T steering_authority_full() {
 /// Limit of |q| at the surge force tau_speed, where q measures the steering (steering_geometry.h):
 ///   q_max sat(tau_speed/steering_authority_full(), [0, 1])
 /// Reason: as tau_speed falls to 0, the q that makes a given moment grows as 1/tau_speed, and at
-/// tau_speed <= 0 it is 0. If the limit were constant, the wheels would then jump from their stop
-/// to straight ahead. The reduced limit costs at most 1/256 of the steering moment at full thrust.
+/// tau_speed <= 0 it is 0. With a constant limit, the wheels would jump from their stop to straight
+/// ahead as tau_speed passes 0. The reduced limit makes the steering moment smaller by at most
+/// 1/256 of its value at full thrust.
 template <class T>
 AWMR_INLINE T steering_limit(const AllocationConstants<T>& c, const T& tau_speed) {
   using math::any;

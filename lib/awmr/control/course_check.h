@@ -10,8 +10,8 @@ namespace awmr {
 ///   off = max(0, off + int (|psi_d - psi| - e0) |u| dt)
 /// psi_d is the commanded heading, psi the heading, u the speed. The integral grows as long as the
 /// vehicle does not turn to psi_d, because the gyroscope has the wrong sign, a servo or motor
-/// failed or is reversed, or the target is inside the turning circle. A healthy turn by 180 deg
-/// with the radius R adds only
+/// failed or is reversed, or the target is inside the turning circle. A turn by 180 deg with the
+/// radius R, without a failure, adds only
 ///   R int_e0^pi (e - e0) de = R (pi - e0)^2/2
 class CourseCheck {
  public:

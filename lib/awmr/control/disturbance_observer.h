@@ -21,8 +21,8 @@ namespace awmr {
 /// has d_hat_dot = L (d - d_hat): a first-order low pass of d that needs no differentiation.
 template <class T>
 struct DisturbanceObserver {
-  /// Bandwidth L, rad/s, > 0, with L T_s < 1 for the sample time T_s. A larger L makes the estimate
-  /// follow the disturbance faster, and pass more measurement noise.
+  /// Bandwidth L, rad/s, > 0, with L T_s < 1 for the sample time T_s. The larger L, the faster the
+  /// estimate follows the disturbance, and the more measurement noise it contains.
   T bandwidth_radps;
   T limit;  ///< limit of |d_hat|, > 0, in the unit of tau
 };

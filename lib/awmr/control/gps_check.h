@@ -135,8 +135,8 @@ class GpsCheck {
 
   /// Updates lag_ms_, the latency of the last fix minus the smallest latency so far. From one fix
   /// to the next, the latency grows by the advance of the board's clock minus the advance of UTC.
-  /// The board's clock can be wrong by up to 0.5 %. So 1/64 of the time (1.6 %) is subtracted;
-  /// otherwise, a slow drift of the clock would look like latency.
+  /// The board's clock can be wrong by up to 0.5 %. So 1/64 of the time (1.6 %) is subtracted.
+  /// Without this, a slow drift of the board's clock would look like a growing latency.
   void note_lag(uint32_t wait_ms, uint32_t advance_ms) {
     lag_ms_ += static_cast<int32_t>(wait_ms - advance_ms) - static_cast<int32_t>(advance_ms / 64U);
     if (lag_ms_ < 0) lag_ms_ = 0;

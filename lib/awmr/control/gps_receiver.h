@@ -9,9 +9,9 @@
 ///   5. Compare this displacement with the measured speed.
 ///   6. Compare this displacement with the heading.
 ///   7. Compare the heading with the commanded heading.
-/// If the next fix arrives before step 2 is done, the current fix is dropped. If it arrives later,
-/// the remaining steps for the current fix are done at once. With a long sample time (spreads_work
-/// false), one step of the control loop does all of this work.
+/// If the next fix arrives before step 2 of the current fix is done, the current fix is dropped. If
+/// it arrives after step 2, the remaining steps of the current fix are done at once. With a long
+/// sample time (spreads_work false), one step of the control loop does all of this work.
 #pragma once
 
 #include "awmr/control/gps_check.h"

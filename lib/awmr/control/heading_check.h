@@ -71,8 +71,9 @@ class StepCheck {
 
 /// Compares the yaw rate with the commanded yaw moment. Detects swapped left and right motors, a
 /// reversed servo, and a gyroscope with the wrong sign. A fault: the vehicle turns by 90 deg
-/// against the moment while its yaw rate stays above three quarters of its maximum. (If the yaw
-/// rate falls, the moment brakes an earlier turn, which is no fault.)
+/// against the commanded moment, while its yaw rate stays above three quarters of the largest yaw
+/// rate of this turn. (If the yaw rate falls, the moment brakes an earlier turn, which is no
+/// fault.)
 class TurnCheck {
  public:
   /// Sets the scale. `rate_per_word`: rad/s per count of the gyroscope. `dt_s`: time between two

@@ -44,9 +44,9 @@ struct MotionLimits {
   /// kWindow_m.
   static constexpr float kMoving_s = kWindow_m / kStandstill_mps;
   /// Maximum integral of the measured speed while the position does not change, m. If motion is
-  /// commanded, a speed of at most kStandstill_mps counts as kStill_mps, m/s. Otherwise, a receiver
-  /// that froze while the vehicle was at rest would never be detected; so it is detected within 10
-  /// s.
+  /// commanded, a speed of at most kStandstill_mps counts as kStill_mps, m/s. By this rule, a
+  /// receiver whose readings stopped changing while the vehicle was at rest is detected within 10
+  /// s; without it, it would never be detected.
   static constexpr float kSame_m = 1.5F;
   static constexpr float kStill_mps = 0.15F;
   /// Maximum displacement against the commanded direction, m: more than the drift of the fixes

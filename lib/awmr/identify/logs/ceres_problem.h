@@ -19,9 +19,9 @@ struct Solved {
 
 /// Minimises the cost by Levenberg-Marquardt steps within the bounds, starting at `from`. Each step
 /// eliminates the initial states of the windows from its linear system. The search converges when a
-/// step changes the cost by less than `function_tolerance` (relative), or when further steps would
-/// not help (EndWithoutProgress in ceres_problem.cpp). It ends without convergence after 60 steps,
-/// at the limit of work (Effort) or at the deadline.
+/// step changes the cost by less than the fraction `function_tolerance` of the cost, or when
+/// further steps would not help (EndWithoutProgress in ceres_problem.cpp). It ends without
+/// convergence after 60 steps, at the limit of work (Effort) or at the deadline.
 Solved solve(const LogProblem& problem, SearchPoint from, double function_tolerance);
 
 }  // namespace awmr

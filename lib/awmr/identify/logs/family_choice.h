@@ -37,7 +37,8 @@ std::vector<EstimatorReport> reports_of(const std::vector<FamilyFit>& fits,
 
 /// Estimated number of fits of best_family(): one for each family of an axis that it compares. The
 /// actual number can be larger, because families with a similar AIC are fitted again, and a change
-/// of one axis can add the families of the other axis. It is smaller at the limit of work or time.
+/// of the surge family can add fits of the yaw families (and the reverse). The actual number is
+/// smaller if the fits reach the limit of work or time.
 std::size_t contender_count(const LogFitOptions& power_law, const FamilyFit& first,
                             const FamilyContest& contest);
 

@@ -21,7 +21,7 @@ struct FamilyFit {
 bool is_over(const LogFitOptions& options);
 
 /// Returns the options of a fit with a single start, the optimum of `fit`. The new fit has the
-/// delays and command errors of `fit`, and does not search for others.
+/// delays and command errors of `fit`, and does not search for further ones.
 LogFitOptions from_optimum(LogFitOptions options, const FamilyFit& fit);
 
 /// Resets each term in `values` that the next fit does not estimate (not in `free`) to its value in
@@ -66,7 +66,7 @@ FamilyFit fit_stribeck(const std::vector<DrivingLog>& logs, const LogFitOptions&
 FamilyFit searched_again(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                          FamilyFit first, const FamilyFit& alternative);
 
-/// Names the surge family, and also the yaw family unless it is the power law. Examples:
+/// Names the surge family and, if it is not the power law, the yaw family. Examples:
 /// "coulomb-linear", "power, yaw coulomb-linear".
 std::string families_in_words(Family surge, Family yaw);
 

@@ -33,9 +33,9 @@ struct OpenAxes {
 /// The best change is kept if it lowers LogFit::relative_error by more than 2 % (back-EMF: by a
 /// third). There are at most eight rounds.
 ///
-/// E is the amount by which the relative error exceeds 1, its value for sensor noise alone. Returns
-/// the last rough fit if its E is less than 0.7 times that of the families of `first`. Otherwise
-/// returns the rough fit of the families of `first`.
+/// E is the amount by which LogFit::relative_error exceeds 1, its value for sensor noise alone.
+/// Returns the last rough fit if its E is less than 0.7 times the E of the rough fit with the
+/// families of `first`. If it is not, returns the rough fit with the families of `first`.
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open);
 

@@ -12,7 +12,8 @@ namespace awmr {
 
 /// Terms that the fit does not contain yet and that the logs can show:
 ///   - a delay of the commands and of every measured channel (one for x and y together). At least
-///     one of these signals keeps the delay 0: it is the time reference of the others;
+///     one of these signals keeps the delay 0, because the delays of all signals are relative to
+///     it;
 ///   - symmetric smoothing of the channels that are often filtered, unless a filter or smoothing is
 ///     already estimated;
 ///   - an additional delay of the steering, if the servo's time constant is free;

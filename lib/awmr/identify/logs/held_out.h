@@ -20,7 +20,7 @@ struct LogPart {
 /// Result of predict().
 struct HeldOut {
   std::string rows;      ///< name of the tested rows, for example "the last fifth of log.csv"
-  double p_value = 1.0;  ///< p value of the hypothesis that the fit describes these rows too
+  double p_value = 1.0;  ///< p value of the hypothesis that the fit describes these rows
   std::string quantity;  ///< the quantity that changes most, in standard errors
   double by_fit = 0.0;   ///< value of that quantity in the fit
   double by_rows = 0.0;  ///< value of that quantity estimated from the tested rows
@@ -35,8 +35,9 @@ struct HeldOut {
 /// H and S are the information and the score of the tested rows: curvature and gradient of -ln L
 /// with respect to the coordinates, at the fit's coordinates, after elimination of the initial
 /// states and biases. C is the covariance of the fit. f is the largest factor by which the scatter
-/// between parts of the logs raised a standard error of the fit. The test compares only directions
-/// that the rows determine (identifiability.h), and fixes quantities at an end of their range.
+/// between parts of the logs raised a standard error of the fit. The test compares only those
+/// directions (combinations of coordinates) that the rows determine (identifiability.h). It keeps a
+/// quantity fixed if its value in the fit is an end of its range.
 ///
 /// The noise levels are those of the fit. (Noise levels estimated from the tested rows would absorb
 /// a change of the vehicle as sensor drift.) Returns empty if the rows determine no direction or if

@@ -50,8 +50,9 @@ struct Identifiability {
 ///     D_ii^2 = max(1, V_ii / C_ii)
 ///
 /// The parts are blocks of some seconds. With three or more logs, whole logs are a second kind of
-/// parts, because a model error can differ between logs. They count only if their scatter exceeds
-/// the prediction significantly (5 %). The larger D_ii then applies.
+/// parts, because a model error can differ between logs. Whole logs count only if their scatter
+/// exceeds the prediction significantly (5 %). Of the D_ii from blocks and from whole logs, the
+/// larger one then applies.
 ///
 /// A quantity gets no value for one of two reasons:
 ///   - Its standard error exceeds kUnknown large changes (half of that for the sway resistance).
@@ -61,9 +62,10 @@ Identifiability identifiability(const Eigen::MatrixXd& information, const Scores
                                 const std::vector<FreeQuantity>& quantities);
 
 /// Refuses every quantity (gives it no value) whose search ended at an end of its range, and every
-/// quantity whose correlation with such a quantity exceeds 0.3 in magnitude. Also refuses what has
-/// no meaning without a refused term of the resistance: alpha without the Coulomb friction c, the
-/// quadratic coefficient q or the dead zone, and the exponent beta without alpha.
+/// quantity whose correlation with such a quantity exceeds 0.3 in magnitude. If a term of a
+/// resistance is refused, also refuses the parameters that have no meaning without it: alpha, if
+/// the Coulomb friction c, the quadratic coefficient q or the dead zone is refused; the exponent
+/// beta, if alpha is refused.
 Identifiability without_stopped(Identifiability found, const LogProblem& problem,
                                 const std::vector<double>& coordinates);
 

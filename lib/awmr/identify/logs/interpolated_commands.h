@@ -1,5 +1,5 @@
-/// Logs with fewer rows than commands that the vehicle received, so that the commands change
-/// smoothly between the rows. Private to identify/.
+/// Logs of vehicles that received several commands in the time between two rows. The commands of
+/// such a log seem to change smoothly between the rows. Private to identify/.
 #pragma once
 
 #include <string>

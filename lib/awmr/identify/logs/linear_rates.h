@@ -26,8 +26,8 @@ struct ResistanceSlopes {
 };
 
 /// Resistance law with derivatives. Below the law's rest_speed, a straight line from 0 to the value
-/// at rest_speed replaces the law. Without it, integration steps would be unstable near rest, where
-/// the law is too steep.
+/// at rest_speed replaces the law. Without this line, integration steps would be unstable near
+/// rest, where the law is too steep.
 class LinearResistance {
  public:
   explicit LinearResistance(const Resistance<double>& law);

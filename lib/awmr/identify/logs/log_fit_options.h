@@ -34,8 +34,8 @@ class Effort {
   std::atomic<std::int64_t> spent_ = 0;
 };
 
-/// The best fit so far. The fit of another model stops early (LogFit::gave_up) if its quick
-/// searches end with much larger errors (is_far_worse() in multistart.h).
+/// The best fit so far. The fit of a further model stops early (LogFit::gave_up) if its quick
+/// searches end with much larger errors than those of this fit (is_far_worse() in multistart.h).
 struct BestSoFar {
   double relative_error;  ///< LogFit::relative_error, in quick searches
   bool has_large_drift;   ///< LogFit::has_large_drift()

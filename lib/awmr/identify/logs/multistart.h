@@ -25,17 +25,19 @@ struct Multistart {
 /// True if a complete fit of a model would waste time, because its quick searches ended with a much
 /// larger error than those of the best fit so far. `search` must be usable. One of these conditions
 /// suffices:
-///   - -2 ln L is higher by more than 100, with a noise level for which the best model is right.
+///   - -2 ln L is higher by more than 100. It is computed with noise levels at which the best fit
+///     so far has no model error.
 ///   - The errors of the best fit have a large drift, so that it gets no intervals, and this model
-///     does not reduce the mean square error by 30 %. AIC cannot decide between two wrong models.
+///     does not reduce the mean square error of the best fit by 30 %. (In this case both models are
+///     wrong, and AIC cannot decide between two wrong models.)
 bool is_far_worse(const Multistart& search, const BestSoFar& best);
 
 /// Returns a smaller problem for quick searches: up to twelve parts of 2.5 s, spread over all logs,
 /// with longer integration steps.
 LogProblem rough_problem(const LogProblem& problem);
 
-/// A quick search ends when a step changes the cost by less than this (relative). It only has to
-/// find a starting point.
+/// A quick search ends when a step changes the cost by less than this fraction of the cost. It only
+/// has to find a starting point.
 inline constexpr double kRough = 1e-4;
 
 /// Finds initial guesses for the fit. If other trials gave the whole initial guess and `also_from`

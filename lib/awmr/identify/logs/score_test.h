@@ -32,8 +32,8 @@ struct ScoreTest {
 std::vector<ScoreTest> score_test(const LogProblem& problem, const SearchPoint& point,
                                   const std::vector<FreeQuantity>& candidates);
 
-/// Replaces the drift of every channel by white noise of the same variance, so that slow errors
-/// count against the model.
+/// Replaces the drift of every channel by white noise of the same variance. Slow errors then
+/// increase the cost, in place of being explained as drift.
 LogProblem with_white_noise(LogProblem problem);
 
 /// A problem with additional free quantities, and a point with the coordinates of all of them.

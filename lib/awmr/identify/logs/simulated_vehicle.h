@@ -68,7 +68,8 @@ SimulatedVehicle vehicle_at(const LogModel& model, const FitWindow& window,
                             const double* coordinates, const double* initial_state);
 
 /// Initial motion of a window. The derivative of each free component of the state with respect to
-/// itself is 1, and so is that of the steering angle with respect to the trim. The others are 0.
+/// itself is 1, and so is the derivative of the steering angle with respect to the trim. All other
+/// derivatives are 0.
 LinearMotion first_motion(const LogModel& model, const SimulatedVehicle& vehicle,
                           std::size_t columns);
 

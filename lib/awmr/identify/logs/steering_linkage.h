@@ -1,8 +1,9 @@
 /// Errors of the steering linkage in a log fit (FreeQuantity::is_of_linkage()): the limit of the
 /// angle at the stop, and the unknown scale of the angles. Private to identify/.
 ///
-/// A vehicle file gives one steering stop d_max, but does not say what it limits. L(c) is the angle
-/// to which the linkage steers at the command c. The wheels point to
+/// A vehicle file gives one steering stop d_max, but does not say whether this stop limits the
+/// angle of the wheels or the command. L(c) is the angle to which the linkage steers at the command
+/// c. The wheels point to
 ///
 ///     sat(L(c), d_max)     if the stop limits the angle: a mechanical stop at the wheels
 ///     L(sat(c, d_max))     if the stop limits the command: the servo or the program clips it

@@ -53,8 +53,9 @@ class LowestAic {
 bool has_motor_lag(const LogModel& model);
 
 /// Replaces all low-pass filters of the sensors by one motor lag. Reason: the search adds filters
-/// one by one, although one motor lag has the same effect in nearly linear motion. Empty if AIC is
-/// not lower, if there are fewer than two filters, or if the model already has a motor lag.
+/// one by one, although one motor lag has the same effect as all of them in nearly linear motion.
+/// Empty if the motor lag does not lower AIC, if there are fewer than two filters, or if the model
+/// already has a motor lag.
 std::optional<NoiseIteration> with_motor_lag_for_filters(const NoiseIteration& settled, Loss loss);
 
 /// Adds a motor lag to a fit with a positive delay of the commands. Empty if there is no such

@@ -15,8 +15,8 @@
 
 namespace awmr {
 
-/// Length of a window, s. Shorter windows need more initial states; in longer ones, a disturbance
-/// affects more rows.
+/// Length of a window, s. With shorter windows, the fit has more initial states to estimate; with
+/// longer windows, a disturbance affects more rows.
 inline constexpr double kWindow_s = 10.0;
 
 /// Position of one measured value in a log.

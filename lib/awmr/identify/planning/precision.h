@@ -13,8 +13,8 @@ namespace awmr {
 struct Precision {
   ParameterId id{};
   /// Half width of the 95 % interval, >= 0, divided by the value. For an exponent or a term of a
-  /// resistance family, which may be 0: not divided, so in the parameter's unit. Absent if the
-  /// parameter was given or has no interval.
+  /// resistance family, whose values may be 0, the half width is not divided, so it is in the unit
+  /// of the parameter. Absent if the parameter was given or has no interval.
   std::optional<double> half_width;
 };
 

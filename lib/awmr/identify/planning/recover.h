@@ -37,7 +37,7 @@ struct RecoverOptions {
   /// The estimator under test.
   IdentifyOptions identify;
   /// Quantity that gets the simulated error. Absent: the quantity that has the error according to
-  /// the estimator. Another quantity shows the effect of a wrong assumption.
+  /// the estimator under test. Give another quantity to see the effect of a wrong assumption.
   std::optional<ErrorModel> error;
   /// Sensor noise of curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors;

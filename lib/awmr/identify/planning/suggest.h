@@ -24,8 +24,9 @@ struct SuggestTarget {
 struct SuggestOptions {
   /// Target of the ranking: the name of a parameter or of one of `metrics`. Empty: all parameters
   /// (A-optimality), that is, the root of the sum of their squared relative standard errors. In
-  /// this sum the error of an exponent is absolute. The error of a family's term is relative to the
-  /// resistance with all its terms at 1 m/s or 1 rad/s.
+  /// this sum, the error of an exponent is not divided by the exponent. The error of a further term
+  /// of the resistance (Coulomb, quadratic, dead zone) is divided by the whole resistance at 1 m/s
+  /// or 1 rad/s.
   std::string parameter = {};
   /// Sensor noise of future curves and logs. Use the robot's own values if they are known.
   SensorNoise sensors = {};
@@ -61,15 +62,16 @@ struct ScrubTurn {
   double yaw_rate_degps = 0.0;  ///< yaw rate to reach, > 0
   /// Wheel forces F' (over F_max) for this yaw rate: `least` for the smallest possible scrub
   /// moment, `most` for the largest. If the scrub was measured, these moments are the ends of its
-  /// 95 % interval. Otherwise the smallest moment is the largest one at which the vehicle did not
-  /// turn (0 if none is known), and the largest is that of sliding tyres (friction 0.8). If the
-  /// wheel forces do not suffice for the largest moment, `most` has the limits of the wheel force.
+  /// 95 % interval. If it was not measured, the smallest moment is the largest yaw moment at which
+  /// the vehicle did not turn (0 if none is known), and the largest moment is that of sliding tyres
+  /// (friction 0.8). If the wheel forces do not suffice for the largest moment, `most` has the
+  /// limits of the wheel force.
   SideForces<double> least, most;
 };
 
 /// A turn with the motors off, which decides between the 3-DOF model and the four-wheel tyre model.
-/// In the 3-DOF model, steered wheels turn the vehicle only by the thrust of the motors. Rolling
-/// tyres turn it also with the motors off.
+/// In the 3-DOF model, steered wheels turn the vehicle only by the thrust of the motors. A vehicle
+/// on real, rolling tyres turns with the motors off as well.
 struct CoastingTurn {
   double speed_mps = 0.0;     ///< speed at which the motors are switched off, > 0
   double steering_deg = 0.0;  ///< steering angle set at that time, > 0: to the left

@@ -18,8 +18,8 @@ struct Influence {
 
 /// Fits the curve without each run in turn: by log-linear least squares if `log_linear`, else by
 /// the method of `problem`, starting at the optimum `fit` of all runs. If there are more than
-/// kExactRows rows, one Gauss-Newton step from `fit` replaces each of these fits, because they
-/// would take too long. The step is exact for log-linear fits, and not available with a robust
+/// kExactRows rows, one Gauss-Newton step from `fit` replaces each fit without a run, because these
+/// fits would take too long. The step is exact for log-linear fits, and not available with a robust
 /// loss: the result is then empty. Precondition: at least two degrees of freedom, so that one
 /// remains without a run.
 Influence leave_one_out(const Subject& subject, const SteadyProblem& problem, bool log_linear,

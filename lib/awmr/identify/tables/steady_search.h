@@ -23,10 +23,10 @@ class SteadySearch {
   SteadySearch(const SteadySearch&) = delete;
   SteadySearch& operator=(const SteadySearch&) = delete;
 
-  /// Minimises until no coordinate changes. Fixes a coordinate that stays at a bound while it fits
-  /// the others: if a step crosses a bound, Ceres shortens the step in all coordinates, and
-  /// convergence becomes slow. Frees the coordinate again if the cost then decreases when it moves
-  /// away from the bound.
+  /// Minimises until no coordinate changes. If a coordinate stays at a bound, fixes it there while
+  /// it fits all other coordinates. Reason: if a step crosses a bound, Ceres shortens the step in
+  /// all coordinates, and convergence becomes slow. Frees the coordinate again if the cost then
+  /// decreases when it moves away from the bound.
   void solve();
   /// Repeats solve() until the coordinates converge. Each round recomputes the scale of the robust
   /// loss from the residuals.
