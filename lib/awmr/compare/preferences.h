@@ -15,9 +15,10 @@ namespace awmr {
 
 /// Largest weight that a user can give. Weights only have an effect relative to each other.
 inline constexpr double kMaximumWeight = 1000.0;
-/// Permitted range of Preferences::relevance. A smaller margin would make all scores nearly equal,
-/// because the offset floor/relevance is added to each metric (scoring.h). At 0.001, the offset is
-/// already above most values of the metrics. If it were 0, rounding errors could decide a rank.
+/// Permitted range of Preferences::relevance. With a margin below this range, all scores would be
+/// nearly equal, because the offset floor/relevance is added to each metric (scoring.h). At a
+/// margin of 0.001, the offset is already above most values of the metrics. At a margin of 0,
+/// rounding errors could decide a rank.
 inline constexpr NumberRule kRelevance{.min = 0.001, .max = 1.0};
 
 struct Preferences {

@@ -25,10 +25,10 @@ AWMR_CALLED T fastest_fed_forward(const T& u_mps, const T& u_d_mps, const T& eps
 ///   w = u                     else
 /// u_d: desired speed; m': normalised mass; mu_s, eps_s: gains; e_u = u_d - u: speed error.
 ///
-/// Why the second and third lines: a vehicle that rolls down a slope faster than u_d would
-/// otherwise get tau_speed = g1(u) - m' mu_s. Where g1(u) > m' mu_s, this force accelerates the
-/// vehicle further. `wanted`: correction m' mu_s e_u/eps_s before saturation; `limit`: its largest
-/// magnitude, m' mu_s. `epsilon()` returns eps_s.
+/// Why the second and third lines: without them, a vehicle that rolls down a slope faster than u_d
+/// would get tau_speed = g1(u) - m' mu_s. At speeds with g1(u) > m' mu_s, this force accelerates
+/// the vehicle further. `wanted`: correction m' mu_s e_u/eps_s before saturation; `limit`: its
+/// largest magnitude, m' mu_s. `epsilon()` returns eps_s.
 template <class T, class Epsilon>
 AWMR_INLINE T fed_forward_speed(const T& u_mps, const Reference<T>& ref, const T& error_mps,
                                 const T& wanted, const T& limit, const Epsilon& epsilon) {

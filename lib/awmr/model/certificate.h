@@ -23,8 +23,8 @@ struct CertifiedMode {
   double delay_margin_s = 0.0;
 };
 
-/// The worst cases in `/certificate` of gains.json. The parameters at which they occur are also in
-/// the file, but are not read.
+/// The worst cases in `/certificate` of gains.json. The file also has the parameters at which they
+/// occur; these are not read.
 struct CertifiedGains {
   std::string set;         ///< kCertifiedSet or kUncertifiedSet
   double latency_s = 0.0;  ///< s: delay of the loop that all worst cases include

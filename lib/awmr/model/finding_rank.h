@@ -25,8 +25,9 @@ enum class Effect {
 Effect effect_of(const Finding& finding);
 
 /// Returns the findings in display order: the errors, then the first finding of each other code,
-/// then the further findings of these codes, then the notes. Findings with a code are sorted by
-/// effect, otherwise their order is kept. `findings` must outlive the result.
+/// then the further findings of these codes, then the notes. Within each of these groups, findings
+/// are sorted by the effect of their code; findings with the same effect keep their order.
+/// `findings` must outlive the result.
 std::vector<const Finding*> by_effect(const std::vector<Finding>& findings);
 
 }  // namespace awmr

@@ -8,9 +8,9 @@
 
 namespace awmr {
 
-/// Factor beyond the fitted speeds (or yaw rates) from which a resistance law counts as
-/// extrapolated far: above the largest fitted speed times this, or below the smallest divided by
-/// this. Chosen: a larger factor warns later.
+/// A resistance law counts as extrapolated far above the largest fitted speed (or yaw rate) times
+/// this factor, and below the smallest one divided by it. The factor is a choice: with a larger
+/// one, warnings come later.
 inline constexpr double kLittleFurther = 1.2;
 
 /// The model parameters that are the coefficients of a resistance law:

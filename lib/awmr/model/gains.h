@@ -10,15 +10,16 @@ namespace awmr {
 /// heading).
 template <class T>
 struct HeadingGains {
-  /// lambda, 1/s, > 0: slope of the sliding surface S = 0. A larger lambda makes the heading error
-  /// fall faster.
+  /// lambda, 1/s, > 0: slope of the sliding surface S = 0. The larger lambda, the faster the
+  /// heading error falls.
   T lambda;
   /// mu, rad/s^2, > 0: largest corrective yaw acceleration. It must exceed the yaw acceleration of
   /// a disturbance, |d|/I'z (d: disturbing yaw moment, I'z: yaw inertia, both divided by F_max);
   /// with a smaller mu, the disturbance drives S out of the boundary layer.
   T mu;
   /// epsilon, rad/s, > 0: half width of the boundary layer |S| <= epsilon, in which the correction
-  /// is proportional to S. A larger epsilon gives less chattering and a softer response.
+  /// is proportional to S. The larger epsilon, the less the commands chatter, and the slower the
+  /// heading responds to small errors.
   T epsilon;
   /// w0, rad/s, >= 0.02: friction width in steering mode. Below this yaw rate, the controller feeds
   /// forward the yaw resistance as a smooth curve, because g3 itself jumps at rest
@@ -51,8 +52,9 @@ struct SpeedGains {
 /// was tuned with the gains.
 template <class T>
 struct ObserverGains {
-  /// L, rad/s, >= 0: bandwidth; 0: no observer. L T_s < 1 with the controller's sample time T_s. A
-  /// larger L compensates disturbances sooner, and lets more measurement noise reach the commands.
+  /// L, rad/s, >= 0: bandwidth; 0: no observer. L T_s < 1 with the controller's sample time T_s.
+  /// The larger L, the sooner disturbances are compensated, and the more measurement noise reaches
+  /// the commands.
   T bandwidth_radps = T(0.0);
   T yaw_max_m = T(0.0);  ///< m, > 0: largest moment divided by F_max that is compensated
   T surge_max = T(0.0);  ///< dimensionless, > 0: largest force divided by F_max that is compensated

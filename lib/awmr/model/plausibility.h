@@ -31,8 +31,9 @@ inline constexpr double kSlowestServo_s = 2.0;
 /// Ratio of the identified I'z/m' (yaw inertia to mass) to Iz/m of the vehicle data; 1 if both
 /// agree. Precondition: mass_norm > 0.
 double inertia_over_vehicle(const Vehicle& vehicle, double inertia_norm, double mass_norm);
-/// Range of this ratio for the 95 % intervals of I'z and m'. If I'z or m' has no interval: half to
-/// twice the ratio of the values. Precondition: both estimates have a value.
+/// Range of the ratio above that follows from the 95 % intervals of I'z and m'. If I'z or m' has no
+/// interval: from half of the ratio of the values to twice this ratio. Precondition: both estimates
+/// have a value.
 Interval inertia_over_vehicle(const Vehicle& vehicle, const Estimate& inertia,
                               const Estimate& mass);
 

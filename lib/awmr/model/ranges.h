@@ -22,7 +22,8 @@ inline constexpr NumberRule kLatency_s{.min = 0.0, .max = 1.0};
 /// Correlation time of a sensor's noise; 0: independent readings.
 inline constexpr NumberRule kCorrelation_s{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kStallPower_w{.min = 0.0, .max = 1e6, .min_excluded = true};
-/// At the maximum, a motor under full voltage has no force left at 1/k_e = 1 mm/s.
+/// Range of the back-EMF k_e. With the largest k_e, 1000 s/m, a motor under full voltage has no
+/// force left at a speed of 1/k_e = 1 mm/s.
 inline constexpr NumberRule kBackEmf_s_per_m{.min = 0.0, .max = 1e3};
 inline constexpr NumberRule kFastestTurn_degps{.min = 1e-3, .max = 1e6};
 /// Coefficients of resistance, mass m' and yaw inertia I'z, each in its own unit.
@@ -39,7 +40,8 @@ inline constexpr NumberRule kCorneringStiffnessRule_per_rad{.min = 0.1, .max = 1
 inline constexpr NumberRule kGain{.min = 1e-9, .max = 1e9};
 inline constexpr NumberRule kFrictionWidth_radps{.min = feed_forward_rest_speed<double>(),
                                                  .max = 1e3};
-/// Bandwidth of an observer, rad/s. check_observer_rate() also requires less than 1/sample_time_s.
+/// Bandwidth of a disturbance observer, rad/s. check_observer_rate() has a second limit:
+/// 1/sample_time_s.
 inline constexpr NumberRule kObserverBandwidth{.min = 1e-6, .max = 1e4};
 inline constexpr NumberRule kObserverLimit{.min = 1e-9, .max = 1e6};
 

@@ -70,8 +70,9 @@ struct EstimatorParameter {
   std::optional<double> std_error;  ///< > 0; absent if there are too few data
   std::optional<Interval> ci95;     ///< 95 % interval from the curvature of the cost at its minimum
   /// 95 % interval from the profile likelihood: the cost as a function of this parameter, minimised
-  /// over the other parameters. It can be asymmetric. Where the data do not limit the parameter,
-  /// the end of the interval is the parameter's bound.
+  /// over the other parameters. The interval can be asymmetric about the value. If the data do not
+  /// limit the parameter on one side, the end of the interval on this side is the bound of the
+  /// parameter's range.
   std::optional<Interval> profile95 = {};
 };
 

@@ -101,7 +101,7 @@ AWMR_COLD State<T> advance_by_halves(Body body, State<T> from, T h, Step step, M
 }
 
 /// Makes one step of h seconds if fastest_rate() times h is at most kMaxRateTimesStep at both ends
-/// of the step. Otherwise makes two steps of half the length. The result is undefined in lanes
+/// of the step. If it is not, makes two steps of half the length. The result is undefined in lanes
 /// outside of `requested`.
 template <class Body, class T, class Step>
 State<T> advance(const Body& body, const State<T>& from, const T& h, const Step& step,

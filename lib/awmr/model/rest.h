@@ -19,8 +19,8 @@ Resistance<double> value_of(const Resistance<T>& law) {
 }
 
 /// The plant with the chords of g1 and g3 (Resistance::rest_speed) that Runge-Kutta steps of step_s
-/// seconds need; see rest_speed(). The speeds of the chords have no derivatives, because they
-/// depend on the steps and not on the motion.
+/// seconds need; see rest_speed(). The speeds below which the chords apply have no derivatives,
+/// because they depend on the length of the steps, not on the motion.
 template <class T>
 Plant<T> resolved_at_rest(Plant<T> plant, double step_s) {
   plant.surge.rest_speed = T(rest_speed(value_of(plant.surge), value_of(plant.mass_norm), step_s));

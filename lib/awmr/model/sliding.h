@@ -7,11 +7,12 @@
 ///   u_dot = (X - s c - (g1(u) - c sgn u))/m' + r v
 /// If the speed u passes 0 in an integration step, the step is cut at the time at which u is 0.
 /// Then friction holds the vehicle (u_dot = 0) as long as the driving force |X + m' r v| is at most
-/// c. Yaw is treated in the same way. A chord (rest.h) instead of the jump would let a vehicle
-/// creep that friction should hold.
+/// c. Yaw is treated in the same way. If a chord (rest.h) replaced the jump, a vehicle that
+/// friction should hold at rest would creep.
 ///
-/// Tyre scrub is a friction in yaw, too. Its moment depends on the state and on the wheel forces
-/// (scrub_moment_m()), so the friction is computed in each state (FrictionWithScrub).
+/// Tyre scrub acts as a friction in yaw, in addition to the Coulomb friction of g3. Its moment
+/// depends on the state and on the wheel forces (scrub_moment_m()), so the sum of both is computed
+/// in each state (FrictionWithScrub).
 #pragma once
 
 #include "awmr/model/rest.h"

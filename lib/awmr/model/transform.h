@@ -4,7 +4,8 @@
 ///   linear:       coordinate = value        d value / d coordinate = 1
 ///   logarithmic:  coordinate = ln value     d value / d coordinate = value
 /// Positive quantities have the logarithmic coordinate. The linear coordinate is for exponents,
-/// which have a fixed range, and for optional terms, which can be exactly zero.
+/// which have a fixed range, and for optional terms, which can be exactly zero, so that they have
+/// no logarithm.
 #pragma once
 
 #include <cmath>

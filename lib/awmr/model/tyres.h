@@ -26,8 +26,8 @@ struct Tyres {
   T cornering_per_rad = T(kCorneringStiffness_per_rad);
   /// Rest speed v_0, m/s, > 0, without which the slip of a wheel at rest would be undefined. A
   /// wheel that rolls more slowly is treated as rolling at about this speed. Its tyre then resists
-  /// like a viscous fluid, so a vehicle that is pushed sideways at rest creeps; the larger v_0, the
-  /// faster.
+  /// like a viscous fluid, so a vehicle that is pushed sideways at rest creeps. The larger v_0, the
+  /// faster it creeps.
   T rest_speed_mps = T(kTyreRestSpeed_mps);
 };
 

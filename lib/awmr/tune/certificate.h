@@ -21,8 +21,8 @@ namespace awmr {
 ///     constant T. Plants with a negative exponent or resistance term are left out. In standard
 ///     normal coordinates n, the ellipsoid is |n| <= r, where r^2 is the 0.95 quantile of the
 ///     chi-squared distribution with PlantSampler::rank() degrees of freedom;
-///   - all yaw rates in examined_rates_radps(), and up to the highest yaw rate in the `runs` of the
-///     mode, which can be higher;
+///   - all yaw rates in examined_rates_radps() and, if the `runs` of the mode turn faster than
+///     these rates, the yaw rates up to the highest one of the runs;
 ///   - the mass factors of `open`.
 /// If the model has no covariance, only the identified plant is examined. The heading law always
 /// uses the identified plant, `context.plant`.
@@ -30,8 +30,9 @@ namespace awmr {
 /// Each minimum is found by search: first the centre, the axes and the corners at five yaw rates
 /// and 500 random points; then a pattern search from the best point of each orthant of the
 /// ellipsoid. This is not a proof. In a test with nine vehicles, none of 20,000 random points
-/// (5,000 for the delay margin) is worse by more than kCertificateTolerance
-/// (tests/tune/certificate_test.cpp). Errors (input): those of PlantSampler::make().
+/// (5,000 for the delay margin) has a damping ratio or delay margin that is worse than the minimum
+/// found by more than kCertificateTolerance (tests/tune/certificate_test.cpp). Errors (input):
+/// those of PlantSampler::make().
 Result<Certificate> certify(const Model& model, const ConstraintContext& context,
                             const UnmodelledVariation& open, const Gains<double>& gains,
                             std::span<const ModeScore> runs = {});

@@ -50,9 +50,9 @@ struct ConstraintContext {
   double heading_noise_rad = radians(1.0);  ///< standard deviation of the heading noise, >= 0
   /// Standard deviation of the yaw-rate noise, >= 0.
   double yaw_rate_noise_radps = radians(0.5);
-  /// Correlation of the heading noise between two readings that are T_s apart, [0, 1).
+  /// Correlation of the heading noise of two readings that are one sample time T_s apart, [0, 1).
   double heading_correlation = 0.0;
-  /// Correlation of the yaw-rate noise between two readings that are T_s apart, [0, 1).
+  /// Correlation of the yaw-rate noise of two readings that are one sample time T_s apart, [0, 1).
   double yaw_rate_correlation = 0.0;
   /// Latency of the readings of heading and yaw rate, s, >= 0.
   double latency_s = 0.0;

@@ -4,10 +4,10 @@
 ///
 /// The excess of a run is e = max_i x_i/l_i: the largest ratio of a metric x_i to its limit l_i. It
 /// is infinite if the run breaks off or a metric is not finite. The excess of a draw is the largest
-/// over its scenarios. In the search, a goal with the required share p is met in a mode if the p
-/// quantile of e over all draws is at most 1. The p quantile of n draws is the ceil(p n)-th
-/// smallest value: with few draws, the largest. After the search, the verdict (GoalVerdict) follows
-/// from the 95 % interval of the share of new draws that meet the goal.
+/// over its scenarios. In the search, a goal that requires the share p of the draws is met in a
+/// mode if the p quantile of e over all draws is at most 1. The p quantile of n draws is the ceil(p
+/// n)-th smallest value: with few draws, the largest. After the search, the verdict (GoalVerdict)
+/// follows from the 95 % interval of the share of new draws that meet the goal.
 #pragma once
 
 #include <array>

@@ -10,7 +10,8 @@
 
 namespace awmr {
 
-/// First step and smallest step of local searches, in ln(gain): 20 % and 0.1 %.
+/// First step and smallest step of local searches, in ln(gain): a change of each gain by 20 % and
+/// by 0.1 %.
 inline constexpr double kFirstStep = 0.2;
 inline constexpr double kLastStep = 1e-3;
 

@@ -10,8 +10,8 @@
 
 namespace awmr {
 
-/// Note in messages that propose changes. The smallest sufficient change is not searched, because
-/// each tried change takes up to some seconds.
+/// Note in messages that propose changes of limits. `tune` does not search the smallest change that
+/// suffices, because each change that it tries takes up to some seconds.
 inline constexpr const char* kSmallerMaySuffice = "smaller changes may also suffice";
 
 /// Advice for a constraint that no gains meet: the limit to relax or, if tune.json has no such
