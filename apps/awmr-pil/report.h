@@ -72,7 +72,8 @@ struct Report {
   /// Effect of float arithmetic: difference between the host's runs in float with powf and in
   /// double.
   std::optional<Difference> by_float32;
-  /// Effect of the tables: difference between the host's float runs with tables and with powf.
+  /// Effect of the tables: difference between two runs of the host in float, one with tables and
+  /// one with powf.
   std::optional<Difference> by_table;
   std::optional<Injected> injected;
   std::vector<Check> checks;

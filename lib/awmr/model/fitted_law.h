@@ -8,9 +8,9 @@
 
 namespace awmr {
 
-/// A resistance law counts as extrapolated far above the largest fitted speed (or yaw rate) times
-/// this factor, and below the smallest one divided by it. The factor is a choice: with a larger
-/// one, warnings come later.
+/// At speeds (or yaw rates) above the largest fitted one times this factor, or below the smallest
+/// one divided by it, a resistance law counts as far extrapolated. The factor is a choice: with a
+/// larger one, warnings come later.
 inline constexpr double kLittleFurther = 1.2;
 
 /// The model parameters that are the coefficients of a resistance law:

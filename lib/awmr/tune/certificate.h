@@ -37,8 +37,8 @@ Result<Certificate> certify(const Model& model, const ConstraintContext& context
                             const UnmodelledVariation& open, const Gains<double>& gains,
                             std::span<const ModeScore> runs = {});
 
-/// Accepted error of the minima that the search finds: absolute for a damping ratio, relative for a
-/// delay margin.
+/// Accepted error of the minima that the search finds: of a damping ratio itself, and of a delay
+/// margin as a fraction of the margin.
 inline constexpr double kCertificateTolerance = 2e-3;
 
 /// 95 % confidence set of the plant parameters on which the heading loop depends.

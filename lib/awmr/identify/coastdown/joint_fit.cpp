@@ -14,8 +14,9 @@ namespace awmr {
 namespace {
 
 constexpr int kMaximumRounds = 200;
-/// Convergence threshold: largest element of the last step in standard errors, and largest relative
-/// change of the two noise variances.
+/// The fit has converged when two numbers are below this: the largest change of a parameter in the
+/// last step, divided by its standard error; and the largest relative change of the two noise
+/// variances.
 constexpr double kTolerance = 1e-8;
 
 struct BySet {

@@ -54,7 +54,8 @@ std::string why_no_back_emf(const std::vector<DrivingLog>& logs) {
 }
 
 LogFitOptions with_back_emf(LogFitOptions options) {
-  // Initial guess: back-EMF drag of all driven wheels over the resistance, both at 1 m/s.
+  // Initial guess of k_e: at 1 m/s, the back-EMF drag of all driven wheels is this fraction of the
+  // surge resistance.
   constexpr double kShare = 0.1;
   double& guess = options.initial_guess[at(ParameterId::kBackEmf)];
   if (!(guess > 0.0)) {

@@ -28,7 +28,7 @@ void free_term(LogFitOptions& options, ParameterId id, double guess) {
 }
 
 LogFitOptions with_families(LogFitOptions options, Family surge_family, Family yaw_family) {
-  // Initial guess of Coulomb friction over the resistance at 1 m/s or 1 rad/s.
+  // Initial guess of the Coulomb friction, as a fraction of the resistance at 1 m/s or 1 rad/s.
   constexpr double kCoulombShare = 0.1;
   const FamilyTerms surge = terms_of(surge_family);
   const FamilyTerms yaw = terms_of(yaw_family);

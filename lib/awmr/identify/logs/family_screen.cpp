@@ -69,8 +69,9 @@ std::vector<Neighbour> neighbours_of(const FamilyFit& fit, const OpenAxes& open,
 FamilyFit likely_families(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                           const FamilyFit& first, const OpenAxes& open) {
   constexpr double kClearlyLess = 0.98;
-  // Back-EMF counts only if it reduces the relative error to less than this share. A smaller
-  // decrease may come from another model error, for which back-EMF can partly compensate.
+  // Back-EMF counts only if it reduces LogFit::relative_error to less than this fraction of its
+  // value without back-EMF. A smaller decrease may come from another model error, for which
+  // back-EMF can partly compensate.
   constexpr double kMuchLess = 0.67;
   constexpr double kExplained = 0.7;
   constexpr int kMostChanges = 8;

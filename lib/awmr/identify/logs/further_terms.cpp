@@ -168,7 +168,7 @@ void add_steering(const LogProblem& problem, std::vector<FreeQuantity>& found) {
 }
 
 /// Initial guess of a term. A term that cannot be negative begins above 0, so that the search can
-/// move in both directions.
+/// increase and decrease it.
 double begin_of(const FreeQuantity& quantity) {
   constexpr double kShare = 0.2;
   return quantity.may_be_zero() ? kShare * quantity.large_change : 0.0;

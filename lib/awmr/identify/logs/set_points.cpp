@@ -16,7 +16,7 @@ using Signal = std::vector<double>;
 /// Returns the unit to which the values of the signal were rounded: the smallest difference of two
 /// different values. Infinite if the signal is constant.
 double resolution_of(Signal signal) {
-  // Relative to the range: smaller differences are rounding errors.
+  // Differences below this fraction of the range of the signal are rounding errors.
   constexpr double kRounding = 1e-9;
   std::ranges::sort(signal);
   const double least = kRounding * (signal.back() - signal.front());
