@@ -85,152 +85,126 @@ std::vector<Finding> actuator_findings(const LogFit& fit, const std::string& fil
                        least.value, most.value, kWhy)}};
 }
 
-std::vector<Finding> delay_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const auto& [quantity, value_s, error_s] :
-       found_terms(fit, FreeQuantity::Kind::kSensorDelay)) {
-    const LogChannel channel = quantity.channel;
-    findings.push_back(
-        {file, 0, Severity::kWarning, "sensor-delay",
-         fmt::format("{} {} delayed by {:.3f} +- {:.3f} s relative to the commands. The fit "
-                     "compensates for this delay; set latency_s in the vehicle file, so that the "
-                     "gains are tuned for the delay",
-                     channel == LogChannel::kX ? "the position" : info(channel).name,
-                     channel == LogChannel::kX ? "comes" : "is read", value_s, error_s)});
-  }
-  for (const auto& [quantity, value_s, error_s] :
-       found_terms(fit, FreeQuantity::Kind::kSensorLag)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "sensor-lag",
-         fmt::format(
-             "{} was low-pass filtered before it was logged, with a time constant of {:.3f} "
-             "+- {:.3f} s{}. The fit estimates this time constant together with the parameters, "
-             "which makes their intervals wider: for narrower intervals, log the unfiltered "
-             "reading, or use a filter with a shorter time constant",
-             info(quantity.channel).name, value_s, error_s,
-             quantity.damping > 0.0
-                 ? fmt::format(" (second order, damping {:.2g})", quantity.damping)
-                 : "")});
-  }
-  for (const auto& [quantity, variance_s2, error_s2] :
-       found_terms(fit, FreeQuantity::Kind::kSmoothing)) {
-    const double width_s = std::sqrt(variance_s2);
-    findings.push_back(
-        {file, 0, Severity::kWarning, "smoothed-channel",
-         fmt::format(
-             "{} is smoothed over times before and after each row, by a window with a standard "
-             "deviation of {:.3f} +- {:.3f} s. The fit estimates this window together with the "
-             "parameters, which makes their intervals wider: for narrower intervals, log the "
-             "reading itself, without smoothing, interpolation or central differences",
-             info(quantity.channel).name, width_s, 0.5 * error_s2 / width_s)});
-  }
-  return findings;
+std::string sensor_delay_text(const FoundTerm& delay, const LogFit&) {
+  const bool is_position = delay.quantity.channel == LogChannel::kX;
+  return fmt::format(
+      "{} {} delayed by {:.3f} +- {:.3f} s relative to the commands. The fit compensates for this "
+      "delay; set latency_s in the vehicle file, so that the gains are tuned for the delay",
+      is_position ? "the position" : info(delay.quantity.channel).name,
+      is_position ? "comes" : "is read", delay.value, delay.error);
 }
 
-std::vector<Finding> scale_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const auto& [quantity, scale, error] : found_terms(fit, FreeQuantity::Kind::kSensorScale)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "sensor-scale",
-         fmt::format(
-             "{} reads {:.2f} +- {:.2f} % too {}, as {} show. The fit compensates for this; "
-             "calibrate the sensor, or map its column divided by {:.4f}",
-             info(quantity.channel).name, 100.0 * std::abs(scale), 100.0 * error,
-             scale > 0.0 ? "much" : "little",
-             quantity.channel == LogChannel::kSpeed ? "the positions" : "heading or positions",
-             1.0 + scale)});
-  }
-  return findings;
+std::string sensor_lag_text(const FoundTerm& lag, const LogFit&) {
+  return fmt::format(
+      "{} was low-pass filtered before it was logged, with a time constant of {:.3f} "
+      "+- {:.3f} s{}. The fit estimates this time constant together with the parameters, "
+      "which makes their intervals wider: for narrower intervals, log the unfiltered "
+      "reading, or use a filter with a shorter time constant",
+      info(lag.quantity.channel).name, lag.value, lag.error,
+      lag.quantity.damping > 0.0
+          ? fmt::format(" (second order, damping {:.2g})", lag.quantity.damping)
+          : "");
 }
 
-std::vector<Finding> slip_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const auto& [quantity, slip, error] : found_terms(fit, FreeQuantity::Kind::kWheelSlip)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "wheel-slip",
-         fmt::format(
-             "the wheels that measure {} slip: at the largest force a wheel rolls faster than it "
-             "moves over ground by {}, at smaller forces in proportion less. The fit compensates "
-             "for this; measure without driven wheels (optical flow, GNSS, a gyroscope, a free "
-             "wheel)",
-             info(quantity.channel).name,
-             quantity.is_ratio ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip, 100.0 * error)
-                               : fmt::format("{:.3f} +- {:.3f} m/s", slip, error))});
-  }
-  return findings;
+std::string smoothing_text(const FoundTerm& variance_s2, const LogFit&) {
+  const double width_s = std::sqrt(variance_s2.value);
+  return fmt::format(
+      "{} is smoothed over times before and after each row, by a window with a standard "
+      "deviation of {:.3f} +- {:.3f} s. The fit estimates this window together with the "
+      "parameters, which makes their intervals wider: for narrower intervals, log the "
+      "reading itself, without smoothing, interpolation or central differences",
+      info(variance_s2.quantity.channel).name, width_s, 0.5 * variance_s2.error / width_s);
 }
 
-std::vector<Finding> sway_sensor_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayOffset)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "sway-sensor",
-         fmt::format("sway_mps is the sideways speed of a point {:.3f} +- {:.3f} m {} the centre "
-                     "of gravity. The fit compensates for this; mount the sensor at the centre "
-                     "of gravity, or subtract its distance ahead times the yaw rate",
-                     std::abs(one.value), one.error, one.value > 0.0 ? "ahead of" : "behind")});
-  }
-  for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSwayAngle)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "sway-sensor",
-         fmt::format("the sensor of sway_mps is turned by {:.2f} +- {:.2f} deg to the {}, so "
-                     "that it shows a part of the forward speed. The fit compensates for this; "
-                     "align the sensor with the vehicle",
-                     degrees(std::abs(one.value)), degrees(one.error),
-                     one.value > 0.0 ? "left" : "right")});
-  }
-  return findings;
+std::string sensor_scale_text(const FoundTerm& scale, const LogFit&) {
+  return fmt::format(
+      "{} reads {:.2f} +- {:.2f} % too {}, as {} show. The fit compensates for this; "
+      "calibrate the sensor, or map its column divided by {:.4f}",
+      info(scale.quantity.channel).name, 100.0 * std::abs(scale.value), 100.0 * scale.error,
+      scale.value > 0.0 ? "much" : "little",
+      scale.quantity.channel == LogChannel::kSpeed ? "the positions" : "heading or positions",
+      1.0 + scale.value);
 }
 
-/// Finding `speed-sensor`, if the sensor of the speed is not on the vehicle's centre line.
-std::vector<Finding> speed_sensor_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const FoundTerm& one : found_terms(fit, FreeQuantity::Kind::kSpeedOffset)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "speed-sensor",
-         fmt::format(
-             "speed_mps is the forward speed of a point {:.3f} +- {:.3f} m to the {} of the "
-             "centre line; at half of the track width, it is the speed of one wheel. The "
-             "fit compensates for this; map the mean of a left and a right wheel ({})",
-             std::abs(one.value), one.error, one.value > 0.0 ? "left" : "right",
-             option_text("column speed_mps=\"(LEFT+RIGHT)/2\""))});
-  }
-  return findings;
+std::string slip_text(const FoundTerm& slip, const LogFit&) {
+  return fmt::format(
+      "the wheels that measure {} slip: at the largest force a wheel rolls faster than it "
+      "moves over ground by {}, at smaller forces in proportion less. The fit compensates "
+      "for this; measure without driven wheels (optical flow, GNSS, a gyroscope, a free "
+      "wheel)",
+      info(slip.quantity.channel).name,
+      slip.quantity.is_ratio
+          ? fmt::format("{:.1f} +- {:.1f} %", 100.0 * slip.value, 100.0 * slip.error)
+          : fmt::format("{:.3f} +- {:.3f} m/s", slip.value, slip.error));
 }
 
-std::vector<Finding> steering_delay_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const FoundTerm& latency : found_terms(fit, FreeQuantity::Kind::kSteeringDelay)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "steering-delay",
-         latency.value > 0.0
-             ? fmt::format("the steering begins to move {:.3f} +- {:.3f} s after its command, in "
-                           "addition to the servo's time constant. The fit compensates for this; "
-                           "shorten the servo's frame or bus cycle, or add the delay to "
-                           "latency_s of the sensors in the vehicle file",
-                           latency.value, latency.error)
-             : fmt::format("the steering moves {:.3f} +- {:.3f} s before its command relative to "
-                           "the forces: the time stamps of the steering command are late. The "
-                           "fit compensates for this; log each command when it is sent",
-                           -latency.value, latency.error)});
-  }
-  return findings;
+std::string sway_offset_text(const FoundTerm& one, const LogFit&) {
+  return fmt::format(
+      "sway_mps is the sideways speed of a point {:.3f} +- {:.3f} m {} the centre "
+      "of gravity. The fit compensates for this; mount the sensor at the centre "
+      "of gravity, or subtract its distance ahead times the yaw rate",
+      std::abs(one.value), one.error, one.value > 0.0 ? "ahead of" : "behind");
 }
 
-std::vector<Finding> servo_rate_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const FoundTerm& rate : found_terms(fit, FreeQuantity::Kind::kServoRate)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "servo-rate",
-         fmt::format("the steering rate is limited to {:.1f} +- {:.1f} deg/s; the fit uses this "
-                     "limit in place of that of the vehicle file. Set steering.max_rate_degps in "
-                     "the vehicle file to this value",
-                     degrees(rate.value), degrees(rate.error))});
-  }
-  return findings;
+std::string sway_angle_text(const FoundTerm& one, const LogFit&) {
+  return fmt::format(
+      "the sensor of sway_mps is turned by {:.2f} +- {:.2f} deg to the {}, so that it shows a part "
+      "of the forward speed. The fit compensates for this; align the sensor with the vehicle",
+      degrees(std::abs(one.value)), degrees(one.error), one.value > 0.0 ? "left" : "right");
 }
 
-std::string curve_text(const LogFit& fit, const FoundTerm& curve) {
+std::string speed_offset_text(const FoundTerm& one, const LogFit&) {
+  return fmt::format(
+      "speed_mps is the forward speed of a point {:.3f} +- {:.3f} m to the {} of the "
+      "centre line; at half of the track width, it is the speed of one wheel. The "
+      "fit compensates for this; map the mean of a left and a right wheel ({})",
+      std::abs(one.value), one.error, one.value > 0.0 ? "left" : "right",
+      option_text("column speed_mps=\"(LEFT+RIGHT)/2\""));
+}
+
+std::string steering_delay_text(const FoundTerm& latency, const LogFit&) {
+  return latency.value > 0.0
+             ? fmt::format(
+                   "the steering begins to move {:.3f} +- {:.3f} s after its command, in "
+                   "addition to the servo's time constant. The fit compensates for this; "
+                   "shorten the servo's frame or bus cycle, or add the delay to "
+                   "latency_s of the sensors in the vehicle file",
+                   latency.value, latency.error)
+             : fmt::format(
+                   "the steering moves {:.3f} +- {:.3f} s before its command relative to "
+                   "the forces: the time stamps of the steering command are late. The "
+                   "fit compensates for this; log each command when it is sent",
+                   -latency.value, latency.error);
+}
+
+std::string servo_rate_text(const FoundTerm& rate, const LogFit&) {
+  return fmt::format(
+      "the steering rate is limited to {:.1f} +- {:.1f} deg/s; the fit uses this "
+      "limit in place of that of the vehicle file. Set steering.max_rate_degps in "
+      "the vehicle file to this value",
+      degrees(rate.value), degrees(rate.error));
+}
+
+std::string dead_band_text(const FoundTerm& band, const LogFit&) {
+  return fmt::format(
+      "steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and larger "
+      "commands move them by this angle less. The fit compensates for this, but simulations "
+      "and tuned gains ignore it; reduce the play of the linkage. Or increase the magnitude of "
+      "every command by {:.2f} deg before it is sent, and log the commands without this "
+      "increase",
+      degrees(band.value), degrees(band.error), degrees(band.value));
+}
+
+std::string asymmetry_text(const FoundTerm& asymmetry, const LogFit&) {
+  return fmt::format(
+      "at equal commands the wheels steer {:.1f} +- {:.1f} % further to the {} than the mean "
+      "of both sides. The fit compensates for this, but simulations and tuned gains ignore it; "
+      "adjust the linkage",
+      100.0 * std::abs(asymmetry.value), 100.0 * asymmetry.error,
+      asymmetry.value > 0.0 ? "left" : "right");
+}
+
+std::string curve_text(const FoundTerm& curve, const LogFit& fit) {
   return fmt::format(
       "the steering linkage is curved: at the stop the wheels steer {:.1f} +- {:.1f} % {} than "
       "in proportion to small commands. The fit compensates for this, but simulations and tuned "
@@ -242,42 +216,25 @@ std::string curve_text(const LogFit& fit, const FoundTerm& curve) {
                           : "");
 }
 
-std::vector<Finding> linkage_findings(const LogFit& fit, const std::string& file) {
-  using Kind = FreeQuantity::Kind;
-  std::vector<Finding> findings;
-  const auto add = [&](Kind kind, const char* code, const auto& text) {
-    for (const FoundTerm& term : found_terms(fit, kind)) {
-      findings.push_back({file, 0, Severity::kWarning, code, text(term)});
-    }
-  };
-  add(Kind::kSteeringDeadBand, "steering-dead-band", [](const FoundTerm& band) {
-    return fmt::format(
-        "steering commands below {:.2f} +- {:.2f} deg do not move the wheels, and larger "
-        "commands move them by this angle less. The fit compensates for this, but simulations "
-        "and tuned gains ignore it; reduce the play of the linkage. Or increase the magnitude of "
-        "every command by {:.2f} deg before it is sent, and log the commands without this "
-        "increase",
-        degrees(band.value), degrees(band.error), degrees(band.value));
-  });
-  add(Kind::kSteeringAsymmetry, "steering-asymmetry", [](const FoundTerm& asymmetry) {
-    return fmt::format(
-        "at equal commands the wheels steer {:.1f} +- {:.1f} % further to the {} than the mean "
-        "of both sides. The fit compensates for this, but simulations and tuned gains ignore it; "
-        "adjust the linkage",
-        100.0 * std::abs(asymmetry.value), 100.0 * asymmetry.error,
-        asymmetry.value > 0.0 ? "left" : "right");
-  });
-  add(Kind::kSteeringCurve, "steering-curve",
-      [&](const FoundTerm& curve) { return curve_text(fit, curve); });
-  add(Kind::kSteeringScale, "steering-scale", [](const FoundTerm& scale) {
-    return fmt::format(
-        "the wheels steer to {:.3f} +- {:.3f} times the logged commands, in addition to the "
-        "curve or asymmetry of the linkage. The fit compensates for this, but simulations and "
-        "tuned gains ignore it; map steering_cmd_deg to the angle of the wheels, or log the "
-        "measured angle as steering_deg",
-        1.0 + scale.value, scale.error);
-  });
-  return findings;
+std::string steering_scale_text(const FoundTerm& scale, const LogFit&) {
+  return fmt::format(
+      "the wheels steer to {:.3f} +- {:.3f} times the logged commands, in addition to the "
+      "curve or asymmetry of the linkage. The fit compensates for this, but simulations and "
+      "tuned gains ignore it; map steering_cmd_deg to the angle of the wheels, or log the "
+      "measured angle as steering_deg",
+      1.0 + scale.value, scale.error);
+}
+
+std::string trim_text(const FoundTerm& trim, const LogFit& fit) {
+  return fmt::format(
+      "the vehicle turns as if the front wheels pointed {:.2f} +- {:.2f} deg to "
+      "the {} at a steering angle of 0; the fit compensates for this. Centre the "
+      "linkage or the servo{}",
+      degrees(std::abs(trim.value)), degrees(trim.error), trim.value > 0.0 ? "left" : "right",
+      has_kind(fit.quantities, FreeQuantity::Kind::kForceImbalance)
+          ? ""
+          : ". If the left and right commands are always equal, motors that are "
+            "stronger on one side have the same effect");
 }
 
 /// Largest difference of left and right forces of real motors, relative to their mean.
@@ -296,35 +253,14 @@ std::string imbalance_advice(double imbalance, bool has_trim) {
                      has_trim ? "" : "; wheels of unequal size have the same effect");
 }
 
-/// Findings `steering-trim` and `force-imbalance`. If the commands of the logs cannot separate
-/// these two constant errors, the fit contains only one of them.
-std::vector<Finding> constant_error_findings(const LogFit& fit, const std::string& file) {
-  std::vector<Finding> findings;
-  for (const FoundTerm& trim : found_terms(fit, FreeQuantity::Kind::kSteeringTrim)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "steering-trim",
-         fmt::format("the vehicle turns as if the front wheels pointed {:.2f} +- {:.2f} deg to "
-                     "the {} at a steering angle of 0; the fit compensates for this. Centre the "
-                     "linkage or the servo{}",
-                     degrees(std::abs(trim.value)), degrees(trim.error),
-                     trim.value > 0.0 ? "left" : "right",
-                     has_kind(fit.quantities, FreeQuantity::Kind::kForceImbalance)
-                         ? ""
-                         : ". If the left and right commands are always equal, motors that are "
-                           "stronger on one side have the same effect")});
-  }
-  for (const FoundTerm& imbalance : found_terms(fit, FreeQuantity::Kind::kForceImbalance)) {
-    findings.push_back(
-        {file, 0, Severity::kWarning, "force-imbalance",
-         fmt::format(
-             "at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of both "
-             "sides{}",
-             imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
-             100.0 * imbalance.error,
-             imbalance_advice(imbalance.value,
-                              has_kind(fit.quantities, FreeQuantity::Kind::kSteeringTrim)))});
-  }
-  return findings;
+std::string imbalance_text(const FoundTerm& imbalance, const LogFit& fit) {
+  return fmt::format(
+      "at equal commands the {} wheels push {:.1f} +- {:.1f} % more than the mean of both "
+      "sides{}",
+      imbalance.value > 0.0 ? "right" : "left", 100.0 * std::abs(imbalance.value),
+      100.0 * imbalance.error,
+      imbalance_advice(imbalance.value,
+                       has_kind(fit.quantities, FreeQuantity::Kind::kSteeringTrim)));
 }
 
 /// Largest loss of force, as a share of the force without saturation, at which the messages call
@@ -340,43 +276,67 @@ double sharpness_of(const LogFit& fit) {
   return kDefaultSharpness;
 }
 
-std::vector<Finding> saturation_findings(const LogFit& fit, const std::string& file) {
-  constexpr std::string_view kWithoutIntervals =
-      " (the values get no intervals and parts of the logs are not compared, because the true form "
-      "of the saturation is unknown)";
-  const std::string_view withdrawn = saturates_much(fit) ? kWithoutIntervals : "";
-  std::vector<Finding> findings;
-  for (const FoundTerm& exponent : found_terms(fit, FreeQuantity::Kind::kForceExponent)) {
-    const double p = exponent.quantity.value(exponent.value);
-    findings.push_back(
-        {file, 0, Severity::kWarning, "force-saturation",
-         fmt::format(
-             "the wheel force is proportional to the command to the power of {:.3f} +- {:.3f}: "
-             "large commands give less force than in proportion. The fit compensates for this{}, "
-             "but simulations and tuned gains assume proportional forces. As the force, record "
-             "the command raised to the power of {:.2f}, with its sign",
-             p, p * exponent.error, withdrawn, p)});
-  }
-  const double n = sharpness_of(fit);
-  for (const auto& [quantity, loss, error] :
-       found_terms(fit, FreeQuantity::Kind::kForceSaturation)) {
-    const double full = quantity.full_command;
-    const double s = std::pow(1.0 - loss, -n) - 1.0;
-    const double linear = full * std::pow((std::pow(1.0 - kLinear, -n) - 1.0) / s, 1.0 / n);
-    findings.push_back(
-        {file, 0, Severity::kWarning, "force-saturation",
-         fmt::format(
-             "at the largest command of the logs, {:.3g}, the wheels push {:.1f} +- {:.1f} % "
-             "less than in proportion to small commands: tyres slip, or the current or voltage "
-             "of the motors is limited. The fit compensates for this{}, but simulations and "
-             "tuned gains assume proportional forces, which is right within {:.0f} % for "
-             "commands up to {:.2g}. Limit wheel_force in the vehicle file to this command, and "
-             "record logs below it",
-             full, 100.0 * loss, 100.0 * error, withdrawn, 100.0 * kLinear,
-             std::min(linear, full))});
-  }
-  return findings;
+/// Part of a message about a nonlinear force: says that intervals are withdrawn, if they are.
+std::string_view without_intervals(const LogFit& fit) {
+  return saturates_much(fit)
+             ? " (the values get no intervals and parts of the logs are not compared, because the "
+               "true form of the saturation is unknown)"
+             : "";
 }
+
+std::string exponent_text(const FoundTerm& exponent, const LogFit& fit) {
+  const double p = exponent.quantity.value(exponent.value);
+  return fmt::format(
+      "the wheel force is proportional to the command to the power of {:.3f} +- {:.3f}: "
+      "large commands give less force than in proportion. The fit compensates for this{}, "
+      "but simulations and tuned gains assume proportional forces. As the force, record "
+      "the command raised to the power of {:.2f}, with its sign",
+      p, p * exponent.error, without_intervals(fit), p);
+}
+
+std::string saturation_text(const FoundTerm& loss, const LogFit& fit) {
+  const double n = sharpness_of(fit);
+  const double full = loss.quantity.full_command;
+  const double s = std::pow(1.0 - loss.value, -n) - 1.0;
+  const double linear = full * std::pow((std::pow(1.0 - kLinear, -n) - 1.0) / s, 1.0 / n);
+  return fmt::format(
+      "at the largest command of the logs, {:.3g}, the wheels push {:.1f} +- {:.1f} % "
+      "less than in proportion to small commands: tyres slip, or the current or voltage "
+      "of the motors is limited. The fit compensates for this{}, but simulations and "
+      "tuned gains assume proportional forces, which is right within {:.0f} % for "
+      "commands up to {:.2g}. Limit wheel_force in the vehicle file to this command, and "
+      "record logs below it",
+      full, 100.0 * loss.value, 100.0 * loss.error, without_intervals(fit), 100.0 * kLinear,
+      std::min(linear, full));
+}
+
+/// Finding about the terms of one kind.
+struct TermFinding {
+  FreeQuantity::Kind kind;
+  const char* code;
+  std::string (*text)(const FoundTerm&, const LogFit&);
+};
+
+/// In the order of the findings in model.json. Delay and lag of all commands: actuator_findings().
+constexpr TermFinding kTermFindings[] = {
+    {FreeQuantity::Kind::kSensorDelay, "sensor-delay", sensor_delay_text},
+    {FreeQuantity::Kind::kSensorLag, "sensor-lag", sensor_lag_text},
+    {FreeQuantity::Kind::kSmoothing, "smoothed-channel", smoothing_text},
+    {FreeQuantity::Kind::kSensorScale, "sensor-scale", sensor_scale_text},
+    {FreeQuantity::Kind::kWheelSlip, "wheel-slip", slip_text},
+    {FreeQuantity::Kind::kSwayOffset, "sway-sensor", sway_offset_text},
+    {FreeQuantity::Kind::kSwayAngle, "sway-sensor", sway_angle_text},
+    {FreeQuantity::Kind::kSpeedOffset, "speed-sensor", speed_offset_text},
+    {FreeQuantity::Kind::kSteeringDelay, "steering-delay", steering_delay_text},
+    {FreeQuantity::Kind::kServoRate, "servo-rate", servo_rate_text},
+    {FreeQuantity::Kind::kSteeringDeadBand, "steering-dead-band", dead_band_text},
+    {FreeQuantity::Kind::kSteeringAsymmetry, "steering-asymmetry", asymmetry_text},
+    {FreeQuantity::Kind::kSteeringCurve, "steering-curve", curve_text},
+    {FreeQuantity::Kind::kSteeringScale, "steering-scale", steering_scale_text},
+    {FreeQuantity::Kind::kSteeringTrim, "steering-trim", trim_text},
+    {FreeQuantity::Kind::kForceImbalance, "force-imbalance", imbalance_text},
+    {FreeQuantity::Kind::kForceExponent, "force-saturation", exponent_text},
+    {FreeQuantity::Kind::kForceSaturation, "force-saturation", saturation_text}};
 
 }  // namespace
 
@@ -398,13 +358,13 @@ bool saturates_much(const LogFit& fit) {
 
 std::vector<Finding> command_and_sensor_findings(const LogFit& fit, bool withdrawn,
                                                  const std::string& file) {
-  std::vector<Finding> findings = delay_findings(fit, file);
-  for (const auto& more :
-       {scale_findings(fit, file), slip_findings(fit, file), sway_sensor_findings(fit, file),
-        speed_sensor_findings(fit, file), steering_delay_findings(fit, file),
-        servo_rate_findings(fit, file), linkage_findings(fit, file),
-        constant_error_findings(fit, file), saturation_findings(fit, file),
-        actuator_findings(fit, file), force_findings(fit, file)}) {
+  std::vector<Finding> findings;
+  for (const TermFinding& one : kTermFindings) {
+    for (const FoundTerm& term : found_terms(fit, one.kind)) {
+      findings.push_back({file, 0, Severity::kWarning, one.code, one.text(term, fit)});
+    }
+  }
+  for (const auto& more : {actuator_findings(fit, file), force_findings(fit, file)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   if (!withdrawn) return findings;
