@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "awmr/core/distributions.h"
-#include "awmr/core/index.h"
 #include "awmr/core/option_text.h"
 
 namespace awmr {

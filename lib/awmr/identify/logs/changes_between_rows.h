@@ -2,7 +2,6 @@
 /// identify/.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "awmr/identify/logs/family_fit.h"

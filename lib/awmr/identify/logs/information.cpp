@@ -1,9 +1,7 @@
 #include "awmr/identify/logs/information.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "awmr/core/index.h"
 #include "awmr/core/linear_algebra.h"
 
 namespace awmr {

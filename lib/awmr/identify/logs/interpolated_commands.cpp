@@ -1,7 +1,6 @@
 #include "awmr/identify/logs/interpolated_commands.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "awmr/identify/logs/family_score.h"

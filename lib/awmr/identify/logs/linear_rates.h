@@ -5,7 +5,6 @@
 /// coded by hand, because automatic differentiation takes ten times as long. A test compares both.
 #pragma once
 
-#include <algorithm>
 #include <array>
 
 #include "awmr/identify/logs/extra_forces.h"

@@ -40,27 +40,6 @@ constexpr RateOfParameter kActs[] = {
 constexpr double DrivenSlopes::*kDriven[kDrivenSize] = {&DrivenSlopes::u, &DrivenSlopes::v,
                                                         &DrivenSlopes::r, &DrivenSlopes::steering};
 
-/// Row of a component of the state in LinearMotion::by_column.
-std::size_t place_of(LogChannel channel) {
-  switch (channel) {
-    case LogChannel::kX:
-      return 0;
-    case LogChannel::kY:
-      return 1;
-    case LogChannel::kHeading:
-      return 2;
-    case LogChannel::kSpeed:
-      return 3;
-    case LogChannel::kSway:
-      return 4;
-    case LogChannel::kYawRate:
-      return 5;
-    case LogChannel::kSteering:
-      break;
-  }
-  return 6;
-}
-
 /// Time derivative of one column of S, the derivatives of the state with respect to the columns of
 /// the fit: S_dot = A S + B. `b`, `s`: pointers to the first number of the column in B and S.
 std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double* b,
@@ -80,13 +59,6 @@ std::array<double, kStateSize> rate_of_column(const StateSlopes& a, const double
 }
 
 }  // namespace
-
-const double* LinearMotion::row(LogChannel channel, std::size_t columns) const {
-  return by_column.data() + place_of(channel) * columns;
-}
-double* LinearMotion::row(LogChannel channel, std::size_t columns) {
-  return by_column.data() + place_of(channel) * columns;
-}
 
 LinearStepper::LinearStepper(const Plant<double>& plant, std::size_t columns,
                              const std::vector<ParameterColumn>& parameters,

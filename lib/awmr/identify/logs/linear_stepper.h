@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "awmr/core/index.h"
 #include "awmr/identify/logs/command_path.h"
 #include "awmr/identify/logs/linear_rates.h"
 #include "awmr/identify/logs/sensitivity_kernel.h"
@@ -19,11 +20,16 @@ namespace awmr {
 /// of a command change.
 struct LinearMotion {
   State<double> state{};
-  /// Derivatives of the state, [kStateSize][columns]; empty if there are no columns.
+  /// Derivatives of the state, [kStateSize][columns], in the order of LogChannel; empty if there are
+  /// no columns.
   std::vector<double> by_column;
   /// Derivatives of the component `channel` of the state, one per column.
-  const double* row(LogChannel channel, std::size_t columns) const;
-  double* row(LogChannel channel, std::size_t columns);
+  const double* row(LogChannel channel, std::size_t columns) const {
+    return by_column.data() + at(channel) * columns;
+  }
+  double* row(LogChannel channel, std::size_t columns) {
+    return by_column.data() + at(channel) * columns;
+  }
 };
 
 /// A free parameter, and the column of the derivatives with respect to it.

@@ -6,7 +6,6 @@
 #include <set>
 #include <utility>
 
-#include "awmr/core/index.h"
 #include "awmr/core/parallel.h"
 
 namespace awmr {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
 
 #include "awmr/core/distributions.h"
 #include "awmr/core/index.h"

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "awmr/identify/logs/family_score.h"
-#include "awmr/identify/uncertainty/akaike.h"
 
 namespace awmr {
 namespace {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "awmr/identify/logs/family_fit.h"
-#include "awmr/identify/options.h"
 
 namespace awmr {
 

@@ -1,7 +1,6 @@
 #include "awmr/identify/logs/uncertain_changes.h"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 #include <numbers>
 #include <utility>
 
