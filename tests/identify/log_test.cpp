@@ -604,43 +604,12 @@ TEST(Log, LogsOfOneVehicleAgree) {
   EXPECT_FALSE(has_finding(*result, "power-law-inadequate", ""));
 }
 
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& more) {
-  to.insert(to.end(), more.begin(), more.end());
-}
-
-/// A log with a change of the vehicle: a drive of `first_s` seconds of the vehicle kTruths[0], a
-/// pause in the recording, and a drive of `last_s` seconds of the vehicle `changed`.
-DrivingLog log_with_change(const Truth& changed, double first_s, double last_s,
-                           std::uint64_t seed) {
-  constexpr double kPause_s = 2.0;
-  DrivingLog log =
-      drive(kTruths[0], seed, {.duration_s = first_s, .rate_hz = 50.0}, kPreciseSensors);
-  DrivingLog last =
-      drive(changed, seed + 100, {.duration_s = last_s, .rate_hz = 50.0}, kPreciseSensors);
-  for (double& t_s : last.t_s) t_s += log.t_s.back() + kPause_s;
-  for (int& line : last.line) line += log.line.back();
-  append(log.t_s, last.t_s);
-  append(log.line, last.line);
-  append(log.force_left, last.force_left);
-  append(log.force_right, last.force_right);
-  append(*log.steering_command_rad, *last.steering_command_rad);
-  for (std::size_t c = 0; c < kChannelCount; ++c) {
-    if (!log.measured[c]) continue;
-    append(log.measured[c]->value, last.measured[c]->value);
-    log.measured[c]->fresh.insert(log.measured[c]->fresh.end(), last.measured[c]->fresh.begin(),
-                                  last.measured[c]->fresh.end());
-    log.measured[c]->fresh_count += last.measured[c]->fresh_count;
-  }
-  return log;
-}
-
 /// The model identified from a log in whose last fifth a1 is multiplied by `factor`.
 Identification identified_with_change(double factor, std::uint64_t seed) {
   Truth changed = kTruths[0];
   changed.a1 *= factor;
   TrialData data;
-  data.logs = {log_with_change(changed, 48.0, 12.0, seed)};
+  data.logs = {log_with_change(kTruths[0], changed, 48.0, 12.0, seed)};
   return identify(robot(), data, options_of_instance(), {}).value();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "awmr/identify/planning/synthetic.h"
 #include "identify/synthetic.h"
@@ -41,5 +42,35 @@ inline constexpr SensorNoise kPreciseSensors{
 /// Sensors with half of the default noise, for short logs of errors that are found by their size.
 inline constexpr SensorNoise kVeryPreciseSensors{
     .speed_mps = 0.01, .yaw_rate_radps = 0.00436, .heading_rad = 0.00873, .position_m = 0.025};
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+/// A log with a change of the vehicle: a drive of `first_s` seconds of the vehicle `truth`, a pause
+/// in the recording, and a drive of `last_s` seconds of the vehicle `changed`.
+inline DrivingLog log_with_change(const Truth& truth, const Truth& changed, double first_s,
+                                  double last_s, std::uint64_t seed) {
+  constexpr double kPause_s = 2.0;
+  DrivingLog log = drive(truth, seed, {.duration_s = first_s, .rate_hz = 50.0}, kPreciseSensors);
+  DrivingLog last =
+      drive(changed, seed + 100, {.duration_s = last_s, .rate_hz = 50.0}, kPreciseSensors);
+  for (double& t_s : last.t_s) t_s += log.t_s.back() + kPause_s;
+  for (int& line : last.line) line += log.line.back();
+  append(log.t_s, last.t_s);
+  append(log.line, last.line);
+  append(log.force_left, last.force_left);
+  append(log.force_right, last.force_right);
+  append(*log.steering_command_rad, *last.steering_command_rad);
+  for (std::size_t c = 0; c < kChannelCount; ++c) {
+    if (!log.measured[c]) continue;
+    append(log.measured[c]->value, last.measured[c]->value);
+    log.measured[c]->fresh.insert(log.measured[c]->fresh.end(), last.measured[c]->fresh.begin(),
+                                  last.measured[c]->fresh.end());
+    log.measured[c]->fresh_count += last.measured[c]->fresh_count;
+  }
+  return log;
+}
 
 }  // namespace awmr::testing

@@ -209,15 +209,20 @@ LogComparison compare_parts(const std::vector<DrivingLog>& log, const LogFitOpti
   LogFit by_first = fit_part(first, options);
   if (!by_first.usable) return found;
   const auto second_half = predict(second, by_first, options);
-  const auto last_fifth = predict(part_of(log, 0.8, 1.0, "last fifth"), by_first, options);
+  const LogPart last = part_of(log, 0.8, 1.0, "last fifth");
+  const auto last_fifth = predict(last, by_first, options);
   const auto agrees = [](const std::optional<HeldOut>& rows) {
     return rows && rows->p_value > kAgree;
   };
   if (agrees(second_half) && agrees(last_fifth)) return found;
-  found.disagreements = disagreements_of({first.name, second.name},
-                                         {std::move(by_first), fit_part(second, options)}, common);
-  const bool misses = last_fifth && last_fifth->p_value < kMiss;
-  if (found.disagreements.empty() && misses) found.missed = last_fifth;
+  const std::vector<double> by_all = common.fit.coordinates;
+  found.disagreements =
+      disagreements_of({first.name, second.name}, {by_first, fit_part(second, options)}, common);
+  if (!found.disagreements.empty() || !last_fifth || !(last_fifth->p_value < kMiss)) return found;
+  const auto p_value = likelihood_ratio_test(first, last, by_first, by_all, options);
+  if (p_value && !(*p_value < kMiss)) return found;
+  found.missed = last_fifth;
+  if (p_value) found.missed->p_value = *p_value;
   return found;
 }
 

@@ -61,8 +61,9 @@ struct LogComparison {
 /// half and its last fifth (held_out.h). If both predictions are accepted (p > 0.05), there is no
 /// disagreement. If one is rejected, the halves are compared like two logs, with two exceptions:
 /// there is no search for missing terms, and a disagreement on one quantity makes the intervals of
-/// no further quantity invalid. If the halves agree, but the prediction of the last fifth is
-/// rejected (p < 0.001), `missed` contains its result.
+/// no further quantity invalid. If the halves agree, but predict() and
+/// likelihood_ratio_test() both reject the last fifth (p < 0.001), `missed` contains the result,
+/// with the p value of likelihood_ratio_test().
 LogComparison compare_logs(const std::vector<DrivingLog>& logs, FamilyFit& common);
 
 }  // namespace awmr

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -123,6 +124,65 @@ Change change_of(const FitEvidence& rows, const Eigen::MatrixXd& c, double f) {
           chi_squared_tail(squares, static_cast<double>(shown)), shown};
 }
 
+/// Cost of several parts of a log at common coordinates, with fitted initial states, and its
+/// information and score.
+struct PartCost {
+  double cost = std::numeric_limits<double>::infinity();
+  FitEvidence evidence;
+};
+
+PartCost cost_at(const std::vector<const LogProblem*>& parts,
+                 const std::vector<double>& coordinates) {
+  const Eigen::Index n = rows_of(coordinates);
+  PartCost all{0.0, {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)}};
+  for (const LogProblem* part : parts) {
+    const std::vector<WindowSums> sums = sums_at(*part, with_initial_states(*part, coordinates));
+    if (!all_finite(sums)) return {};
+    for (const WindowSums& window : sums) all.cost += window.cost();
+    const FitEvidence evidence = fit_evidence(sums, n);
+    all.evidence.information += evidence.information;
+    all.evidence.score += evidence.score;
+  }
+  return all;
+}
+
+/// Coordinates after one Gauss-Newton step, within their bounds. Directions that the rows hardly
+/// determine do not change.
+std::vector<double> stepped(const LogProblem& problem, const FitEvidence& evidence,
+                            std::vector<double> coordinates) {
+  constexpr double kNull = 1e-12;
+  const SymmetricEigen eigen = symmetric_eigen(evidence.information);
+  const double largest = eigen.values(eigen.values.size() - 1);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(eigen.values.size());
+  for (Eigen::Index d = 0; d < eigen.values.size(); ++d) {
+    if (!(eigen.values(d) > kNull * largest)) continue;
+    const Eigen::VectorXd direction = eigen.vectors.col(d);
+    step -= direction.dot(evidence.score) / eigen.values(d) * direction;
+  }
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    coordinates[i] = std::clamp(coordinates[i] + step(eigen_index(i)), problem.bounds[i].lo,
+                                problem.bounds[i].hi);
+  }
+  return coordinates;
+}
+
+/// Smallest cost of the parts near these coordinates: Gauss-Newton steps as long as they lower it.
+double least_cost(const std::vector<const LogProblem*>& parts, std::vector<double> coordinates) {
+  constexpr int kMostSteps = 4;
+  constexpr double kSame = 0.01;
+  PartCost best = cost_at(parts, coordinates);
+  for (int k = 0; k < kMostSteps && std::isfinite(best.cost); ++k) {
+    std::vector<double> next = stepped(*parts.front(), best.evidence, coordinates);
+    PartCost at_next = cost_at(parts, next);
+    if (!(at_next.cost < best.cost)) break;
+    const double gain = best.cost - at_next.cost;
+    best = std::move(at_next);
+    coordinates = std::move(next);
+    if (gain < kSame) break;
+  }
+  return best.cost;
+}
+
 }  // namespace
 
 std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOptions options) {
@@ -147,6 +207,28 @@ std::optional<HeldOut> predict(const LogPart& rows, const LogFit& fit, LogFitOpt
   const double x = fit.coordinates[i];
   return HeldOut{rows.name, change.p_value, q.name(), q.value(x),
                  q.value(x + q.large_change * change.size(most))};
+}
+
+std::optional<double> likelihood_ratio_test(const LogPart& fitted, const LogPart& rows,
+                                            const LogFit& fit, const std::vector<double>& common,
+                                            LogFitOptions options) {
+  options.only_s = fitted.only_s;
+  const LogProblem of_fit = problem_of(fitted.log, fit, options);
+  options.only_s = rows.only_s;
+  const LogProblem of_rows = problem_of(rows.log, fit, options);
+  const LogFit by_rows = fit_logs(rows.log, options);
+  if (!by_rows.usable || by_rows.coordinates.size() != common.size()) return std::nullopt;
+  const double together = std::min(least_cost({&of_fit, &of_rows}, common),
+                                   least_cost({&of_fit, &of_rows}, fit.coordinates));
+  const double of_fit_alone =
+      std::min(least_cost({&of_fit}, common), least_cost({&of_fit}, fit.coordinates));
+  const double of_rows_alone =
+      std::min(least_cost({&of_rows}, common), least_cost({&of_rows}, by_rows.coordinates));
+  const double squares =
+      2.0 * (together - of_fit_alone - of_rows_alone) / (fit.widened * fit.widened);
+  if (!std::isfinite(squares)) return std::nullopt;
+  const auto compared = static_cast<double>(places_of(of_fit, fit.coordinates).compared.size());
+  return chi_squared_tail(std::max(0.0, squares), compared);
 }
 
 std::vector<TermTest> test_further_terms(const std::vector<DrivingLog>& log, const LogFit& fit,
