@@ -66,6 +66,24 @@ TEST(Multistart, MostStartsLeadToTheOptimum) {
   EXPECT_GT(there, 2 * all / 3) << there << " of " << all;
 }
 
+TEST(Multistart, IsFarWorseByTheErrorsOfItsQuickSearches) {
+  const auto search = [](double relative_error) {
+    return Multistart{{{0.0}}, {}, relative_error, 1000};
+  };
+  const BestSoFar right{.relative_error = 1.0, .has_large_drift = false};
+  EXPECT_FALSE(is_far_worse(search(0.9), right));
+  EXPECT_FALSE(is_far_worse(search(1.09), right)) << "-2 ln L is higher by 90";
+  EXPECT_TRUE(is_far_worse(search(1.11), right)) << "-2 ln L is higher by 110";
+  // The noise of a wrong model is higher, so that the same errors differ less in -2 ln L.
+  const BestSoFar noisy{.relative_error = 4.0, .has_large_drift = false};
+  EXPECT_FALSE(is_far_worse(search(4.39), noisy));
+  EXPECT_TRUE(is_far_worse(search(4.41), noisy));
+  // With a large drift of the best fit, another model has to reduce the mean square by 30 %.
+  const BestSoFar drifting{.relative_error = 4.0, .has_large_drift = true};
+  EXPECT_FALSE(is_far_worse(search(2.7), drifting));
+  EXPECT_TRUE(is_far_worse(search(2.9), drifting));
+}
+
 TEST(NearestCurve, IsTheCurveItselfWhereTheFamilyHasIt) {
   const Resistance<double> curve{
       .alpha = 0.6, .beta = 1.0, .rest_speed = 0.0, .coulomb = 0.3, .quadratic = 0.2};
@@ -408,6 +426,21 @@ TEST(Families, AreComparedUnderTheNoiseOfTheSmallerErrors) {
   LogFit none;
   EXPECT_EQ(aic_lead(right, none), std::numeric_limits<double>::infinity());
   EXPECT_EQ(aic_lead(none, none), 0.0);
+}
+
+TEST(Families, AreComparedInMostRowsWithoutAFewLargeErrors) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> white;
+  std::vector<double> with_outliers, larger;
+  for (int k = 0; k < 6000; ++k) {
+    with_outliers.push_back(3e-3 * white(random) + (k % 1000 == 500 ? 0.2 : 0.0));
+    larger.push_back(3.3e-3 * white(random));
+  }
+  const LogFit a = fit_with_errors(with_outliers), b = fit_with_errors(larger);
+  EXPECT_LT(aic_lead(a, b), -1000.0);
+  EXPECT_GT(aic_lead_of_most_rows(a, b), 100.0);
+  EXPECT_EQ(aic_lead_of_most_rows(a, b), -aic_lead_of_most_rows(b, a));
+  EXPECT_EQ(aic_lead_of_most_rows(a, LogFit{}), std::numeric_limits<double>::infinity());
 }
 
 TEST(Windows, PartsContainEverySampleOnce) {

@@ -1,0 +1,79 @@
+/// Findings about model errors, from the drift in the noise of a fit.
+#include "awmr/identify/logs/adequacy.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "identify/synthetic_log.h"
+
+namespace awmr::testing {
+namespace {
+
+/// Noise of a channel whose drift lasts 1 s and is `drift` times the sensor noise.
+ChannelNoise noise_with(double drift) {
+  constexpr double kSensor = 0.01;
+  return {.white_std = kSensor,
+          .drift_std = drift * kSensor,
+          .correlation_s = 1.0,
+          .sensor_std = kSensor};
+}
+
+/// Result of the check of a fit with this noise.
+Adequacy adequacy_of(const NoiseLevels& noise) {
+  static const std::vector<DrivingLog> logs{drive(kTruths[0], 1, {.duration_s = 2.0})};
+  FamilyFit fit;
+  fit.fit.noise = noise;
+  fit.fit.usable = true;
+  return check_adequacy(logs, {}, fit, false);
+}
+
+/// True if the check has the finding `model-inadequate`, and it names `cause`: an option, a column
+/// or a key of the vehicle file.
+bool names_cause(const Adequacy& adequacy, const std::string& cause) {
+  return adequacy.findings.size() == 1 && adequacy.findings.front().code == "model-inadequate" &&
+         adequacy.findings.front().severity == Severity::kWarning &&
+         adequacy.findings.front().message.find(cause) != std::string::npos;
+}
+
+TEST(Adequacy, OfSensorNoiseHasNoFinding) {
+  const Adequacy adequacy =
+      adequacy_of({{LogChannel::kSpeed, noise_with(0.3)}, {LogChannel::kYawRate, noise_with(0.0)}});
+  EXPECT_TRUE(adequacy.findings.empty());
+  EXPECT_FALSE(adequacy.withdraws_intervals);
+}
+
+TEST(Adequacy, WithdrawsTheIntervalsOfADriftAboveTheNoise) {
+  const Adequacy small = adequacy_of({{LogChannel::kSpeed, noise_with(1.0)}});
+  EXPECT_TRUE(names_cause(small, "half_track_m"));
+  EXPECT_FALSE(small.withdraws_intervals);
+  EXPECT_FALSE(small.withdraws_servo);
+  EXPECT_FALSE(small.withdraws_sway);
+  EXPECT_TRUE(adequacy_of({{LogChannel::kSpeed, noise_with(3.0)}}).withdraws_intervals);
+  // A compass can drift by itself if a gyroscope shows no model error.
+  EXPECT_FALSE(adequacy_of({{LogChannel::kYawRate, noise_with(0.0)},
+                            {LogChannel::kHeading, noise_with(3.0)}})
+                   .withdraws_intervals);
+  EXPECT_TRUE(adequacy_of({{LogChannel::kHeading, noise_with(3.0)}}).withdraws_intervals);
+  EXPECT_TRUE(adequacy_of({{LogChannel::kX, noise_with(1.0)}, {LogChannel::kY, noise_with(0.0)}})
+                  .withdraws_intervals)
+      << "logs of positions only";
+}
+
+TEST(Adequacy, NamesCausesOfTheChannel) {
+  const Adequacy yaw = adequacy_of({{LogChannel::kYawRate, noise_with(1.0)}});
+  EXPECT_TRUE(names_cause(yaw, "steering_deg"));
+  EXPECT_TRUE(names_cause(yaw, "bias.yaw_rate_radps"));
+  EXPECT_TRUE(yaw.withdraws_servo);
+  EXPECT_FALSE(yaw.withdraws_sway);
+  const Adequacy speed = adequacy_of({{LogChannel::kSpeed, noise_with(1.0)}});
+  EXPECT_FALSE(names_cause(speed, "bias.yaw_rate_radps"));
+  const Adequacy sway = adequacy_of({{LogChannel::kSway, noise_with(1.0)}});
+  EXPECT_TRUE(names_cause(sway, "sway.alpha"));
+  EXPECT_FALSE(names_cause(sway, "half_track_m")) << "only the causes of a sway speed";
+  EXPECT_TRUE(sway.withdraws_sway);
+}
+
+}  // namespace
+}  // namespace awmr::testing
