@@ -18,6 +18,7 @@ namespace awmr::cli {
 inline constexpr const char* kColumnHelp =
     "[FILE:]NAME=EXPRESSION: computes the column NAME from one column (speed_mps=V, with a factor: "
     "V*0.2778), from several columns ((left + right)/2*0.1) or from a constant (steering_deg=0). "
+    "With FILE (drive_2.csv:speed_mps=V), only for this file, else for every file. "
     "Column names with special characters need backticks. May be repeated";
 
 /// Names under which output files list their input files. The key is the path of an input file.

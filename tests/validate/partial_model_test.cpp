@@ -106,7 +106,7 @@ TEST(PartialModel, RefusesALogThatTurnsOrHasNoSpeed) {
   for (const DrivingLog& log : {steers, sides}) {
     const auto v = validate_log(log, straight_model(), 10.0, 0.3);
     ASSERT_FALSE(v);
-    EXPECT_THAT(to_text(v.error()), HasSubstr("drive.csv:52: the log turns from here"));
+    EXPECT_THAT(to_text(v.error()), HasSubstr("drive.csv:52: the vehicle turns from this row"));
     EXPECT_THAT(to_text(v.error()), HasSubstr("a turning trial"));
   }
   DrivingLog dumb = straight_log(1.0);

@@ -35,8 +35,8 @@ constexpr float kVerified_m = 1.0F;
 /// latency of a GPS plus the time in which the vehicle stops.
 constexpr float kSettled_s = 1.0F;
 
-/// Direction of travel between two steps. If all members are 0, the vehicle is at rest and its
-/// direction is unknown.
+/// Data on the direction of travel that one step of the controller keeps for the next step. If all
+/// members are 0, the vehicle is at rest and its direction is unknown.
 template <class T>
 struct DirectedSpeed {
   /// Signed speed u that the model predicts. The direction is unknown for |u| <= kDirected_mps.

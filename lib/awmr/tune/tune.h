@@ -490,11 +490,13 @@ struct Tuning {
   /// Number of evaluated sets of gains whose runs were simulated. The other sets violate a
   /// constraint.
   int simulated = 0;
-  /// Ranges of mu and mu_s in which the gains are about equally good. `mu_as_good` is for constant
-  /// mu/epsilon: the gains meet the constraints, and the objective on the draws of the search is at
-  /// most kIndifferent/2 worse than the best. settle() selects the smallest mu. `speed_mu_as_good`
-  /// is for this mu and constant mu_s/epsilon_s: the objective is at most kIndifferent worse than
-  /// the best.
+  /// Ranges of mu and of mu_s in which the gains are about equally good: the gains meet every
+  /// constraint, and the objective is hardly worse than the best one. Both objectives are those on
+  /// the drawn vehicles of the search. settle() computes both ranges:
+  ///   - `mu_as_good`: mu changes at constant mu/epsilon. The objective is at most kIndifferent/2
+  ///     worse than the best. The tuned gains have the smallest mu of this range.
+  ///   - `speed_mu_as_good`: mu_s changes at constant mu_s/epsilon_s; mu and epsilon are those of
+  ///     the tuned gains. The objective is at most kIndifferent worse than the best.
   Interval mu_as_good, speed_mu_as_good;
   std::vector<ActiveConstraint> active;
   std::string arithmetic;  ///< rounding of the runs: BatchArithmetic::rounding

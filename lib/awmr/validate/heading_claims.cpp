@@ -215,8 +215,10 @@ Claim yaw_rate_limited(const HeadingSetting& setting) {
               ? "in steering mode, the largest steering angle limits the yaw moment and therefore "
                 "the yaw rate. In the other two modes, different left and right wheel forces turn "
                 "the vehicle faster. According to its conclusion, the paper used combined mode"
-              : "at the largest steering angle, this model turns faster, or a heading is not "
-                "reached in time",
+              : "in steering mode, the largest yaw rate is 20 deg/s or more in spite of the "
+                "limited "
+                "steering angle, or the heading does not settle after one of the two steps. The "
+                "largest yaw rate of this mode shows which is the case",
       .modes = verdicts_by_mode(runs, holds)};
 }
 

@@ -31,9 +31,11 @@ Result<DrivingLog> straight_part(const DrivingLog& log, const Model& model) {
     Error error = model.plant().error();
     error.faults.insert(
         error.faults.begin(),
-        Fault{ErrorCode::kUnsupported, fmt::format("{}:{}", log.file, log.line[*row]),
-              "the log turns from here, but the model covers straight motion only; "
-              "give a straight log, or record the trials named below"});
+        Fault{
+            ErrorCode::kUnsupported, fmt::format("{}:{}", log.file, log.line[*row]),
+            "the vehicle turns from this row of the log on (steering, or different left and right "
+            "forces), but the model covers straight motion only; give a log of straight driving, "
+            "or record the trials named below"});
     return tl::unexpected(std::move(error));
   }
   if (!log[LogChannel::kSpeed]) {

@@ -28,11 +28,12 @@ struct Adequacy {
   bool withdraws_sway = false;
 };
 
-/// Checks every channel of the fit `chosen` for a model error: a drift that is too large and too
-/// slow for a sensor (ChannelNoise::of_the_model()). One finding `model-inadequate` lists all such
-/// channels. If the speed is one of them and `try_families` is true, the check also fits other
-/// families of the surge resistance, and recommends a better one. `power_law`: options of a fit
-/// with power laws in surge and yaw.
+/// Checks every channel of the fit `chosen` for a model error. A channel has one if its residuals
+/// (measured minus fitted) have a drift that is too large and too slow to come from the filter of a
+/// sensor (ChannelNoise::of_the_model()). One finding `model-inadequate` lists all such channels.
+/// If the speed is one of them and `try_families` is true, the check also fits other families of
+/// the surge resistance, and recommends a better one. These fits use the options `power_law`, which
+/// are those of a fit with power laws in surge and yaw, but with the other family.
 Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families);
 

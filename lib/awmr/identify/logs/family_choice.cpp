@@ -364,8 +364,10 @@ struct FamilyComparison {
 
 BestFamily best_family(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                        FamilyFit first, const FamilyContest& contest) {
-  // The axis (surge or yaw) for which score tests predict the larger improvement is first, because
-  // its wrong resistance may also cause the errors of the other axis.
+  // First compare the families of one axis (surge or yaw), then those of the other. The first axis
+  // is the one with the larger decrease of -2 ln L that the score tests predict for an additional
+  // resistance term. If the resistance of this axis has a wrong form, it may also cause the errors
+  // of the other axis.
   const bool yaw_first = largest_gain(first.fit, power_law.candidate_terms, true) >
                          largest_gain(first.fit, power_law.candidate_terms, false);
   FamilyComparison comparison{logs, power_law, contest, {std::move(first), {}, {}, false}, {}};

@@ -92,8 +92,9 @@ class LinearStepper {
   /// Sets way_, the direction in which u and r move next. If friction holds a speed at 0, sets the
   /// derivatives of this speed with respect to the columns, in `motion`, to 0.
   void find_way(const DelayedCommand& command, LinearMotion& motion);
-  /// Returns the state after h_s seconds. Stores the derivatives of the rates at the Runge-Kutta
-  /// stages for move_to().
+  /// Returns the state after one Runge-Kutta step of h_s seconds. If there are columns (unknowns of
+  /// the fit), stores the derivatives of the state's rates of change with respect to the state
+  /// (slopes_) and to the columns (driven_) at each stage. move_to() needs them.
   State<double> state_after(const DelayedCommand& command, double h_s, const State<double>& from);
   /// Sets the state of `motion` to `next`, the result of the last state_after(). Advances the
   /// derivatives of the state with respect to the columns of the fit by the same step of h_s
