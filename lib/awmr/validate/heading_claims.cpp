@@ -216,9 +216,8 @@ Claim yaw_rate_limited(const HeadingSetting& setting) {
                 "the yaw rate. In the other two modes, different left and right wheel forces turn "
                 "the vehicle faster. According to its conclusion, the paper used combined mode"
               : "in steering mode, the largest yaw rate is 20 deg/s or more in spite of the "
-                "limited "
-                "steering angle, or the heading does not settle after one of the two steps. The "
-                "largest yaw rate of this mode shows which is the case",
+                "limited steering angle, or the heading does not settle after one of the two "
+                "steps. The largest yaw rate of this mode shows which is the case",
       .modes = verdicts_by_mode(runs, holds)};
 }
 
