@@ -93,7 +93,8 @@ std::vector<Place> usable_rows(std::string_view bytes, const Scan& scan, const s
     warn(log, file, "rows-not-measured",
          fmt::format(
              "{} rows are not used, because heading or speed was too old (no fix or no compass "
-             "yet) or a value is not a number; the first is at {:.6g} s, the last at {:.6g} s",
+             "yet) or a value is not a number; the first of these rows is at {:.6g} s, the last at "
+             "{:.6g} s",
              not_measured_s.size(), not_measured_s.front(), not_measured_s.back()));
   }
   return measured;

@@ -97,8 +97,8 @@ Result<Contents> contents_of(std::string_view bytes, const std::string& file) {
       if (!is_new && known->second.definition != record) {
         return input_error(ErrorCode::kBrokenFile, file,
                            fmt::format("byte {}: a second definition (FMT record) of {} "
-                                       "differs from the first; give each log as a file of its "
-                                       "own",
+                                       "differs from the first definition; give each log as a file "
+                                       "of its own",
                                        offset, printable(known->second.name)));
       }
     } else if (const dataflash::Format& format = formats.at(type); format.name == "FMTU") {

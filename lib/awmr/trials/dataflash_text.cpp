@@ -129,8 +129,8 @@ Status define(const Cells& cells, const std::string& file, int line, NamedFormat
   const auto [known, is_new] = formats.try_emplace(std::string(cells[3]), *std::move(format));
   if (is_new || known->second.definition == *record) return {};
   return error_at(file, line,
-                  fmt::format("a second definition (FMT line) of {} differs from the first; "
-                              "give each log as a file of its own",
+                  fmt::format("a second definition (FMT line) of {} differs from the first "
+                              "definition; give each log as a file of its own",
                               printable(known->second.name)));
 }
 

@@ -182,8 +182,8 @@ void Recording::put_aside(std::string_view line, std::string why) {
 std::vector<Finding> Recording::findings(const std::string& file) const {
   if (set_aside_ == 0) return {};
   return {{file, first_aside_, Severity::kWarning, "lines-set-aside",
-           fmt::format("{} of {} lines are damaged and were set aside as comments; the first "
-                       "of them: {}",
+           fmt::format("{} of {} lines are damaged; they are kept as comments and not used. The "
+                       "first damaged line: {}",
                        set_aside_, lines_, first_why_)}};
 }
 

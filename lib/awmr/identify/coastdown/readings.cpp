@@ -68,8 +68,9 @@ void report_cut_off(const std::vector<CoastCurve>& curves, const std::vector<dou
       {curves.front().file, 0, Severity::kWarning, "speed-cut-off",
        fmt::format(
            "the speed of {} of {} coast-downs drops to 0 although the rows before extrapolate to "
-           "up to {:.2g} m/s: the sensor reads 0 at low speed. The rows from the first 0 on are "
-           "not used; log a speed that is measured down to rest, e.g. with a longer timeout of the "
+           "up to {:.2g} m/s: the sensor reads 0 at low speed. The rows from the first speed of 0 "
+           "on are not used; log a speed that is measured down to rest, e.g. with a longer timeout "
+           "of the "
            "encoder",
            lost_mps.size(), curves.size(), std::ranges::max(lost_mps))});
 }

@@ -137,10 +137,10 @@ std::optional<Finding> decide_slip(const std::vector<DrivingLog>& logs, FamilyFi
   if (names.empty()) return std::nullopt;
   return Finding{
       logs.front().file, 0, Severity::kWarning, "wheel-slip",
-      fmt::format("these logs do not decide between {} and {}: the AIC of the first is lower by "
-                  "only {:.1f}{}, so the intervals of {} are withdrawn. Log each command when it "
-                  "is sent, and measure the speed without driven wheels (optical flow, GNSS, a "
-                  "free wheel)",
+      fmt::format("these logs do not decide between two causes, {} and {}: the AIC of the fit with "
+                  "the first cause, which is used, is lower by only {:.1f}{}, so the intervals of "
+                  "{} are withdrawn. Log each command when it is sent, and measure the speed "
+                  "without driven wheels (optical flow, GNSS, a free wheel)",
                   explanation(chosen), explanation(*closest), lead_of(chosen.fit, closest->fit),
                   aic_lead(chosen.fit, closest->fit) < kPlainly ? "" : " without a few rows",
                   fmt::join(names, ", "))};

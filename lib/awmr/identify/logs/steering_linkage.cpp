@@ -141,10 +141,12 @@ std::optional<Finding> decide_stop(const std::vector<DrivingLog>& logs, FamilyFi
   if (names.empty()) return std::nullopt;
   return Finding{
       logs.front().file, 0, Severity::kWarning, "steering-stop",
-      fmt::format("these logs do not decide whether the steering stop limits the {} or the {}: "
-                  "the AIC of the first is lower by only {:.1f}, so the intervals of {} are "
-                  "withdrawn. Log the measured angle as steering_deg, or longer turns at the stop",
-                  limited_by_stop(chosen), limited_by_stop(other), lead, fmt::join(names, ", "))};
+      fmt::format(
+          "these logs do not decide whether the steering stop limits the {} or the {}: "
+          "the AIC of the fit with the first limit, which is used, is lower by only {:.1f}, "
+          "so the intervals of {} are withdrawn. Log the measured angle as steering_deg, or "
+          "longer turns at the stop",
+          limited_by_stop(chosen), limited_by_stop(other), lead, fmt::join(names, ", "))};
 }
 
 void widen_by_steering_scale(const std::vector<DrivingLog>& logs, FamilyFit& chosen) {
