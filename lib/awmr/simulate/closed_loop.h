@@ -46,8 +46,8 @@ class ClosedLoop {
  public:
   /// `steps`: the functions that compute controller, motors, motion and metrics of one control
   /// sample for all runs at once. They are compiled for this Row: for a single run (double), or for
-  /// a row of numbers, one per run (lanes::Row). Precondition: there are 1 to kRunsOf<Row> runs, and
-  /// scenario and steps outlive the loop.
+  /// a row of numbers, one per run (lanes::Row). Precondition: there are 1 to kRunsOf<Row> runs,
+  /// and scenario and steps outlive the loop.
   ClosedLoop(std::span<const BatchRun> runs, const Scenario& scenario, const LoopSteps<Row>& steps,
              const LoopOptions& options);
 

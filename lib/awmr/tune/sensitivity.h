@@ -22,13 +22,13 @@ struct SettledGains {
 
 /// Reduces mu of the best gains, then mu_s, at constant mu/epsilon and mu_s/epsilon_s. Inside the
 /// boundary layers only these two ratios act, so without this rule the seed of the search would
-/// determine mu. Selects the smallest mu that meets every constraint and has an objective at most
-/// kIndifferent/2 worse than that of `best` on the draws of the search. Then selects the smallest
-/// mu_s with an objective at most kIndifferent worse.
+/// determine mu. Selects the smallest mu that meets every constraint and whose objective is at most
+/// kIndifferent/2 worse than that of `best`, on the drawn vehicles of the search (`searched`). Then
+/// selects the smallest mu_s with an objective at most kIndifferent worse.
 ///
-/// The reduced gains must also meet the constraints, and be at most kIndifferent worse than `best`,
-/// on the draws of `all`. Otherwise both reductions are made smaller (kReductions), or `best` is
-/// kept.
+/// On all drawn vehicles (`all`), the reduced gains must also meet the constraints and be at most
+/// kIndifferent worse than `best`. Otherwise both reductions are made smaller (kReductions), or
+/// `best` is kept.
 SettledGains settle(const TuneOptions& options, const ConstraintContext& context,
                     const Objective& searched, const Objective& all, const Candidate& best);
 

@@ -70,8 +70,7 @@ void report_cut_off(const std::vector<CoastCurve>& curves, const std::vector<dou
            "the speed of {} of {} coast-downs drops to 0 although the rows before extrapolate to "
            "up to {:.2g} m/s: the sensor reads 0 at low speed. The rows from the first speed of 0 "
            "on are not used; log a speed that is measured down to rest, e.g. with a longer timeout "
-           "of the "
-           "encoder",
+           "of the encoder",
            lost_mps.size(), curves.size(), std::ranges::max(lost_mps))});
 }
 

@@ -32,8 +32,8 @@ struct Adequacy {
 /// (measured minus fitted) have a drift that is too large and too slow to come from the filter of a
 /// sensor (ChannelNoise::of_the_model()). One finding `model-inadequate` lists all such channels.
 /// If the speed is one of them and `try_families` is true, the check also fits other families of
-/// the surge resistance, and recommends a better one. These fits use the options `power_law`, which
-/// are those of a fit with power laws in surge and yaw, but with the other family.
+/// the surge resistance, and recommends a better one. `power_law`: the options of the logs' first
+/// fit, which has power laws in surge and yaw; the fits with other families use the same options.
 Adequacy check_adequacy(const std::vector<DrivingLog>& logs, const LogFitOptions& power_law,
                         const FamilyFit& chosen, bool try_families);
 

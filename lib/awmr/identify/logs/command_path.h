@@ -13,14 +13,15 @@
 
 namespace awmr {
 
-/// A delay or a time constant (s), and the column of the derivatives with respect to it.
+/// A delay or a time constant (s), and its column: its index among the unknowns of the fit
+/// (linear_stepper.h).
 struct DelayColumn {
   double delay_s;
   std::size_t column;
 };
 
-/// A constant error of the commands (for example trim in rad, imbalance or saturation), and the
-/// column of the derivatives with respect to it.
+/// A constant error of the commands (for example trim in rad, imbalance or saturation), and its
+/// column among the unknowns of the fit.
 struct OffsetColumn {
   double value;
   std::size_t column;
@@ -92,8 +93,8 @@ struct CommandColumns {
 };
 CommandColumns columns_of(const CommandPath& path);
 
-/// Commands as they reach the wheels, with derivatives with respect to the free quantities of their
-/// path.
+/// Commands as they reach the wheels, and their derivatives with respect to the delays, lags and
+/// errors of CommandPath that the fit estimates.
 struct DelayedCommand {
   HeldCommand command;
   /// d force / d delay, 1/s. Set only for motors with lag. Without lag the force jumps; then
@@ -105,8 +106,8 @@ struct DelayedCommand {
   SideForces<double> by_saturation{};  ///< d force / d L
   SideForces<double> by_sharpness{};   ///< d force / d ln n
   /// Column of the latest change of the forces, if its time is uncertain. Set only for motors with
-  /// lag. The derivative with respect to this time is `by_delay`, because the effect of earlier
-  /// changes is assumed to have decayed.
+  /// lag. The derivative of the force with respect to this time is `by_delay`, because the effect
+  /// of earlier changes is assumed to have decayed.
   std::optional<std::size_t> change_column = {};
   double steering_by_trim = 0.0;       ///< d steering / d trim: 1 with a trim in the path, else 0
   double steering_by_dead_band = 0.0;  ///< d steering / d dead band

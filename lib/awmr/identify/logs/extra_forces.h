@@ -56,7 +56,8 @@ enum class ExtraForce {
 };
 inline constexpr std::size_t kExtraForceCount = 13;
 
-/// A number that the fit estimates, and the column of the derivatives with respect to it.
+/// A number that the fit estimates, and its column: its index among the unknowns of the fit
+/// (linear_stepper.h).
 struct ExtraColumn {
   ExtraForce force;
   std::size_t column;

@@ -7,9 +7,9 @@
 namespace awmr {
 namespace {
 
-/// Updates the derivatives with respect to the time of a command change, if this time is uncertain.
-/// `before`: rows of the log whose commands acted until the change; `after`: rows of the new
-/// commands. Forces of motors with lag are left out, because they do not jump
+/// Updates the derivatives of the motion with respect to the time of a command change, if this time
+/// is uncertain. `before`: rows of the log whose commands acted until the change; `after`: rows of
+/// the new commands. Forces of motors with lag are left out, because they do not jump
 /// (DelayedCommand::change_column).
 void change_time_of_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                          const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
@@ -23,8 +23,9 @@ void change_time_of_rows(const LogSignals& signals, ActingRows before, const Act
                       command_of_rows(log, after, path), motion);
 }
 
-/// Updates the derivatives with respect to the delays at a command change. `before`, `after`: as in
-/// change_time_of_rows(). Forces of motors with lag are left out, because they do not jump.
+/// Updates the derivatives of the motion at a command change: those with respect to the time of the
+/// change, as change_time_of_rows() does, and those with respect to the delays of the commands.
+/// Forces of motors with lag are left out, because they do not jump.
 void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                  const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   change_time_of_rows(signals, before, after, path, stepper, motion);

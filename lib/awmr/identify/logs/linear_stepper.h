@@ -32,7 +32,7 @@ struct LinearMotion {
   }
 };
 
-/// A free parameter, and the column of the derivatives with respect to it.
+/// A free model parameter, and its column among the unknowns of the fit.
 struct ParameterColumn {
   ParameterId id;
   std::size_t column;
@@ -80,8 +80,9 @@ class LinearStepper {
     double factor;
   };
   void note_driven(const DelayedCommand& command, double* driven) const;
-  /// Sets the derivatives of the rates with respect to a quantity that changes the commands. `by`:
-  /// derivatives of the commands with respect to this quantity.
+  /// Sets the derivatives of the state's rates of change with respect to the quantity with the
+  /// index `column`, which changes the commands. `by`: derivatives of the commands with respect to
+  /// it.
   void set_column(const HeldCommand& by, std::size_t column, double* driven) const;
   /// If another change of the commands acts than before (DelayedCommand::change_column), sets the
   /// derivatives of the rates with respect to the time of the previous change to 0.
@@ -113,7 +114,9 @@ class LinearStepper {
   LinearRates rates_;
   std::array<StateSlopes, kStages> slopes_{};
   std::optional<std::size_t> change_column_;  ///< of the change that acted last
-  std::vector<double> driven_;  ///< derivatives of the rates, [kStages][kDrivenSize][columns]
+  /// Derivatives of the state's rates of change with respect to the columns,
+  /// [kStages][kDrivenSize][columns].
+  std::vector<double> driven_;
 };
 
 }  // namespace awmr

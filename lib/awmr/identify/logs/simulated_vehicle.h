@@ -33,8 +33,8 @@ struct Smoothing {
   double rows2_per_s2;  ///< variance of the kernel in rows^2 over that in s^2
 };
 
-/// Errors of the sensors (bias, delay, ...) at one point of the search. For each error that is
-/// free, also the column of the derivatives with respect to it.
+/// Errors of the sensors (bias, delay, ...) at one point of the search. For each error that the fit
+/// estimates, also its column among the unknowns of the fit.
 struct SensorTerms {
   std::array<double, kChannelCount> bias{};
   std::array<std::optional<std::size_t>, kChannelCount> bias_column{};

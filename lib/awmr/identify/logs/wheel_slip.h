@@ -20,8 +20,7 @@
 
 namespace awmr {
 
-/// Slip s of the wheels that measure a channel, and the column of the derivatives with respect to
-/// s.
+/// Slip s of the wheels that measure a channel, and the column of s among the unknowns of the fit.
 struct WheelSlip {
   LogChannel channel;  ///< speed or yaw rate
   OffsetColumn slip;
