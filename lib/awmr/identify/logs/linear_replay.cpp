@@ -25,7 +25,8 @@ void change_time_of_rows(const LogSignals& signals, ActingRows before, const Act
 
 /// Updates the derivatives of the motion at a command change: those with respect to the time of the
 /// change, as change_time_of_rows() does, and those with respect to the delays of the commands.
-/// Forces of motors with lag are left out, because they do not jump.
+/// Forces of motors with lag are left out, because they do not jump. `before`, `after`: as in
+/// change_time_of_rows().
 void change_rows(const LogSignals& signals, ActingRows before, const ActingRows& after,
                  const CommandPath& path, LinearStepper& stepper, LinearMotion& motion) {
   change_time_of_rows(signals, before, after, path, stepper, motion);
