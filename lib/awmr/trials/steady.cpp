@@ -221,8 +221,8 @@ std::vector<SteadyWheel> steady_wheels(const DrivingLog& log, const Vehicle& veh
     if (!is_steady(r, rule.drift)) continue;
     const double d = vehicle.half_track_m;
     const double std_error = std::hypot(u->mean_error, d * r.mean_error);
-    wheels.push_back({left, u->mean - d * r.mean, std_error});
-    wheels.push_back({right, u->mean + d * r.mean, std_error});
+    wheels.push_back({left, u->mean - d * r.mean, std_error, true});
+    wheels.push_back({right, u->mean + d * r.mean, std_error, true});
   }
   return wheels;
 }

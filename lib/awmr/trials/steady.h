@@ -65,6 +65,7 @@ struct SteadyWheel {
   double command = 0.0;    ///< commanded force of the wheel, F'
   double speed_mps = 0.0;  ///< mean rolling speed; forward positive
   double std_error = 0.0;  ///< standard error of speed_mps, m/s
+  bool turning = false;    ///< true: the commands left and right differ
 };
 
 /// Returns the steady speeds of the wheels in the segments of the log in which speed and yaw rate

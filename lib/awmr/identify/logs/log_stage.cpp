@@ -300,12 +300,10 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
     return again;
   }
   FamilyFit chosen = fit_families(logs, power_law, options, std::move(first), stage);
-  std::optional<double> set_point_mps;
-  if (std::ranges::find(stage.findings, "model-inadequate", &Finding::code) !=
-      stage.findings.end()) {
-    set_point_mps = speed_per_set_point(vehicle, logs);
-  }
-  stage.withdraws_intervals = stage.withdraws_intervals || set_point_mps;
+  const bool is_adequate =
+      std::ranges::find(stage.findings, "model-inadequate", &Finding::code) == stage.findings.end();
+  const auto speed_control = find_speed_control(vehicle, logs, chosen, is_adequate);
+  if (speed_control && speed_control->withdraws) stage.withdraws_intervals = true;
   if (chosen.fit.usable && has_impossible_servo(chosen.fit)) {
     stage.withdraws_intervals = true;
     stage.findings.push_back(impossible_servo_finding(logs.front().file));
@@ -332,7 +330,7 @@ Result<LogStage> run_log_stage(const Vehicle& vehicle, const std::vector<Driving
   take(chosen.fit, model, overrule, file, stage);
   if (has_changed) doubt_force_terms(stage.findings);
   append(stage.findings, refused_terms(chosen.fit, options.terms, file));
-  append(stage.findings, speed_control_findings(vehicle, logs, stage, set_point_mps));
+  if (speed_control) stage.findings.push_back(speed_control_finding(*speed_control, file));
   check_inertia(vehicle, logs, model, stage);
   return stage;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "awmr/core/sample_quantile.h"
 #include "awmr/trials/steady.h"
@@ -13,15 +14,16 @@ namespace awmr {
 namespace {
 
 /// Steady speed of each wheel divided by its command, m/s, from the fitted resistances. Present
-/// only if this ratio is the same at all speeds (first sign of speed_control_findings()).
-std::optional<double> fitted_speed_per_command(const Vehicle& vehicle,
-                                               const std::vector<DrivingLog>& logs,
-                                               const LogStage& stage) {
+/// only if this ratio is the same at all speeds (first sign of find_speed_control()).
+std::optional<double> fitted_ratio_mps(const Vehicle& vehicle, const std::vector<DrivingLog>& logs,
+                                       const FamilyFit& chosen) {
   constexpr double kOfExponent = 0.05;
   constexpr double kOfRatio = 0.1;
+  const LogFit& fit = chosen.fit;
   const auto value = [&](ParameterId id) {
-    const auto found = std::ranges::find(stage.main, id, &LogStage::Main::id);
-    return found == stage.main.end() ? 0.0 : found->estimate.value.value_or(0.0);
+    const auto i = place_of(fit.quantities, id);
+    const bool has_value = fit.usable && i && fit.refusal_reason[*i].empty();
+    return has_value ? fit.quantities[*i].value(fit.coordinates[*i]) : 0.0;
   };
   const auto is_linear = [&](Family family, ParameterId beta) {
     return family == Family::kPower && std::abs(value(beta) - 1.0) < kOfExponent;
@@ -30,55 +32,80 @@ std::optional<double> fitted_speed_per_command(const Vehicle& vehicle,
   const double ratio =
       value(ParameterId::kYawAlpha) / (surge * vehicle.half_track_m * vehicle.half_track_m);
   if (!(surge > 0.0) || std::ranges::none_of(logs, has_force_difference) ||
-      !is_linear(stage.surge_family, ParameterId::kSurgeBeta) ||
-      !is_linear(stage.yaw_family, ParameterId::kYawBeta) || !(std::abs(ratio - 1.0) < kOfRatio)) {
+      !is_linear(chosen.surge, ParameterId::kSurgeBeta) ||
+      !is_linear(chosen.yaw, ParameterId::kYawBeta) || !(std::abs(ratio - 1.0) < kOfRatio)) {
     return std::nullopt;
   }
   return vehicle.driven_wheels() / surge;
 }
 
-}  // namespace
+/// Speed of a wheel that rolls steadily, divided by its command.
+struct SpeedRatio {
+  double command;  ///< magnitude
+  double ratio_mps;
+};
 
-std::optional<double> speed_per_set_point(const Vehicle& vehicle,
-                                          const std::vector<DrivingLog>& logs) {
-  constexpr SteadyRule kRule{.settling_s = 0.5, .shortest_s = 0.5, .drift = 0.1};
-  constexpr double kKnown = 0.05;
-  constexpr double kProportional = 0.05;
+/// Median of the ratios, if at least 80 % of them are equal within 5 %. Empty in these cases,
+/// because the speeds are then not shown to be proportional to the commands:
+///   - There are fewer than six such ratios, or their median is not positive.
+///   - Their commands differ by less than a factor of 3. (Over this factor, the ratios of a power
+///     law with the exponent b1 = 0.9 differ by 12 %.)
+std::optional<double> common_ratio_mps(std::vector<SpeedRatio> ratios) {
+  constexpr double kEqual = 0.05;
+  constexpr double kMostOf = 0.8;  // the others: short segments, in which the motion still changes
   constexpr double kRange = 3.0;
-  constexpr std::size_t kFewest = 6;
-  std::vector<double> commands;
-  std::vector<double> speeds_per_command;
-  for (const DrivingLog& log : logs) {
-    for (const SteadyWheel& wheel : steady_wheels(log, vehicle, kRule)) {
-      if (!(wheel.std_error < kKnown * std::abs(wheel.speed_mps)) || wheel.command == 0.0) continue;
-      commands.push_back(std::abs(wheel.command));
-      speeds_per_command.push_back(wheel.speed_mps / wheel.command);
-    }
-  }
-  if (commands.size() < kFewest) return std::nullopt;
-  const auto [least, most] = std::ranges::minmax(commands);
-  const double middle = median(speeds_per_command);
-  const bool is_proportional = std::ranges::all_of(speeds_per_command, [&](double ratio) {
-    return std::abs(ratio - middle) <= kProportional * std::abs(middle);
+  constexpr double kFewest = 6.0;
+  if (ratios.empty()) return std::nullopt;
+  std::vector<double> all;
+  for (const SpeedRatio& one : ratios) all.push_back(one.ratio_mps);
+  const double middle = median(all);
+  std::erase_if(ratios, [&](const SpeedRatio& one) {
+    return !(std::abs(one.ratio_mps - middle) <= kEqual * std::abs(middle));
   });
-  if (most < kRange * least || !is_proportional || !(middle > 0.0)) return std::nullopt;
+  const auto equal = static_cast<double>(ratios.size());
+  if (equal < std::max(kFewest, kMostOf * static_cast<double>(all.size()))) return std::nullopt;
+  const auto [least, most] = std::ranges::minmax(ratios, {}, &SpeedRatio::command);
+  if (most.command < kRange * least.command || !(middle > 0.0)) return std::nullopt;
   return middle;
 }
 
-std::vector<Finding> speed_control_findings(const Vehicle& vehicle,
-                                            const std::vector<DrivingLog>& logs,
-                                            const LogStage& stage,
-                                            std::optional<double> set_point_mps) {
-  const std::optional<double> slope_mps =
-      set_point_mps ? set_point_mps : fitted_speed_per_command(vehicle, logs, stage);
-  if (!slope_mps) return {};
-  return {
-      {logs.front().file, 0, Severity::kWarning, "speed-controlled",
-       fmt::format("each wheel rolls at {:.3g} m/s per unit of its command, at all speeds. Either "
-                   "motor drag is the only resistance, or force_left and force_right are "
-                   "set-points of a speed controller, and a1, a3, m' and I'z describe that "
-                   "controller. In that case log the commands that reach the motors",
-                   *slope_mps)}};
+/// Ratio of the steady speeds of the wheels to their commands, if common_ratio_mps() finds one.
+/// Uses only speeds with a standard error below 5 %. `only_turns`: only those in turns with
+/// different commands left and right.
+std::optional<double> measured_ratio_mps(const Vehicle& vehicle,
+                                         const std::vector<DrivingLog>& logs, bool only_turns) {
+  constexpr SteadyRule kRule{.settling_s = 0.5, .shortest_s = 0.5, .drift = 0.1};
+  constexpr double kKnown = 0.05;
+  std::vector<SpeedRatio> ratios;
+  for (const DrivingLog& log : logs) {
+    for (const SteadyWheel& wheel : steady_wheels(log, vehicle, kRule)) {
+      if (!(wheel.std_error < kKnown * std::abs(wheel.speed_mps)) || wheel.command == 0.0) continue;
+      if (only_turns && !wheel.turning) continue;
+      ratios.push_back({std::abs(wheel.command), wheel.speed_mps / wheel.command});
+    }
+  }
+  return common_ratio_mps(std::move(ratios));
+}
+
+}  // namespace
+
+std::optional<SpeedControl> find_speed_control(const Vehicle& vehicle,
+                                               const std::vector<DrivingLog>& logs,
+                                               const FamilyFit& chosen, bool is_adequate) {
+  const auto measured = measured_ratio_mps(vehicle, logs, is_adequate);
+  const auto fitted = fitted_ratio_mps(vehicle, logs, chosen);
+  if (!measured && !fitted) return std::nullopt;
+  return SpeedControl{measured ? *measured : *fitted, measured && !(is_adequate && fitted)};
+}
+
+Finding speed_control_finding(const SpeedControl& found, const std::string& file) {
+  return {file, 0, Severity::kWarning, "speed-controlled",
+          fmt::format("each wheel rolls at {:.3g} m/s per unit of its command, at all speeds. "
+                      "Either motor drag is the only resistance, or force_left and force_right are "
+                      "set-points of a speed controller, and a1, a3, m' and I'z describe that "
+                      "controller{}. In that case log the commands that reach the motors",
+                      found.speed_per_command_mps,
+                      found.withdraws ? ", so the intervals are withdrawn" : "")};
 }
 
 }  // namespace awmr

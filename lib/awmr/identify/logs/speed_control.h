@@ -3,36 +3,38 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "awmr/identify/logs/log_stage.h"
+#include "awmr/identify/logs/family_fit.h"
 
 namespace awmr {
 
-/// Median ratio of the steady speeds of the wheels to their commands, m/s. Uses only speeds with a
-/// standard error below 5 %. Empty in these cases, because the speeds are then not shown to be
-/// proportional to the commands:
-///   - There are fewer than six such speeds.
-///   - Their commands differ by less than a factor of 3.
-///   - A ratio differs from the median by more than 5 %. (A power law with the exponent b1 = 0.9
-///     gives differences of 6 %.)
-///   - The median is not positive.
-std::optional<double> speed_per_set_point(const Vehicle& vehicle,
-                                          const std::vector<DrivingLog>& logs);
+/// Result of find_speed_control().
+struct SpeedControl {
+  double speed_per_command_mps = 0.0;  ///< speed of each wheel divided by its command, m/s
+  bool withdraws = false;              ///< true: the intervals of the fit are not valid
+};
 
-/// Returns the warning `speed-controlled` if the speed at which each wheel rolls seems to be
-/// proportional to its command. Either motor drag is then the only resistance, or the log has the
-/// set-points of a speed controller instead of forces. One of these signs suffices:
+/// Decides whether the speed at which each wheel rolls seems to be proportional to its command.
+/// Either motor drag is then the only resistance, or the log has the set-points of a speed
+/// controller instead of forces. One of these signs suffices:
 ///   - Both fitted resistances are linear, and the yaw coefficient a3 is d^2 times the surge
 ///     coefficient a1 (d: half of the track width):
 ///
 ///         tau_speed = a1 u,   tau_turn = a3 r = d^2 a1 r
 ///
-///   - The model does not describe the logs (`model-inadequate`), and `set_point_mps`, the result
-///     of speed_per_set_point(), is not empty.
-std::vector<Finding> speed_control_findings(const Vehicle& vehicle,
-                                            const std::vector<DrivingLog>& logs,
-                                            const LogStage& stage,
-                                            std::optional<double> set_point_mps);
+///   - The measured steady speeds of the wheels are proportional to their commands. If the model
+///     describes the logs (`is_adequate`), only speeds in turns with different commands left and
+///     right count: for a vehicle without speed controller, inner and outer wheels then have
+///     different ratios, unless its only resistance is motor drag.
+///
+/// The second sign withdraws the intervals, unless the model describes the logs and has the first
+/// sign too: a vehicle with motor drag alone.
+std::optional<SpeedControl> find_speed_control(const Vehicle& vehicle,
+                                               const std::vector<DrivingLog>& logs,
+                                               const FamilyFit& chosen, bool is_adequate);
+
+Finding speed_control_finding(const SpeedControl& found, const std::string& file);
 
 }  // namespace awmr
