@@ -76,6 +76,22 @@ TEST_F(JsonObjectTest, OptionalKeysMayBeAbsent) {
   EXPECT_THAT(faults(), IsEmpty());
 }
 
+TEST_F(JsonObjectTest, AReaderOfAnObjectRejectsItsUnknownKeys) {
+  const auto read = [](JsonObject& json) { return json.number("k"); };
+  JsonObject object = root(R"({"o": {"k": 1}, "e": [{"k": 2}, {"k": 3, "x": 0}], "p": {"y": 0}})");
+  EXPECT_EQ(object.object("o", read), 1.0);
+  EXPECT_EQ(object.optional_object("o", read), 1.0);
+  EXPECT_FALSE(object.optional_object("absent", read));
+  EXPECT_THAT(object.objects("e", read), ElementsAre(2.0, 3.0));
+  EXPECT_THAT(object.optional_objects("absent", read), IsEmpty());
+  EXPECT_TRUE(std::isnan(object.object("p", read)));
+  EXPECT_TRUE(std::isnan(object.object("missing", read)));
+  std::vector<std::string> places;
+  for (const Fault& fault : faults_) places.push_back(fault.place);
+  EXPECT_THAT(places,
+              ElementsAre("a.json:/e/1/x", "a.json:/p/k", "a.json:/p/y", "a.json:/missing"));
+}
+
 TEST_F(JsonObjectTest, MissingKeysAreAllNamed) {
   JsonObject object = root("{}");
   EXPECT_TRUE(std::isnan(object.number("a")));

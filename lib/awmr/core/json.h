@@ -3,6 +3,7 @@
 /// Include this header from .cpp files only, because nlohmann/json is slow to compile.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -27,6 +28,13 @@ using Json = nlohmann::ordered_json;
 Result<Json> read_json_file(const std::filesystem::path& path);
 
 class JsonShape;
+class JsonObject;
+
+/// Function that reads the keys of an object and returns a value. It takes `JsonObject&`: a copy
+/// would not mark the keys of the object as known.
+template <class Read>
+concept ObjectReader =
+    std::invocable<const Read&, JsonObject&> && !std::invocable<const Read&, JsonObject>;
 
 /// A strict view of one JSON object. Each function that reads a key marks the key as known. Faults:
 /// a value of the wrong type or out of range; a missing key (except in the optional_ functions). On
@@ -82,9 +90,39 @@ class JsonObject {
   /// that reports no further faults.
   JsonObject object(std::string_view key);
   std::optional<JsonObject> optional_object(std::string_view key);
+  /// Returns read(*this), and then rejects the keys that it did not read.
+  template <ObjectReader Read>
+  auto read_by(const Read& read) {
+    auto value = read(*this);
+    reject_unknown_keys();
+    return value;
+  }
+  /// Reads the object under the key by read_by().
+  template <ObjectReader Read>
+  auto object(std::string_view key, const Read& read) {
+    return object(key).read_by(read);
+  }
+  template <ObjectReader Read>
+  auto optional_object(std::string_view key, const Read& read) {
+    using Value = decltype(read(*this));
+    return has(key) ? std::optional<Value>(object(key, read)) : std::optional<Value>();
+  }
   /// The elements of an array of objects.
   std::vector<JsonObject> objects(std::string_view key);
   std::vector<JsonObject> optional_objects(std::string_view key);
+  /// Reads each element by read_by().
+  template <ObjectReader Read>
+  auto objects(std::string_view key, const Read& read) {
+    std::vector<decltype(read(*this))> values;
+    for (JsonObject& element : objects(key)) values.push_back(element.read_by(read));
+    return values;
+  }
+  template <ObjectReader Read>
+  auto optional_objects(std::string_view key, const Read& read) {
+    std::vector<decltype(read(*this))> values;
+    for (JsonObject& element : optional_objects(key)) values.push_back(element.read_by(read));
+    return values;
+  }
   /// The values of this object, if its keys are arbitrary and its values are all objects.
   std::vector<JsonObject> values();
   /// Marks a key as known without reading its value; the key may be missing.
