@@ -101,6 +101,7 @@ def pipeline(folder):
         awmr("recover --model out/model.json --runs 5 -o recover.json --json", folder),
         awmr("map datasets/synthetic/drive_1.csv -o map.json --json", folder),
         awmr(f"simulate {loop} --scenario {c3} --mode combined -o run.csv --json", folder),
+        awmr(f"simulate {loop} --scenario configs/scenarios/gps_dropout.json --mode combined -o gps_run.csv --json", folder),
         awmr(f"compare {loop} --scenario {c3} --samples 2 --shard 1/2 -o part1 --json", folder),
         awmr(f"compare {loop} --scenario {c3} --samples 2 --shard 2/2 -o part2 --json", folder),
         awmr("merge part1 part2 -o merged --json", folder),

@@ -20,7 +20,7 @@ void describe_run(JsonObject& json) {
   json.optional_string("scenario");
   json.optional_string("mode");
   json.optional_string("plant");
-  for (const char* key : {"rows", "substeps", "missed_waypoints"}) {
+  for (const char* key : {"rows", "substeps", "missed_waypoints", "position_resets"}) {
     json.optional_integer(key, 0, std::numeric_limits<int>::max());
   }
   json.optional_string("end");
