@@ -363,6 +363,29 @@ TEST_F(Batch, IsTheRunOfSimulateWithFrontWheelDrive) {
   }
 }
 
+/// Coulomb friction in yaw with tuned friction widths, which differ between the modes. Tyre work is
+/// against the friction itself: the width changes the commands only.
+TEST_F(Batch, IsTheRunOfSimulateWithTunedFrictionWidths) {
+  for (const YawMode mode : kYawModes) {
+    std::vector<BatchRun> runs = drawn_runs(2, 0.2, mode);
+    Gains<double> gains = kPaperGains;
+    gains.heading.friction_width_radps = 0.3;
+    gains.heading.combined_friction_width_radps = 0.1;
+    for (BatchRun& run : runs) {
+      run.plant.yaw.coulomb = 0.01;
+      run.controller = make_controller(run.plant, paper_vehicle(), gains);
+    }
+    for (const Scenario& scenario : shipped_scenarios(30.0)) {
+      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, batch_arithmetic().value());
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        expect_near(
+            batch[i].value(), reference_of(runs[i], scenario),
+            scenario.name + ", " + std::string(name_of(mode)) + ", run " + std::to_string(i));
+      }
+    }
+  }
+}
+
 TEST_F(Batch, DoesNotDependOnOtherRunsAndPosition) {
   std::vector<BatchRun> runs = drawn_runs(37, 0.2);
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].mode = kYawModes[i % std::size(kYawModes)];

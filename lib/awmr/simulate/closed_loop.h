@@ -136,7 +136,7 @@ void ClosedLoop<Row>::set_up_controller(const BatchRun& run, std::size_t index) 
   setup.is_observed =
       setup.is_observed || (own.yaw_observer.bandwidth_radps > 0.0 && !setup.is_open_loop);
   put(own, index, runs_->controller);
-  put(metered_vehicle(controller.limits), index, runs_->metered);
+  put(metered_vehicle(controller), index, runs_->metered);
 }
 
 template <class Row>

@@ -71,12 +71,10 @@ AWMR_WHOLE void measure(const View& view, LoopRuns<Row>& runs) {
   using math::all;
   using T = typename View::Number;
   const Vehicles<Row>& v = runs.vehicles;
-  const State<T> state = view(v.state);
-  const Resistance<T> yaw = view(runs.controller.laws.yaw);
   MetricsAccumulator<T> sums = view(runs.sums);
   awmr::measure<T>(
-      {state, view(v.force), acting_forces(view, v), view(v.steering_command_rad),
-       yaw(state.r_radps), view(runs.goal_rad), view(runs.cross_track_m), view(runs.off_target_m),
+      {view(v.state), view(v.force), acting_forces(view, v), view(v.steering_command_rad),
+       view(runs.goal_rad), view(runs.cross_track_m), view(runs.off_target_m),
        view(runs.clearance_m), view(runs.reference.speed_mps), view(v.tyre_power_mps)},
       view(runs.metered), runs.task, runs.time, sums);
   const Mask<T> counts = view(v.active) > T(0.0);

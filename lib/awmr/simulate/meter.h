@@ -11,7 +11,7 @@
 
 namespace awmr {
 
-/// Data of the vehicle that the metrics need. They are taken from the limits of its controller.
+/// Data of the vehicle that the metrics need. They are taken from its controller.
 template <class T>
 struct MetricsVehicle {
   T front_axle_m;      ///< l_f, m
@@ -23,6 +23,9 @@ struct MetricsVehicle {
   T dead_zone;         ///< dead zone F'0 of the motors, divided by F_max
   T back_emf_s_per_m;  ///< k_e of the motors, s/m
   T rear_driven;       ///< 1: all wheels are driven; 0: only the front wheels
+  /// Yaw resistance g3 in the controller's model, without a chord at rest: the work against it does
+  /// not depend on the friction width of the gains.
+  Resistance<T> yaw;
 };
 
 /// Properties of the scenario that the metrics need. They are the same for all runs.
@@ -43,7 +46,6 @@ struct MetricsRow {
   SideForces<T> force;     ///< motor commands, divided by F_max: RunRow::force
   WheelForces<T> acting;   ///< forces over the sample that ends at this row: RunRow::acting
   T steering_command_rad;  ///< d_ro: commanded steering angle, rad
-  T yaw_resistance_m;      ///< yaw resistance g3(r) in the controller's model
   T goal_rad;              ///< desired heading of the guidance, before avoidance and shaping
   T cross_track_m;         ///< distance from the current leg, line or path, left positive
   T off_target_m;          ///< distance from the guidance's target point (PathRow::target_m)
@@ -296,7 +298,7 @@ void remember(const MetricsRow<T>& row, const MetricsVehicle<T>& vehicle, double
   using math::select;
   m.t_s = T(t_s);
   m.rolling = wheel_speeds(vehicle.front_axle_m, vehicle.half_track_m, row.state);
-  m.yaw_resistance_m = row.yaw_resistance_m;
+  m.yaw_resistance_m = vehicle.yaw(row.state.r_radps);
   m.r_radps = row.state.r_radps;
   m.tyre_power_mps = row.tyre_power_mps;
   m.limited = select(at_a_limit(row, vehicle), T(1.0), T(0.0));

@@ -33,7 +33,7 @@ class MeterClock {
 };
 
 /// Returns the data of the vehicle that the accumulator needs.
-MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits);
+MetricsVehicle<double> metered_vehicle(const Controller<double>& controller);
 /// Returns the properties of the scenario that the accumulator needs.
 MetricsTask metrics_task(const Scenario& scenario);
 /// Computes the metrics of a run from the sums over all of its rows. Precondition: at least one

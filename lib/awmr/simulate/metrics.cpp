@@ -51,7 +51,10 @@ MetricsTime MeterClock::next(double t_s) {
   return time;
 }
 
-MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits) {
+MetricsVehicle<double> metered_vehicle(const Controller<double>& controller) {
+  const AllocationLimits<double>& limits = controller.limits;
+  Resistance<double> yaw = controller.yaw;
+  yaw.rest_speed = 0.0;
   return {.front_axle_m = limits.front_axle_m,
           .half_track_m = limits.half_track_m,
           .force_max = limits.force_max,
@@ -60,7 +63,8 @@ MetricsVehicle<double> metered_vehicle(const AllocationLimits<double>& limits) {
           .steering_max_rad = limits.steering_max_rad,
           .dead_zone = limits.dead_zone,
           .back_emf_s_per_m = limits.back_emf_s_per_m,
-          .rear_driven = limits.is_rear_driven ? 1.0 : 0.0};
+          .rear_driven = limits.is_rear_driven ? 1.0 : 0.0,
+          .yaw = yaw};
 }
 
 std::optional<double> electric_work_j(const Metrics& metrics, const Vehicle& vehicle,
@@ -136,7 +140,7 @@ Metrics metrics_of(MetricsAccumulator<double> sums, const Ending& ending,
 }
 
 Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<double>& controller) {
-  const MetricsVehicle<double> vehicle = metered_vehicle(controller.limits);
+  const MetricsVehicle<double> vehicle = metered_vehicle(controller);
   const MetricsTask task = metrics_task(scenario);
   MeterClock clock(scenario, run.rows.size() - 1);
   MetricsAccumulator<double> sums;
@@ -145,7 +149,6 @@ Metrics metrics_of(const Run& run, const Scenario& scenario, const Controller<do
              .force = row.force,
              .acting = row.acting,
              .steering_command_rad = row.steering_command_rad,
-             .yaw_resistance_m = controller.yaw(row.state.r_radps),
              .goal_rad = goal_rad(row, scenario),
              .cross_track_m = row.path.cross_track_m,
              .off_target_m = distance_m(row.path.target_m, {row.state.x_m, row.state.y_m}),
