@@ -11,29 +11,37 @@
 
 namespace awmr {
 
+namespace {
+
+HeadingGains<double> heading_from_json(JsonObject& json) {
+  return {.lambda = json.number("lambda", kGain),
+          .mu = json.number("mu", kGain),
+          .epsilon = json.number("epsilon", kGain),
+          .friction_width_radps = json.optional_number("friction_width_radps", kFrictionWidth_radps)
+                                      .value_or(feed_forward_rest_speed<double>()),
+          .combined_friction_width_radps =
+              json.optional_number("combined_friction_width_radps", kFrictionWidth_radps)
+                  .value_or(0.0)};
+}
+
+SpeedGains<double> speed_from_json(JsonObject& json) {
+  return {.mu = json.number("mu", kGain), .epsilon = json.number("epsilon", kGain)};
+}
+
+ObserverGains<double> observer_from_json(JsonObject& json) {
+  return {.bandwidth_radps = json.number("bandwidth_radps", kObserverBandwidth),
+          .yaw_max_m = json.number("yaw_max_m", kObserverLimit),
+          .surge_max = json.number("surge_max", kObserverLimit)};
+}
+
+}  // namespace
+
 Gains<double> gains_from_json(JsonObject& root) {
-  JsonObject heading = root.object("heading");
-  JsonObject speed = root.object("speed");
-  Gains<double> gains{
-      .heading = {.lambda = heading.number("lambda", kGain),
-                  .mu = heading.number("mu", kGain),
-                  .epsilon = heading.number("epsilon", kGain),
-                  .friction_width_radps =
-                      heading.optional_number("friction_width_radps", kFrictionWidth_radps)
-                          .value_or(feed_forward_rest_speed<double>()),
-                  .combined_friction_width_radps =
-                      heading.optional_number("combined_friction_width_radps", kFrictionWidth_radps)
-                          .value_or(0.0)},
-      .speed = {.mu = speed.number("mu", kGain), .epsilon = speed.number("epsilon", kGain)}};
-  heading.reject_unknown_keys();
-  speed.reject_unknown_keys();
-  if (auto observer = root.optional_object("observer")) {
-    gains.observer = {.bandwidth_radps = observer->number("bandwidth_radps", kObserverBandwidth),
-                      .yaw_max_m = observer->number("yaw_max_m", kObserverLimit),
-                      .surge_max = observer->number("surge_max", kObserverLimit)};
-    observer->reject_unknown_keys();
-  }
-  return gains;
+  return {
+      .heading = root.object("heading", heading_from_json),
+      .speed = root.object("speed", speed_from_json),
+      .observer =
+          root.optional_object("observer", observer_from_json).value_or(ObserverGains<double>{})};
 }
 
 namespace {

@@ -45,7 +45,7 @@ Json estimate_to_json(const Estimate& estimate, std::string_view unit) {
 }
 
 /// Reads the five quantiles, which must ascend and be within rule_of_quantile().
-Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
+Quantiles quantiles_from_json(JsonObject& json, const ParameterInfo& parameter) {
   Quantiles quantiles{};
   for (std::size_t q = 0; q < kQuantileCount; ++q) {
     quantiles[q] = json.number(kQuantiles[q].key, rule_of_quantile(parameter.id));
@@ -55,11 +55,10 @@ Quantiles quantiles_from_json(JsonObject json, const ParameterInfo& parameter) {
         fmt::format("the quantile {:g} is below the quantile before it, {:g}; identify again",
                     quantiles[q], quantiles[q - 1]));
   }
-  json.reject_unknown_keys();
   return quantiles;
 }
 
-Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
+Estimate estimate_from_json(JsonObject& json, const ParameterInfo& parameter) {
   Estimate estimate;
   estimate.value = json.nullable_number("value", rule_of(parameter.id));
   estimate.std_error = json.nullable_number("std_error", kNonNegative);
@@ -68,10 +67,8 @@ Estimate estimate_from_json(JsonObject json, const ParameterInfo& parameter) {
   json.choice("unit", unit);
   estimate.source = json.choice("source", kSourceNames);
   estimate.method = json.string("method");
-  if (const auto quantiles = json.optional_object("quantiles")) {
-    estimate.quantiles = quantiles_from_json(*quantiles, parameter);
-  }
-  json.reject_unknown_keys();
+  estimate.quantiles = json.optional_object(
+      "quantiles", [&](JsonObject& object) { return quantiles_from_json(object, parameter); });
   return estimate;
 }
 
@@ -82,6 +79,7 @@ void estimates_from_json(JsonObject& root, Model& model) {
   for (const ParameterInfo& parameter : parameter_table()) {
     const std::string_view path = parameter.pointer.substr(1);
     const std::size_t slash = path.find('/');
+    const auto read = [&](JsonObject& json) { return estimate_from_json(json, parameter); };
     if (parameter.term) {
       const std::string group(path.substr(0, slash));
       if (!groups.contains(group)) {
@@ -89,20 +87,19 @@ void estimates_from_json(JsonObject& root, Model& model) {
         if (!object) continue;
         groups.emplace(group, *object);
       }
-      if (const auto term = groups.at(group).optional_object(path.substr(slash + 1))) {
-        model[parameter.id] = estimate_from_json(*term, parameter);
+      if (auto term = groups.at(group).optional_object(path.substr(slash + 1), read)) {
+        model[parameter.id] = *std::move(term);
       }
       continue;
     }
     if (slash == std::string_view::npos) {
-      model[parameter.id] = estimate_from_json(root.object(path), parameter);
+      model[parameter.id] = root.object(path, read);
       continue;
     }
     const std::string group(path.substr(0, slash));
     auto place = groups.find(group);
     if (place == groups.end()) place = groups.emplace(group, root.object(group)).first;
-    model[parameter.id] =
-        estimate_from_json(place->second.object(path.substr(slash + 1)), parameter);
+    model[parameter.id] = place->second.object(path.substr(slash + 1), read);
   }
   const auto family = [&groups](const std::string& group) {
     JsonObject& json = groups.at(group);
@@ -143,7 +140,7 @@ Json scrub_to_json(const YawScrub& scrub) {
   return json;
 }
 
-YawScrub scrub_from_json(JsonObject json) {
+YawScrub scrub_from_json(JsonObject& json) {
   YawScrub scrub;
   scrub.moment_m = json.number("moment_m", {.min = -1e6, .max = 1e6});
   scrub.std_error_m = json.number("std_error_m", {.min = 0.0, .max = 1e6, .min_excluded = true});
@@ -151,7 +148,6 @@ YawScrub scrub_from_json(JsonObject json) {
   scrub.rows = static_cast<int>(json.integer("rows", 3, 1'000'000'000L));
   scrub.yaw_rate_radps = json.interval("yaw_rate_radps");
   scrub.changing_m = json.optional_interval("changing_m");
-  json.reject_unknown_keys();
   return scrub;
 }
 
@@ -160,13 +156,6 @@ Json list_to_json(const std::vector<Item>& items, ToJson to_json) {
   Json list = Json::array();
   for (const Item& item : items) list.push_back(to_json(item));
   return list;
-}
-
-template <class FromJson>
-auto list_from_json(JsonObject& root, std::string_view key, FromJson from_json) {
-  std::vector<decltype(from_json(root))> items;
-  for (const JsonObject& item : root.objects(key)) items.push_back(from_json(item));
-  return items;
 }
 
 }  // namespace
@@ -207,20 +196,18 @@ Model model_from_json(JsonObject& root) {
   JsonObject vehicle = root.object("vehicle");
   model.vehicle = vehicle_from_json(vehicle);
   estimates_from_json(root, model);
-  model.record.reports = list_from_json(root, "estimates", report_from_json);
-  model.covariance = covariance_from_json(root.object("covariance"));
+  model.record.reports = root.objects("estimates", report_from_json);
+  model.covariance = root.object("covariance", covariance_from_json);
   model.mass_norm_by_grip = root.optional_number("mass_norm_by_grip", kCoefficient);
-  if (const auto scrub = root.optional_object("yaw_scrub")) {
-    model.yaw_scrub = scrub_from_json(*scrub);
-  }
+  model.yaw_scrub = root.optional_object("yaw_scrub", scrub_from_json);
   constexpr NumberRule kAMoment{.min = 0.0, .max = 1e6, .min_excluded = true};
   constexpr NumberRule kARate{.min = 0.0, .max = 1e3, .min_excluded = true};
   model.yaw_held_m = root.optional_number("yaw_held_m", kAMoment);
   model.yaw_by_sides_alone = root.optional_boolean("yaw_by_sides_alone").value_or(false);
   model.record.logged_yaw_rate_radps = root.optional_number("logged_yaw_rate_radps", kARate);
   root.optional_object("si");
-  model.record.findings = list_from_json(root, "findings", finding_from_json);
-  model.record.trials = list_from_json(root, "trials", trial_from_json);
+  model.record.findings = root.objects("findings", finding_from_json);
+  model.record.trials = root.objects("trials", trial_from_json);
   root.reject_unknown_keys();
   return model;
 }

@@ -114,7 +114,7 @@ void check_covariance(JsonObject& json, const std::vector<std::vector<double>>& 
   }
 }
 
-EstimatorParameter parameter_from_json(JsonObject json) {
+EstimatorParameter parameter_from_json(JsonObject& json) {
   EstimatorParameter parameter;
   parameter.name = json.string("name");
   if (!parameter.name.empty() && !is_estimated_name(parameter.name)) {
@@ -125,7 +125,6 @@ EstimatorParameter parameter_from_json(JsonObject json) {
   parameter.std_error = json.nullable_number("std_error", kNonNegative);
   parameter.ci95 = json.nullable_interval("ci95");
   if (json.has("profile95")) parameter.profile95 = json.nullable_interval("profile95");
-  json.reject_unknown_keys();
   return parameter;
 }
 
@@ -156,23 +155,17 @@ void read_details(JsonObject& json, EstimatorReport& report) {
   report.family = json.optional_string("family").value_or("");
   report.weight = json.optional_number("weight", {.min = 0.0, .max = 1.0, .min_excluded = true});
   if (json.has("aicc")) report.aicc = json.nullable_number("aicc");
-  for (JsonObject& entry : json.optional_objects("diagnostics")) {
-    report.diagnostics.push_back(
-        {entry.string("name"), entry.nullable_number("statistic").value_or(kNaN),
-         entry.nullable_number("p_value").value_or(kNaN), entry.string("meaning")});
-    entry.reject_unknown_keys();
-  }
-  for (JsonObject& entry : json.optional_objects("leave_one_out")) {
-    report.leave_one_out.push_back(
-        {entry.string("file"), count(entry, "line"), entry.numbers("values")});
-    entry.reject_unknown_keys();
-  }
-  for (JsonObject& entry : json.optional_objects("starts")) {
-    report.starts.push_back({entry.numbers("values"),
-                             entry.nullable_number("cost").value_or(kInfinity),
-                             entry.boolean("chosen"), entry.string("stop_reason")});
-    entry.reject_unknown_keys();
-  }
+  report.diagnostics = json.optional_objects("diagnostics", [](JsonObject& entry) {
+    return Diagnostic{entry.string("name"), entry.nullable_number("statistic").value_or(kNaN),
+                      entry.nullable_number("p_value").value_or(kNaN), entry.string("meaning")};
+  });
+  report.leave_one_out = json.optional_objects("leave_one_out", [](JsonObject& entry) {
+    return LeaveOneOut{entry.string("file"), count(entry, "line"), entry.numbers("values")};
+  });
+  report.starts = json.optional_objects("starts", [](JsonObject& entry) {
+    return SearchStart{entry.numbers("values"), entry.nullable_number("cost").value_or(kInfinity),
+                       entry.boolean("chosen"), entry.string("stop_reason")};
+  });
 }
 
 Json finding_to_json(const Finding& finding) {
@@ -222,14 +215,12 @@ Json report_to_json(const EstimatorReport& report) {
   return json;
 }
 
-EstimatorReport report_from_json(JsonObject json) {
+EstimatorReport report_from_json(JsonObject& json) {
   EstimatorReport report;
   report.subject = json.choice("subject", kFitSubjectNames);
   report.estimator = json.choice("estimator", kEstimatorNames);
   report.noise = json.string("noise");
-  for (JsonObject& parameter : json.objects("parameters")) {
-    report.parameters.push_back(parameter_from_json(parameter));
-  }
+  report.parameters = json.objects("parameters", parameter_from_json);
   // residual_std is null for a fit without degrees of freedom: it has no spread of residuals.
   // condition_number is null for a rank-deficient fit: it is infinite.
   report.residual_std = json.nullable_number("residual_std", kNonNegative).value_or(kNaN);
@@ -240,7 +231,6 @@ EstimatorReport report_from_json(JsonObject json) {
       json.nullable_number("condition_number", kNonNegative).value_or(kInfinity);
   report.stop_reason = json.string("stop_reason");
   read_details(json, report);
-  json.reject_unknown_keys();
   return report;
 }
 
@@ -252,7 +242,7 @@ Json covariance_to_json(const Covariance& covariance) {
   return json;
 }
 
-Covariance covariance_from_json(JsonObject json) {
+Covariance covariance_from_json(JsonObject& json) {
   Covariance covariance;
   const std::vector<std::string> names = json.strings("parameters");
   for (const std::string& name : names) {
@@ -271,7 +261,6 @@ Covariance covariance_from_json(JsonObject json) {
     covariance.matrix = matrix_from_json(json, *matrix, names.size());
     check_covariance(json, covariance.matrix);
   }
-  json.reject_unknown_keys();
   return covariance;
 }
 
@@ -281,16 +270,10 @@ Json findings_to_json(const std::vector<Finding>& findings) {
   return list;
 }
 
-void describe_findings(JsonObject& json) {
-  for (const JsonObject& finding : json.objects("findings")) finding_from_json(finding);
-}
+void describe_findings(JsonObject& json) { json.objects("findings", finding_from_json); }
 
 std::vector<Finding> read_findings(JsonObject& json) {
-  std::vector<Finding> findings;
-  for (const JsonObject& finding : json.optional_objects("findings")) {
-    findings.push_back(finding_from_json(finding));
-  }
-  return findings;
+  return json.optional_objects("findings", finding_from_json);
 }
 
 std::string with_findings(const std::string& document, const std::vector<Finding>& findings) {
@@ -304,14 +287,13 @@ std::string with_findings(const std::string& document, const std::vector<Finding
   return to_text(json);
 }
 
-Finding finding_from_json(JsonObject json) {
+Finding finding_from_json(JsonObject& json) {
   Finding finding;
   finding.file = json.string("file");
   finding.line = count(json, "line");
   finding.severity = json.choice("severity", kSeverityNames);
   finding.code = json.string("code");
   finding.message = json.string("message");
-  json.reject_unknown_keys();
   return finding;
 }
 
@@ -326,7 +308,7 @@ Json trial_to_json(const TrialPoint& trial) {
   return json;
 }
 
-TrialPoint trial_from_json(JsonObject json) {
+TrialPoint trial_from_json(JsonObject& json) {
   TrialPoint trial;
   trial.kind = json.choice("kind", kTableNames);
   trial.file = json.string("file");
@@ -334,7 +316,6 @@ TrialPoint trial_from_json(JsonObject json) {
   trial.input = json.number("input");
   trial.measured = json.number("measured");
   trial.predicted = json.nullable_number("predicted");
-  json.reject_unknown_keys();
   return trial;
 }
 

@@ -11,17 +11,17 @@ Json number_or_null(const std::optional<double>& value);
 Json interval_or_null(const std::optional<Interval>& interval);
 
 Json report_to_json(const EstimatorReport& report);
-EstimatorReport report_from_json(JsonObject json);
+EstimatorReport report_from_json(JsonObject& json);
 
 Json covariance_to_json(const Covariance& covariance);
 /// Reads the covariance of the parameters. Faults: unknown or repeated parameters; a matrix that
 /// has the wrong size, is not symmetric, has a negative variance, or correlations that contradict
 /// each other.
-Covariance covariance_from_json(JsonObject json);
+Covariance covariance_from_json(JsonObject& json);
 
-Finding finding_from_json(JsonObject json);
+Finding finding_from_json(JsonObject& json);
 
 Json trial_to_json(const TrialPoint& trial);
-TrialPoint trial_from_json(JsonObject json);
+TrialPoint trial_from_json(JsonObject& json);
 
 }  // namespace awmr

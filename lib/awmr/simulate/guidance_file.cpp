@@ -27,12 +27,9 @@ constexpr NumberRule kBelowRightAngle{.min = 0.0, .max = 89.0};
 HeadingSteps read_heading_steps(JsonObject& json) {
   HeadingSteps heading;
   heading.tau_speed = json.optional_number("tau_speed", kForce);
-  std::vector<JsonObject> steps = json.objects("steps");
-  for (JsonObject& step : steps) {
-    heading.steps.push_back(
-        {step.number("t_s", kTime_s), radians(step.number("psi_deg", kAngle_deg))});
-    step.reject_unknown_keys();
-  }
+  heading.steps = json.objects("steps", [](JsonObject& step) {
+    return HeadingStep{step.number("t_s", kTime_s), radians(step.number("psi_deg", kAngle_deg))};
+  });
   if (json.size("steps") == 0 || (!heading.steps.empty() && heading.steps.front().t_s > 0.0)) {
     json.fault(ErrorCode::kWrongOrder, "steps",
                fmt::format("the first step must be at t_s = 0, but {}; add a step at 0",
@@ -170,61 +167,44 @@ LissajousPath read_lissajous(JsonObject& json) {
 
 }  // namespace
 
-Guidance read_guidance(JsonObject json) {
-  Guidance guidance;
+Guidance read_guidance(JsonObject& json) {
   switch (json.choice("type", kGuidanceTypes)) {
     case GuidanceType::kOpenLoop:
-      guidance = OpenLoop{json.number("tau_speed", kForce), json.number("tau_turn", kForce)};
-      break;
+      return OpenLoop{json.number("tau_speed", kForce), json.number("tau_turn", kForce)};
     case GuidanceType::kHeading:
-      guidance = read_heading_steps(json);
-      break;
+      return read_heading_steps(json);
     case GuidanceType::kWaypoints:
-      guidance = read_waypoints(json);
-      break;
+      return read_waypoints(json);
     case GuidanceType::kLine:
-      guidance = read_line(json);
-      break;
+      return read_line(json);
     case GuidanceType::kLissajous:
-      guidance = read_lissajous(json);
-      break;
+      return read_lissajous(json);
   }
-  json.reject_unknown_keys();
-  return guidance;
+  return {};  // not reached
 }
 
-std::vector<Obstacle<double>> read_obstacles(JsonObject& scenario) {
-  std::vector<Obstacle<double>> obstacles;
-  for (JsonObject& json : scenario.optional_objects("obstacles")) {
-    obstacles.push_back({{json.number("x_m", kCoordinate_m), json.number("y_m", kCoordinate_m)},
-                         json.number("radius_m", kLength_m)});
-    json.reject_unknown_keys();
-  }
-  return obstacles;
+Obstacle<double> read_obstacle(JsonObject& json) {
+  return {{json.number("x_m", kCoordinate_m), json.number("y_m", kCoordinate_m)},
+          json.number("radius_m", kLength_m)};
 }
 
-Avoidance<double> read_avoidance(JsonObject json) {
-  const Avoidance<double> avoidance{
-      .mmd_base_m = json.number("mmd_base_m", kLength_m),
-      .mmd_per_speed_s = json.number("mmd_per_speed_s", kTime_s),
-      .sigma_rad = radians(json.number("sigma_deg", kBelowRightAngle)),
-      .vehicle_radius_m = json.number("vehicle_radius_m", kLengthOrNone_m),
-      .clearance_m = json.number("clearance_m", kLength_m),
-      .hysteresis_m = json.number("hysteresis_m", kLengthOrNone_m),
-      .side_hysteresis_rad =
-          radians(json.number("side_hysteresis_deg", {.min = 0.0, .max = 180.0})),
-      .brake_m = json.number("brake_m", kLength_m)};
-  json.reject_unknown_keys();
-  return avoidance;
+Avoidance<double> read_avoidance(JsonObject& json) {
+  return {.mmd_base_m = json.number("mmd_base_m", kLength_m),
+          .mmd_per_speed_s = json.number("mmd_per_speed_s", kTime_s),
+          .sigma_rad = radians(json.number("sigma_deg", kBelowRightAngle)),
+          .vehicle_radius_m = json.number("vehicle_radius_m", kLengthOrNone_m),
+          .clearance_m = json.number("clearance_m", kLength_m),
+          .hysteresis_m = json.number("hysteresis_m", kLengthOrNone_m),
+          .side_hysteresis_rad =
+              radians(json.number("side_hysteresis_deg", {.min = 0.0, .max = 180.0})),
+          .brake_m = json.number("brake_m", kLength_m)};
 }
 
-HeadingShaping<double> read_shaping(JsonObject json) {
-  const HeadingShaping<double> shaping{
+HeadingShaping<double> read_shaping(JsonObject& json) {
+  return {
       .omega_radps = json.number("omega_radps", {.min = 0.0, .max = 50.0, .min_excluded = true}),
       .rate_max_radps = radians(json.number("rate_max_degps", kRate)),
       .accel_max_radps2 = radians(json.number("accel_max_degps2", kRate))};
-  json.reject_unknown_keys();
-  return shaping;
 }
 
 }  // namespace awmr

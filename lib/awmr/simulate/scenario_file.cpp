@@ -9,16 +9,14 @@
 namespace awmr {
 namespace {
 
-State<double> read_initial(JsonObject json) {
-  State<double> state{};
-  state.x_m = json.number("x_m", kCoordinate_m);
-  state.y_m = json.number("y_m", kCoordinate_m);
-  state.psi_rad = radians(json.number("psi_deg", kAngle_deg));
-  state.u_mps = json.number("u_mps", kSignedSpeed_mps);
-  state.v_mps = json.number("v_mps", kSignedSpeed_mps);
-  state.r_radps = radians(json.number("r_degps", kYawRate_degps));
-  json.reject_unknown_keys();
-  return state;
+State<double> read_initial(JsonObject& json) {
+  return {.x_m = json.number("x_m", kCoordinate_m),
+          .y_m = json.number("y_m", kCoordinate_m),
+          .psi_rad = radians(json.number("psi_deg", kAngle_deg)),
+          .u_mps = json.number("u_mps", kSignedSpeed_mps),
+          .v_mps = json.number("v_mps", kSignedSpeed_mps),
+          .r_radps = radians(json.number("r_degps", kYawRate_degps)),
+          .steering_rad = 0.0};
 }
 
 /// Reads speed_mps, the commanded speed u_d. With a constant thrust (`holds_thrust`), there is no
@@ -74,14 +72,12 @@ Scenario scenario_from_json(JsonObject& json) {
   json.schema(kScenarioSchema);
   scenario.name = json.string("name");
   scenario.duration_s = json.number("duration_s", kDuration_s);
-  scenario.initial = read_initial(json.object("initial"));
-  scenario.guidance = read_guidance(json.object("guidance"));
+  scenario.initial = json.object("initial", read_initial);
+  scenario.guidance = json.object("guidance", read_guidance);
   scenario.speed_mps = read_speed(json, scenario.held_tau_speed().has_value());
-  scenario.obstacles = read_obstacles(json);
-  if (auto avoidance = json.optional_object("avoidance")) {
-    scenario.avoidance = read_avoidance(*avoidance);
-  }
-  if (auto shaping = json.optional_object("shaping")) scenario.shaping = read_shaping(*shaping);
+  scenario.obstacles = json.optional_objects("obstacles", read_obstacle);
+  scenario.avoidance = json.optional_object("avoidance", read_avoidance);
+  scenario.shaping = json.optional_object("shaping", read_shaping);
   read_world(json, scenario);
   scenario.seed =
       static_cast<std::uint64_t>(json.optional_integer("seed", 0, 1000000000L).value_or(0));

@@ -31,10 +31,10 @@ inline constexpr NumberRule kSensorBias{.min = -1e6, .max = 1e6};
 
 inline constexpr NumberRule kTyreRestSpeedRule_mps{.min = 0.01, .max = 10.0};
 
-Guidance read_guidance(JsonObject json);
-std::vector<Obstacle<double>> read_obstacles(JsonObject& scenario);
-Avoidance<double> read_avoidance(JsonObject json);
-HeadingShaping<double> read_shaping(JsonObject json);
+Guidance read_guidance(JsonObject& json);
+Obstacle<double> read_obstacle(JsonObject& json);
+Avoidance<double> read_avoidance(JsonObject& json);
+HeadingShaping<double> read_shaping(JsonObject& json);
 /// Reads disturbance, faults, slippery, battery, sensors, estimator, actuators, control, corner and
 /// tyres, if present.
 void read_world(JsonObject& json, Scenario& scenario);

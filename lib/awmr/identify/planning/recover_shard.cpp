@@ -35,17 +35,16 @@ Json error_json(const Error& error) {
   return json;
 }
 
-Error read_error(JsonObject json) {
-  Error error{.kind = json.choice("kind", kErrorKindNames), .faults = {}};
-  for (JsonObject& fault : json.objects("faults")) {
-    error.faults.push_back(
-        {fault.choice("code", kErrorCodeNames), fault.string("place"), fault.string("message")});
-    fault.reject_unknown_keys();
-  }
+Fault read_fault_of_run(JsonObject& json) {
+  return {json.choice("code", kErrorCodeNames), json.string("place"), json.string("message")};
+}
+
+Error read_error(JsonObject& json) {
+  Error error{.kind = json.choice("kind", kErrorKindNames),
+              .faults = json.objects("faults", read_fault_of_run)};
   if (error.faults.empty()) {
     json.fault(ErrorCode::kMissing, "faults", "is empty: each error needs a message");
   }
-  json.reject_unknown_keys();
   return error;
 }
 
@@ -72,11 +71,9 @@ std::vector<RecoverTruth> read_truths(JsonObject json) {
   return truths;
 }
 
-RecoverRefusal read_refusal(JsonObject json) {
-  RecoverRefusal refusal{.run = static_cast<int>(json.integer("run", 0, kMaxRecoverRuns)),
-                         .message = json.string("message")};
-  json.reject_unknown_keys();
-  return refusal;
+RecoverRefusal read_refusal(JsonObject& json) {
+  return {.run = static_cast<int>(json.integer("run", 0, kMaxRecoverRuns)),
+          .message = json.string("message")};
 }
 
 /// Reads the keys of shard.json that are specific to a recovery. The runs are in recovery.csv.
@@ -88,8 +85,8 @@ RecoverPart read_payload(JsonObject& json) {
     if (const auto id = read_parameter(json, "asked", name)) part.requested.push_back(*id);
   }
   part.truths = read_truths(json.object("truths"));
-  if (auto refusal = json.optional_object("refusal")) part.refusal = read_refusal(*refusal);
-  if (auto error = json.optional_object("error")) part.error = read_error(*error);
+  part.refusal = json.optional_object("refusal", read_refusal);
+  part.error = json.optional_object("error", read_error);
   return part;
 }
 
