@@ -13,8 +13,7 @@
 #include "awmr/model/paper_gains.h"
 #include "awmr/report/report.h"
 #include "awmr/simulate/conditions.h"
-#include "awmr/simulate/run_side.h"
-#include "awmr/simulate/run_table.h"
+#include "awmr/simulate/run_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
 

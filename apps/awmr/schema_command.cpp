@@ -16,7 +16,7 @@
 #include "awmr/model/model_file.h"
 #include "awmr/model/vehicle_file.h"
 #include "awmr/report/report.h"
-#include "awmr/simulate/run_side.h"
+#include "awmr/simulate/run_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/tune/tune_file.h"
 #include "commands.h"

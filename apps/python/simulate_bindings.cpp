@@ -1,6 +1,7 @@
 #include "awmr/compare/compare.h"
 #include "awmr/simulate/conditions.h"
 #include "awmr/simulate/metrics.h"
+#include "awmr/simulate/run_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
 #include "bindings.h"

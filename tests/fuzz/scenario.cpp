@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "awmr/simulate/physics.h"
+#include "awmr/simulate/run_file.h"
 #include "awmr/simulate/simulate.h"
 #include "fuzz/file_of_bytes.h"
 #include "fuzz/target.h"

@@ -9,6 +9,7 @@
 #include "awmr/model/paper_gains.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/physics.h"
+#include "awmr/simulate/run_file.h"
 #include "simulate/energy.h"
 #include "simulate/paper_plant.h"
 #include "support/any_robot.h"

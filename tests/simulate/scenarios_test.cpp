@@ -9,6 +9,7 @@
 
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/metrics.h"
+#include "awmr/simulate/run_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/simulate/simulate.h"
 #include "awmr/simulate/validity.h"

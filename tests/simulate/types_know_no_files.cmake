@@ -5,7 +5,7 @@ foreach(source
     model/parameters.cpp model/model.cpp control/controller.h control/autopilot.h
     simulate/scenario.h simulate/world.h simulate/simulate.h simulate/metrics.h
     simulate/scenario.cpp simulate/passage.cpp simulate/disturbance.cpp simulate/sensing.cpp
-    simulate/physics.cpp simulate/scenario_guidance.cpp simulate/simulate.cpp simulate/metrics.cpp
+    simulate/physics.cpp simulate/run_columns.cpp simulate/scenario_guidance.cpp simulate/simulate.cpp simulate/metrics.cpp
     trials/trials.h trials/log.h trials/trial_data.h trials/steady.h trials/replay.h trials/prediction.h
     trials/steady.cpp trials/replay.cpp trials/prediction.cpp identify/options.h identify/identify.h
     tune/tune.h tune/tune.cpp compare/compare.h compare/compare.cpp)

@@ -7,6 +7,7 @@
 #include "awmr/model/gains_file.h"
 #include "awmr/simulate/metrics.h"
 #include "awmr/simulate/physics.h"
+#include "awmr/simulate/run_file.h"
 #include "awmr/simulate/sensing.h"
 #include "simulate/disturbances.h"
 #include "simulate/paper_plant.h"

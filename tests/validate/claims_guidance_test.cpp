@@ -6,6 +6,7 @@
 #include <string>
 
 #include "awmr/model/gains_file.h"
+#include "awmr/simulate/run_file.h"
 #include "awmr/simulate/scenario_file.h"
 #include "awmr/validate/claims.h"
 #include "awmr/validate/paper_scenarios.h"

@@ -19,7 +19,7 @@
 #include "awmr/report/drawn_fit.h"
 #include "awmr/report/metric_words.h"
 #include "awmr/report/run_data.h"
-#include "awmr/simulate/run_side.h"
+#include "awmr/simulate/run_file.h"
 
 namespace awmr {
 namespace {

@@ -14,7 +14,7 @@
 #include "awmr/core/drawn_rows.h"
 #include "awmr/core/file.h"
 #include "awmr/core/units.h"
-#include "awmr/simulate/run_table.h"
+#include "awmr/simulate/run_file.h"
 #include "awmr/simulate/scenario_file.h"
 
 namespace awmr {

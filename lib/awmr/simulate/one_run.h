@@ -33,9 +33,6 @@ double largest_force(const Controller<double>& controller);
 /// circle with the radius Avoidance::vehicle_radius_m, or a point without avoidance.
 double clearance_m(const Scenario& scenario, const State<double>& state);
 
-/// True if every number of the row is finite.
-bool is_finite(const RunRow& row);
-
 /// Index, from 0, of the last sample within the duration. Tolerates rounding errors of the
 /// duration.
 std::size_t samples_in(double duration_s, double sample_time_s);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -16,40 +15,6 @@
 #include "awmr/simulate/physics.h"
 
 namespace awmr {
-
-bool is_finite(const RunRow& row) {
-  const double numbers[] = {row.state.x_m,
-                            row.state.y_m,
-                            row.state.psi_rad,
-                            row.state.u_mps,
-                            row.state.v_mps,
-                            row.state.r_radps,
-                            row.state.steering_rad,
-                            row.force.left,
-                            row.force.right,
-                            row.steering_command_rad,
-                            row.tau_speed,
-                            row.tau_turn_m,
-                            row.psi_ref_rad,
-                            row.u_ref_mps,
-                            row.path.psi_goal_rad,
-                            row.path.cross_track_m,
-                            row.path.target_m.x_m,
-                            row.path.target_m.y_m,
-                            row.measured.psi_rad,
-                            row.measured.u_mps,
-                            row.measured.v_mps,
-                            row.measured.r_radps,
-                            row.measured_position_m.x_m,
-                            row.measured_position_m.y_m,
-                            row.disturbance.surge,
-                            row.disturbance.sway,
-                            row.disturbance.yaw_m,
-                            row.clearance_m,
-                            row.tyre_power_mps};
-  return std::all_of(std::begin(numbers), std::end(numbers),
-                     [](double number) { return std::isfinite(number); });
-}
 
 Controller<double> controller_in(const Scenario& scenario, Controller<double> controller) {
   controller.limits.form = scenario.control.allocation.value_or(controller.limits.form);

@@ -148,11 +148,11 @@ Status failure_of(const Run& run, const Scenario& scenario);
 Run simulate(const Plant<double>& plant, const Controller<double>& controller,
              const Scenario& scenario, YawMode mode, const SimulateOptions& options);
 
-/// Returns the content of run.csv: first the columns that every run has, then the columns that this
-/// scenario adds.
-std::string run_csv(const Run& run, const Scenario& scenario);
-/// Returns the values of a row, each with the name of its column in run.csv.
+/// Returns the values of a row, each with the name of its column in run.csv: first the columns that
+/// every run has, then those that this scenario adds.
 std::vector<std::pair<std::string_view, double>> named_values(const RunRow& row,
                                                               const Scenario& scenario);
+/// True if every number of the row is finite.
+bool is_finite(const RunRow& row);
 
 }  // namespace awmr

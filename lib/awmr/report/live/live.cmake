@@ -30,7 +30,8 @@ set(flags --target=wasm32-wasi -std=c++20 -Oz -ffp-contract=off -ffunction-secti
 set(text "")
 foreach(part core/error core/linear_algebra core/option_text core/text model/family model/model model/observer_rate
     model/parameters model/rest_speed model/vehicle simulate/disturbance simulate/metrics
-    simulate/passage simulate/physics simulate/scenario_guidance simulate/scenario simulate/sensing simulate/simulate
+    simulate/passage simulate/physics simulate/run_columns simulate/scenario_guidance simulate/scenario
+    simulate/sensing simulate/simulate
     tune/constraints tune/sampled_loop tune/steering_rate report/live/live)
   string(APPEND text "#include \"${PROJECT_SOURCE_DIR}/lib/awmr/${part}.cpp\"\n")
 endforeach()

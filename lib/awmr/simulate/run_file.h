@@ -1,5 +1,5 @@
-/// The side file of a run, `run.csv.json` next to `run.csv`. It has the inputs, metrics and
-/// findings of the run.
+/// Reads and writes run.csv, and writes its side file, `run.csv.json` next to `run.csv`. The side
+/// file has the inputs, metrics and findings of the run.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,27 @@
 #include <string_view>
 #include <vector>
 
+#include "awmr/core/csv.h"
 #include "awmr/core/provenance.h"
 #include "awmr/core/result.h"
 #include "awmr/model/record.h"
 
 namespace awmr {
+
+struct Run;
+struct Scenario;
+
+/// Returns the content of run.csv: first the columns that every run has, then the columns that this
+/// scenario adds. Precondition: the run has a row.
+std::string run_csv(const Run& run, const Scenario& scenario);
+
+/// Reads the columns of run.csv that every run has: time, state, commands and references. Errors:
+/// those of read_csv(); the time decreases.
+Result<CsvTable> read_run(const std::filesystem::path& path);
+
+/// Checks that the text of a run.csv can be read, before it is written (ReadBack in core/file.h).
+/// Errors: those of read_run().
+Status check_run_text(std::string_view text, const std::string& file);
 
 /// Returns the path of the side file: the path of the CSV file with `.json` appended.
 std::filesystem::path run_side_path(const std::filesystem::path& csv);
