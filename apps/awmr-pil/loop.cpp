@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "awmr/control/arming.h"
-#include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/positioning.h"
 #include "awmr/simulate/scenario_guidance.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "awmr/simulate/one_run.h"
+#include "awmr/simulate/closed_loop.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/simulate.h"
 #include "simulate/paper_plant.h"

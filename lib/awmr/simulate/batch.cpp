@@ -8,7 +8,6 @@
 
 #include "awmr/simulate/closed_loop.h"
 #include "awmr/simulate/lanes/kernels.h"
-#include "awmr/simulate/one_run.h"
 
 namespace awmr {
 namespace {

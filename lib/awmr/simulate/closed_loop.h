@@ -17,13 +17,29 @@
 #include "awmr/simulate/loop_steps.h"
 #include "awmr/simulate/metering.h"
 #include "awmr/simulate/metrics.h"
-#include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
 #include "awmr/simulate/positioning.h"
 #include "awmr/simulate/scenario_guidance.h"
 #include "awmr/simulate/sensing.h"
 
 namespace awmr {
+
+/// Speed |u|, m/s, below which a vehicle counts as stopped. If no way to the target is left between
+/// obstacles, the run of a stopped vehicle ends with RunEnd::kNoPassage.
+inline constexpr double kStopped_mps = 1e-3;
+
+/// Returns the controller with the settings that the scenario requests: form of the allocation, and
+/// split of the yaw moment in combined mode.
+Controller<double> controller_in(const Scenario& scenario, Controller<double> controller);
+
+/// Returns the controller properties that all runs of a scenario share, from the `controller` of
+/// any run. is_observed stays false, because it depends on the gains of each run.
+ControllerSetup controller_setup(const Scenario& scenario, const Controller<double>& controller,
+                                 double sample_time_s);
+
+/// Returns the controller of a run in this yaw mode. `controller`: the result of controller_in().
+RunController<double> run_controller(const Scenario& scenario, const Controller<double>& controller,
+                                     YawMode mode);
 
 /// The functions of loop_steps.h for a single run.
 inline constexpr LoopSteps<double> kOneRunSteps = {
@@ -144,8 +160,9 @@ void ClosedLoop<Row>::set_up_vehicle(const BatchRun& run, std::size_t index) {
   const double sample_time_s = options_.sample_time_s;
   const int substeps =
       options_.substeps.value_or(substeps_for(run.plant, scenario_, sample_time_s));
-  awmr::set_up_vehicle(run.plant, largest_force(run.controller), scenario_, sample_time_s, substeps,
-                       index, runs_->vehicles);
+  const AllocationLimits<double>& limits = run.controller.limits;
+  awmr::set_up_vehicle(run.plant, limits.force_max + limits.dead_zone, scenario_, sample_time_s,
+                       substeps, index, runs_->vehicles);
 }
 
 /// True if the guidance must be computed run by run, because the references of the runs differ.

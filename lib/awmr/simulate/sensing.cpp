@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "awmr/simulate/one_run.h"
-
 namespace awmr {
 namespace {
 

@@ -11,7 +11,6 @@
 #include "awmr/model/observer_rate.h"
 #include "awmr/simulate/closed_loop.h"
 #include "awmr/simulate/conditions.h"
-#include "awmr/simulate/one_run.h"
 #include "awmr/simulate/physics.h"
 
 namespace awmr {
@@ -102,10 +101,6 @@ RunController<double> run_controller(const Scenario& scenario, const Controller<
     c.lqi = lqi_gains(*scenario.control.lqi, controller.inertia_norm);
   }
   return c;
-}
-
-double largest_force(const Controller<double>& controller) {
-  return controller.limits.force_max + controller.limits.dead_zone;
 }
 
 double clearance_m(const Scenario& scenario, const State<double>& state) {

@@ -155,4 +155,12 @@ std::vector<std::pair<std::string_view, double>> named_values(const RunRow& row,
 /// True if every number of the row is finite.
 bool is_finite(const RunRow& row);
 
+/// Distance from the vehicle to the nearest obstacle, m; < 0 if they overlap. The vehicle is a
+/// circle with the radius Avoidance::vehicle_radius_m, or a point without avoidance.
+double clearance_m(const Scenario& scenario, const State<double>& state);
+
+/// Index, from 0, of the last sample within the duration. Tolerates rounding errors of the
+/// duration.
+std::size_t samples_in(double duration_s, double sample_time_s);
+
 }  // namespace awmr
