@@ -186,6 +186,17 @@ void expect_same(const Metrics& a, const Metrics& b, const std::string& where) {
   EXPECT_EQ(numbers_of(a), numbers_of(b)) << where;
 }
 
+/// Metrics of the runs in a batch. No run may fail.
+std::vector<Metrics> batch_metrics(std::span<const BatchRun> runs, const Scenario& scenario,
+                                   const BatchArithmetic& arithmetic) {
+  std::vector<Metrics> metrics;
+  for (const DrivenRun& one : simulate_batch(runs, scenario, kSampleTime_s, arithmetic)) {
+    EXPECT_NE(one.run.end, RunEnd::kFailed) << scenario.name;
+    metrics.push_back(one.metrics);
+  }
+  return metrics;
+}
+
 /// Skips the tests if this processor does not support batches, because simulate() then replaces
 /// them.
 class Batch : public ::testing::Test {
@@ -202,10 +213,10 @@ TEST_F(Batch, IsTheRunOfSimulateInEveryShippedScenarioAndMode) {
   for (const Scenario& scenario : shipped_scenarios(60.0)) {
     for (const YawMode mode : kYawModes) {
       const std::vector<BatchRun> runs = drawn_runs(2, 0.2, mode);
-      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+      const auto batch = batch_metrics(runs, scenario, arithmetic);
       for (std::size_t i = 0; i < runs.size(); ++i) {
         expect_near(
-            batch[i].value(), reference_of(runs[i], scenario),
+            batch[i], reference_of(runs[i], scenario),
             scenario.name + ", " + std::string(name_of(mode)) + ", run " + std::to_string(i));
       }
     }
@@ -220,9 +231,9 @@ TEST_F(Batch, IsTheRunOfSimulateOnFourTyres) {
     scenario.duration_s = std::min(scenario.duration_s, 20.0);
     for (const YawMode mode : kYawModes) {
       const std::vector<BatchRun> runs = drawn_runs(2, 0.2, mode);
-      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+      const auto batch = batch_metrics(runs, scenario, arithmetic);
       for (std::size_t i = 0; i < runs.size(); ++i) {
-        expect_near(batch[i].value(), reference_of(runs[i], scenario),
+        expect_near(batch[i], reference_of(runs[i], scenario),
                     "four tyres: " + scenario.name + ", " + std::string(name_of(mode)) + ", run " +
                         std::to_string(i));
       }
@@ -241,9 +252,9 @@ TEST_F(Batch, IsTheRunOfSimulateOnFourTyresAfterAMinute) {
     scenario.tyres = Tyres<double>{.friction = friction};
     for (const YawMode mode : kYawModes) {
       const std::vector<BatchRun> runs = drawn_runs(16, 0.2, mode);
-      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, batch_arithmetic().value());
+      const auto batch = batch_metrics(runs, scenario, batch_arithmetic().value());
       for (std::size_t i = 0; i < runs.size(); ++i) {
-        const auto a = numbers_of(batch[i].value());
+        const auto a = numbers_of(batch[i]);
         const auto b = numbers_of(evaluate(runs[i], scenario));
         for (std::size_t n = 0; n < a.size(); ++n) {
           ASSERT_EQ(a[n].has_value(), b[n].has_value());
@@ -264,13 +275,12 @@ TEST_F(Batch, IsTheRunOfSimulateWhateverObserverItsGainsHave) {
       runs[i].controller.gains.observer = observers[i];
     }
     const BatchArithmetic arithmetic = batch_arithmetic().value();
-    const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+    const auto batch = batch_metrics(runs, scenario, arithmetic);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const std::string where = scenario.name + ", run " + std::to_string(i);
-      expect_near(batch[i].value(), reference_of(runs[i], scenario), where);
-      const auto alone =
-          simulate_batch(std::span(&runs[i], 1), scenario, kSampleTime_s, arithmetic);
-      expect_same(alone.front().value(), batch[i].value(), where);
+      expect_near(batch[i], reference_of(runs[i], scenario), where);
+      const auto alone = batch_metrics(std::span(&runs[i], 1), scenario, arithmetic);
+      expect_same(alone.front(), batch[i], where);
     }
   }
 }
@@ -282,9 +292,9 @@ TEST_F(Batch, IsTheRunOfSimulateUnderABatteryThatSags) {
     scenario.battery->sag = 0.3;
     std::vector<BatchRun> runs = drawn_runs(2, 0.2);
     runs[1].plant.back_emf_s_per_m = 0.3;
-    const auto batch = simulate_batch(runs, scenario, kSampleTime_s, batch_arithmetic().value());
+    const auto batch = batch_metrics(runs, scenario, batch_arithmetic().value());
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      expect_near(batch[i].value(), reference_of(runs[i], scenario),
+      expect_near(batch[i], reference_of(runs[i], scenario),
                   "sagging: " + scenario.name + ", run " + std::to_string(i));
     }
   }
@@ -296,9 +306,9 @@ TEST_F(Batch, EventsHappenAtTheSampleOfSimulate) {
     if (scenario.duration_s > 200.0) continue;
     const Metrics scalar = evaluate(runs[0], scenario);
     for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
-      EXPECT_EQ(batch[0]->settling_time_s, scalar.settling_time_s) << scenario.name;
-      EXPECT_EQ(batch[0]->finish_time_s, scalar.finish_time_s) << scenario.name;
+      const auto batch = batch_metrics(runs, scenario, arithmetic);
+      EXPECT_EQ(batch[0].settling_time_s, scalar.settling_time_s) << scenario.name;
+      EXPECT_EQ(batch[0].finish_time_s, scalar.finish_time_s) << scenario.name;
     }
   }
 }
@@ -314,9 +324,9 @@ TEST_F(Batch, IsTheRunOfSimulateFarBeyondThePapersVehicle) {
   for (const Scenario& scenario : {open, heading, lqi}) {
     const std::vector<Reference> references = references_of(runs, scenario);
     for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+      const auto batch = batch_metrics(runs, scenario, arithmetic);
       for (std::size_t i = 0; i < runs.size(); ++i) {
-        expect_near(batch[i].value(), references[i], scenario.name + ", run " + std::to_string(i));
+        expect_near(batch[i], references[i], scenario.name + ", run " + std::to_string(i));
       }
     }
   }
@@ -333,9 +343,9 @@ TEST_F(Batch, IsTheRunOfSimulateWithBackEmf) {
     if (scenario.duration_s > 40.0) continue;
     const std::vector<Reference> references = references_of(runs, scenario);
     for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+      const auto batch = batch_metrics(runs, scenario, arithmetic);
       for (std::size_t i = 0; i < runs.size(); ++i) {
-        expect_near(batch[i].value(), references[i], scenario.name + ", run " + std::to_string(i));
+        expect_near(batch[i], references[i], scenario.name + ", run " + std::to_string(i));
       }
     }
   }
@@ -352,10 +362,10 @@ TEST_F(Batch, IsTheRunOfSimulateWithFrontWheelDrive) {
       }
       const std::vector<Reference> references = references_of(runs, scenario);
       for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-        const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+        const auto batch = batch_metrics(runs, scenario, arithmetic);
         for (std::size_t i = 0; i < runs.size(); ++i) {
           expect_near(
-              batch[i].value(), references[i],
+              batch[i], references[i],
               scenario.name + ", " + std::string(name_of(mode)) + ", run " + std::to_string(i));
         }
       }
@@ -376,10 +386,10 @@ TEST_F(Batch, IsTheRunOfSimulateWithTunedFrictionWidths) {
       run.controller = make_controller(run.plant, paper_vehicle(), gains);
     }
     for (const Scenario& scenario : shipped_scenarios(30.0)) {
-      const auto batch = simulate_batch(runs, scenario, kSampleTime_s, batch_arithmetic().value());
+      const auto batch = batch_metrics(runs, scenario, batch_arithmetic().value());
       for (std::size_t i = 0; i < runs.size(); ++i) {
         expect_near(
-            batch[i].value(), reference_of(runs[i], scenario),
+            batch[i], reference_of(runs[i], scenario),
             scenario.name + ", " + std::string(name_of(mode)) + ", run " + std::to_string(i));
       }
     }
@@ -393,14 +403,13 @@ TEST_F(Batch, DoesNotDependOnOtherRunsAndPosition) {
       *read_scenario(std::string(AWMR_SOURCE_DIR) + "/configs/scenarios/noisy_sensors.json");
   std::vector<BatchRun> reversed(runs.rbegin(), runs.rend());
   for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-    const auto whole = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
-    const auto backwards = simulate_batch(reversed, scenario, kSampleTime_s, arithmetic);
+    const auto whole = batch_metrics(runs, scenario, arithmetic);
+    const auto backwards = batch_metrics(reversed, scenario, arithmetic);
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      expect_same(*whole[i], *backwards[runs.size() - 1 - i], "run " + std::to_string(i));
+      expect_same(whole[i], backwards[runs.size() - 1 - i], "run " + std::to_string(i));
     }
-    const auto alone =
-        simulate_batch(std::span(runs).subspan(20, 1), scenario, kSampleTime_s, arithmetic);
-    expect_same(*whole[20], *alone[0], "alone");
+    const auto alone = batch_metrics(std::span(runs).subspan(20, 1), scenario, arithmetic);
+    expect_same(whole[20], alone[0], "alone");
   }
 }
 
@@ -413,11 +422,11 @@ TEST_F(Batch, HasTheSameBitsOnAllInstructions) {
   const std::vector<BatchRun> runs = drawn_runs(11, 0.2);
   for (const Scenario& scenario : shipped_scenarios()) {
     if (scenario.duration_s > 150.0) continue;
-    const auto first = simulate_batch(runs, scenario, kSampleTime_s, arithmetics.front());
+    const auto first = batch_metrics(runs, scenario, arithmetics.front());
     for (std::size_t k = 1; k < arithmetics.size(); ++k) {
-      const auto metrics = simulate_batch(runs, scenario, kSampleTime_s, arithmetics[k]);
+      const auto metrics = batch_metrics(runs, scenario, arithmetics[k]);
       for (std::size_t i = 0; i < runs.size(); ++i) {
-        expect_same(*first[i], *metrics[i], scenario.name);
+        expect_same(first[i], metrics[i], scenario.name);
       }
     }
   }
@@ -430,10 +439,10 @@ TEST_F(Batch, ReportsAFailedRunAndContinuesWithTheOthers) {
   Scenario scenario{"fast", 1.0, {}, 0.0, OpenLoop{1.0, 0.0}};
   scenario.initial.u_mps = 1000.0;
   for (const BatchArithmetic& arithmetic : all_arithmetics()) {
-    const auto metrics = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
-    EXPECT_TRUE(metrics[0].has_value());
-    EXPECT_FALSE(metrics[1].has_value());
-    EXPECT_TRUE(metrics[2].has_value());
+    const auto batch = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+    EXPECT_NE(batch[0].run.end, RunEnd::kFailed);
+    EXPECT_FALSE(failure_of(batch[1].run, scenario));
+    EXPECT_NE(batch[2].run.end, RunEnd::kFailed);
   }
 }
 
@@ -476,12 +485,12 @@ TEST_F(Batch, RowsAreThoseOfSimulateInEveryShippedScenario) {
     if (scenario.duration_s > 150.0) continue;
     std::vector<BatchRun> runs;
     for (const YawMode mode : kYawModes) runs.push_back(drawn_runs(1, 0.0, mode).front());
-    const auto driven = drive_batch(runs, scenario, kSampleTime_s, arithmetic);
-    const auto alone = simulate_batch(runs, scenario, kSampleTime_s, arithmetic);
+    const auto driven = simulate_batch(runs, scenario, kSampleTime_s, arithmetic, true);
+    const auto alone = batch_metrics(runs, scenario, arithmetic);
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const awmr::Run scalar = simulate(runs[i].plant, runs[i].controller, scenario, runs[i].mode,
                                         {.sample_time_s = kSampleTime_s, .substeps = {}});
-      expect_same(driven[i].metrics, *alone[i], scenario.name);
+      expect_same(driven[i].metrics, alone[i], scenario.name);
       const awmr::Run& run = driven[i].run;
       EXPECT_EQ(run.substeps, scalar.substeps);
       EXPECT_EQ(run.end, scalar.end) << scenario.name;
@@ -513,9 +522,9 @@ TEST(Instructions, RefusesUnsupportedOnesByName) {
 TEST(Instructions, NamedScalarAreSimulateItself) {
   const std::vector<BatchRun> runs = drawn_runs(2, 0.2, YawMode::kSteering);
   const Scenario scenario = heading_steps({30.0, -30.0});
-  const auto metrics = simulate_batch(runs, scenario, kSampleTime_s, {"scalar", "scalar"});
+  const auto metrics = batch_metrics(runs, scenario, {"scalar", "scalar"});
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    expect_same(*metrics[i], evaluate(runs[i], scenario), "scalar");
+    expect_same(metrics[i], evaluate(runs[i], scenario), "scalar");
   }
 }
 

@@ -151,13 +151,14 @@ TEST(Scrub, IsTheSameInABatch) {
   for (const YawMode mode : kYawModes) {
     const std::vector<BatchRun> runs{{plant, controller, mode}};
     const auto batch = simulate_batch(runs, scenario, 0.01, *arithmetic);
-    ASSERT_TRUE(batch.front());
+    ASSERT_NE(batch.front().run.end, RunEnd::kFailed);
+    const Metrics& metrics = batch.front().metrics;
     const Metrics alone = metrics_of(
         simulate(plant, controller, scenario, mode, {.sample_time_s = 0.01, .substeps = {}}),
         scenario, controller);
     // Tolerance: the run in a batch differs from simulate() only by rounding (batch_test.cpp).
-    EXPECT_NEAR(*batch.front()->heading_iae_degs, *alone.heading_iae_degs, 1e-8);
-    EXPECT_NEAR(batch.front()->tyre_work, alone.tyre_work, 1e-10);
+    EXPECT_NEAR(*metrics.heading_iae_degs, *alone.heading_iae_degs, 1e-8);
+    EXPECT_NEAR(metrics.tyre_work, alone.tyre_work, 1e-10);
   }
 }
 

@@ -47,9 +47,9 @@ std::vector<std::optional<Metrics>> driven_with(const ModeSetting& setting, YawM
     runs.push_back({plant, setting.controllers.at(mode), mode, 0, 0});
   }
   std::vector<std::optional<Metrics>> driven;
-  for (const Result<Metrics>& metrics :
+  for (const DrivenRun& one :
        simulate_batch(runs, *setting.scenario, setting.sample_time_s, setting.arithmetic)) {
-    driven.push_back(metrics ? std::optional(*metrics) : std::nullopt);
+    driven.push_back(one.run.end == RunEnd::kFailed ? std::nullopt : std::optional(one.metrics));
   }
   return driven;
 }

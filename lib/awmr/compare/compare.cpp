@@ -165,19 +165,18 @@ void run_block(const RunSetup& setup, const Block& block, Slots& slots,
   const auto controller = make_controller(setup.plants.nominal, vehicle, set.gains.in(mode));
   std::vector<BatchRun> runs = runs_of(setup.plants, controller, block, mode, setup.options.seed);
   share_noise(scenario, vehicle.sample_time_s, block, runs);
-  auto metrics = simulate_batch(runs, scenario, vehicle.sample_time_s, setup.arithmetic);
+  auto driven = simulate_batch(runs, scenario, vehicle.sample_time_s, setup.arithmetic);
   block.noise->remove_user();
-  for (std::size_t i = 0; i < metrics.size(); ++i) {
+  for (std::size_t i = 0; i < driven.size(); ++i) {
     const std::size_t index = setup.layout.row(block.place(i));
-    if (!metrics[i]) {
-      failures[index] = tl::unexpected(metrics[i].error());
-      continue;
-    }
-    metrics[i]->electric_work_j = electric_work_j(*metrics[i], vehicle, runs[i].plant.mass_norm);
+    failures[index] = failure_of(driven[i].run, scenario);
+    if (!failures[index]) continue;
+    Metrics& metrics = driven[i].metrics;
+    metrics.electric_work_j = electric_work_j(metrics, vehicle, runs[i].plant.mass_norm);
     slots[index] = ComparisonRow{.scenario = scenario.name,
                                  .mode = mode,
                                  .sample = static_cast<int>(block.samples[i]),
-                                 .metrics = *metrics[i],
+                                 .metrics = metrics,
                                  .gains = set.name};
   }
 }

@@ -16,15 +16,17 @@ using lanes::Kernel;
 
 static_assert(kBatchRuns == kRunsOf<lanes::Row>);
 
-DrivenRun one_by_one(const BatchRun& run, const Scenario& scenario, double sample_time_s) {
+DrivenRun one_by_one(const BatchRun& run, const Scenario& scenario, double sample_time_s,
+                     bool keeps_rows) {
   DrivenRun driven{.run = simulate(run.plant, run.controller, scenario, run.mode,
                                    {.sample_time_s = sample_time_s,
-                                    .substeps = {},
                                     .seed = run.seed,
                                     .sample = run.sample,
                                     .noise = run.noise}),
                    .metrics = {}};
   driven.metrics = metrics_of(driven.run, scenario, run.controller);
+  std::vector<RunRow>& rows = driven.run.rows;
+  if (!keeps_rows) rows = std::vector<RunRow>{rows.back()};
   return driven;
 }
 
@@ -33,31 +35,6 @@ const Kernel* kernel_of(const BatchArithmetic& arithmetic) {
     if (one->name == arithmetic.instructions) return one;
   }
   return nullptr;
-}
-
-/// Simulates the runs in blocks of up to kBatchRuns. Calls take(i, metrics, run) for each run i, in
-/// order. `metrics` is empty if the run failed, or if there is no kernel for this processor; `run`
-/// has rows only if `keeps_rows`.
-template <class Take>
-void drive_by_blocks(std::span<const BatchRun> runs, const Scenario& scenario, double sample_time_s,
-                     const BatchArithmetic& arithmetic, bool keeps_rows, const Take& take) {
-  const Kernel* const kernel = kernel_of(arithmetic);
-  for (std::size_t first = 0; first < runs.size(); first += kBatchRuns) {
-    const auto block = runs.subspan(first, std::min(kBatchRuns, runs.size() - first));
-    if (!kernel) {
-      for (std::size_t i = 0; i < block.size(); ++i) take(first + i, std::nullopt, Run{});
-      continue;
-    }
-    ClosedLoop<lanes::Row> loop(block, scenario, *kernel,
-                                {.sample_time_s = sample_time_s,
-                                 .samples = samples_in(scenario.duration_s, sample_time_s),
-                                 .keeps_rows = keeps_rows,
-                                 .has_metrics = true});
-    loop.drive();
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      take(first + i, loop.metrics(i), loop.take_run(i));
-    }
-  }
 }
 
 }  // namespace
@@ -78,34 +55,28 @@ Result<BatchArithmetic> batch_arithmetic() {
                      fmt::format("unsupported instruction set '{}'; available: {}", name, known));
 }
 
-std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
-                                            const Scenario& scenario, double sample_time_s,
-                                            const BatchArithmetic& arithmetic) {
-  std::vector<Result<Metrics>> results;
-  drive_by_blocks(
-      runs, scenario, sample_time_s, arithmetic, false,
-      [&](std::size_t i, const std::optional<Metrics>& metrics, const Run&) {
-        if (metrics) {
-          results.emplace_back(*metrics);
-          return;
-        }
-        // The run failed in the batch. simulate() repeats it and either succeeds or gives the
-        // error.
-        const DrivenRun one = one_by_one(runs[i], scenario, sample_time_s);
-        const Status failure = failure_of(one.run, scenario);
-        results.push_back(failure ? Result<Metrics>(one.metrics) : tl::unexpected(failure.error()));
-      });
-  return results;
-}
-
-std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
-                                   double sample_time_s, const BatchArithmetic& arithmetic) {
+std::vector<DrivenRun> simulate_batch(std::span<const BatchRun> runs, const Scenario& scenario,
+                                      double sample_time_s, const BatchArithmetic& arithmetic,
+                                      bool keeps_rows) {
+  const Kernel* const kernel = kernel_of(arithmetic);
   std::vector<DrivenRun> driven;
-  drive_by_blocks(runs, scenario, sample_time_s, arithmetic, true,
-                  [&](std::size_t i, const std::optional<Metrics>& metrics, Run run) {
-                    driven.push_back(metrics ? DrivenRun{std::move(run), *metrics}
-                                             : one_by_one(runs[i], scenario, sample_time_s));
-                  });
+  for (std::size_t first = 0; first < runs.size(); first += kBatchRuns) {
+    const auto block = runs.subspan(first, std::min(kBatchRuns, runs.size() - first));
+    std::optional<ClosedLoop<lanes::Row>> loop;
+    if (kernel) {
+      loop.emplace(block, scenario, *kernel,
+                   LoopOptions{.sample_time_s = sample_time_s,
+                               .samples = samples_in(scenario.duration_s, sample_time_s),
+                               .keeps_rows = keeps_rows,
+                               .has_metrics = true});
+      loop->drive();
+    }
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const auto metrics = loop ? loop->metrics(i) : std::nullopt;
+      driven.push_back(metrics ? DrivenRun{loop->take_run(i), *metrics}
+                               : one_by_one(block[i], scenario, sample_time_s, keeps_rows));
+    }
+  }
   return driven;
 }
 

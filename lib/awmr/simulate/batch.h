@@ -56,20 +56,18 @@ inline constexpr std::size_t kBatchRuns = 16;
 /// available.
 Result<BatchArithmetic> batch_arithmetic();
 
-/// Simulates the runs and returns the metrics of each run, in order. A failed run has the error of
-/// failure_of() in place of its metrics. Precondition: the controllers of all runs have the same
-/// driven wheels, combined split and form of the allocation.
-std::vector<Result<Metrics>> simulate_batch(std::span<const BatchRun> runs,
-                                            const Scenario& scenario, double sample_time_s,
-                                            const BatchArithmetic& arithmetic);
-
+/// A run of a batch with its metrics.
 struct DrivenRun {
   Run run;
   Metrics metrics;
 };
-/// Same as simulate_batch(), but also returns the rows of each run. A run that fails in the batch
-/// is repeated with simulate(). If it fails again, its Run::end is kFailed.
-std::vector<DrivenRun> drive_batch(std::span<const BatchRun> runs, const Scenario& scenario,
-                                   double sample_time_s, const BatchArithmetic& arithmetic);
+
+/// Simulates the runs; returns them in order, with all rows if `keeps_rows` is true. simulate()
+/// repeats a run that fails in the batch. If it fails again, Run::end is kFailed, the metrics are
+/// those up to the failure, and the last row is there for failure_of(). Precondition: the
+/// controllers of all runs have the same driven wheels, combined split and form of the allocation.
+std::vector<DrivenRun> simulate_batch(std::span<const BatchRun> runs, const Scenario& scenario,
+                                      double sample_time_s, const BatchArithmetic& arithmetic,
+                                      bool keeps_rows = false);
 
 }  // namespace awmr

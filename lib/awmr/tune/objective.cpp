@@ -29,15 +29,6 @@ std::size_t runs_together(std::size_t count, std::size_t scenarios) {
   return std::min(kBatchRuns, (share + kFour - 1) / kFour * kFour);
 }
 
-/// Metrics of a run that diverges, computed from the samples before it diverges.
-Metrics metrics_of_failed(const BatchRun& run, const Scenario& scenario,
-                          const ObjectiveSetting& setting) {
-  return drive_batch(std::span(&run, 1), scenario, setting.vehicle.sample_time_s,
-                     setting.arithmetic)
-      .front()
-      .metrics;
-}
-
 /// The runs of one scenario, sorted by gains, then vehicle, then mode.
 std::vector<BatchRun> runs_of(const ObjectiveSetting& setting,
                               std::span<const Gains<double>> gains) {
@@ -155,17 +146,16 @@ std::vector<std::vector<ModeScore>> run_all(const ObjectiveSetting& setting, con
       block[j].noise = &noise[i % scenarios][(first + j) % per_gains / modes];
     }
     const double sample_time_s = setting.vehicle.sample_time_s;
-    const auto metrics = simulate_batch(block, scenario, sample_time_s, setting.arithmetic);
+    const auto driven = simulate_batch(block, scenario, sample_time_s, setting.arithmetic);
     for (std::size_t j = 0; j < block.size(); ++j) {
       const std::size_t run = first + j;
-      const Metrics found =
-          metrics[j] ? *metrics[j] : metrics_of_failed(block[j], scenario, setting);
+      const Metrics& found = driven[j].metrics;
       scores[run / per_gains][run % per_gains * scenarios + i % scenarios] = {
           .scenario = scenario.name,
           .mode = block[j].mode,
           .metrics = found,
           .unsettled_s = unsettled_s(scenario, found.heading_itae_degs2.value_or(0.0)),
-          .has_failed = !metrics[j]};
+          .has_failed = driven[j].run.end == RunEnd::kFailed};
     }
   });
   return scores;

@@ -52,8 +52,9 @@ std::vector<ModeRuns> run_all(std::span<const ClaimSetting> settings, Scenario s
                        .mode = mode});
     }
   }
-  std::vector<DrivenRun> driven = drive_batch(
-      batch, scenario, settings.front().model.vehicle.sample_time_s, settings.front().arithmetic);
+  std::vector<DrivenRun> driven =
+      simulate_batch(batch, scenario, settings.front().model.vehicle.sample_time_s,
+                     settings.front().arithmetic, true);
   std::vector<ModeRuns> runs(settings.size());
   auto next = driven.begin();
   for (ModeRuns& in_modes : runs) {

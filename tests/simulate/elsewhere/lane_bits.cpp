@@ -126,12 +126,13 @@ int main(int argc, char** argv) {
   if (!kernel) return std::puts("no such kernel on this processor"), 2;
   for (const Scenario& scenario : scenarios()) {
     for (const YawMode mode : kYawModes) {
-      const auto metrics =
+      const auto driven =
           simulate_batch(drawn_runs(mode), scenario, kSampleTime_s, {kernel->name, "fused"});
-      for (std::size_t i = 0; i < metrics.size(); ++i) {
+      for (std::size_t i = 0; i < driven.size(); ++i) {
         std::printf("%s, mode %d, run %zu:", scenario.name.c_str(), static_cast<int>(mode), i);
-        if (metrics[i]) print_metrics(*metrics[i]);
-        std::printf("%s\n", metrics[i] ? "" : " failed");
+        const bool failed = driven[i].run.end == RunEnd::kFailed;
+        if (!failed) print_metrics(driven[i].metrics);
+        std::printf("%s\n", failed ? " failed" : "");
       }
     }
   }
